@@ -1,0 +1,27 @@
+#pragma once
+
+#include <dalembert/core/constraint.h>
+
+namespace dalembert {
+
+/// Holds two points together: a frictionless ball joint, or in the plane a pin.
+///
+///   g = r_b - r_a      [length], one equation per dimension
+///
+/// The multipliers are the force on b, component by component; a gets the opposite.
+template <Point A, Point B>
+struct Coincident {
+  static constexpr std::string_view kind = "Coincident";
+  A a;
+  B b;
+
+  auto points() const { return std::tie(a, b); }
+  auto operator()(const auto& r_a, const auto& r_b) const { return (r_b - r_a).eval(); }
+};
+template <class A, class B>
+Coincident(A, B) -> Coincident<A, B>;
+
+static_assert(HolonomicConstraint<Coincident<Particle<3>, Fixed<3>>>);
+static_assert(rows_of_constraint<Coincident<Particle<2>, Particle<2>>> == 2);
+
+}  // namespace dalembert

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <dalembert/core/constraint.h>
+
+namespace dalembert {
+
+/// A user's own holonomic constraint, as returned by `holonomic`.
+///
+/// The force of constraint does not depend on how the equation is scaled; the multiplier does: it
+/// is a force in newtons where the gradient of g has unit length.
+template <class Points, class Equation>
+struct Holonomic {
+  static constexpr std::string_view kind = "Holonomic";
+  Points on;
+  Equation equation;
+
+  const Points& points() const { return on; }
+  auto operator()(const auto&... a) const requires std::is_invocable_v<const Equation&, decltype(a)...> {
+    return equation(a...);
+  }
+};
+
+/// A holonomic constraint g = 0 from a lambda of the points' positions that returns g, a number or
+/// a plain fixed-size vector of several equations:
+///
+///   scene.add(holonomic(points(a, b), [](auto r_a, auto r_b) { return (r_b - r_a).norm() - 1.0; }));
+///
+/// With time in front, `[](auto t, auto r_a, auto r_b)`, it is rheonomic. The lambda is called with
+/// numbers that carry derivatives: write `auto`, and call `sqrt`, `sin`, ... without `std::`.
+template <class... P, class Equation>
+[[nodiscard]] auto holonomic(std::tuple<P...> on, Equation equation) {
+  return Holonomic<std::tuple<P...>, Equation>{std::move(on), std::move(equation)};
+}
+
+}  // namespace dalembert

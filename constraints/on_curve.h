@@ -1,0 +1,36 @@
+#pragma once
+
+#include <dalembert/constraints/surfaces.h>
+#include <dalembert/core/constraint.h>
+
+namespace dalembert {
+
+/// Keeps a point on a plane curve given by an implicit function g(r) = 0 (with time in front if the
+/// curve moves): Plane<2> for a line, Sphere<2> for a circle, or a lambda,
+///
+///   scene.add(OnCurve{bead, [](auto r) { return r.y() - r.x() * r.x(); }});      (notes, mex131)
+///
+/// Z = lambda grad g, towards g > 0 for lambda > 0; lambda is the normal force divided by |grad g|.
+template <Point P, class Curve>
+struct OnCurve {
+  static_assert(P::dimension == 2, "OnCurve is planar; in space a curve is the meeting of two OnSurface");
+  static constexpr std::string_view kind = "OnCurve";
+  static constexpr std::string_view singular = "the curve has no normal there";
+  P point;
+  Curve curve;
+
+  auto points() const { return std::tie(point); }
+  auto operator()(const auto&... a) const requires std::is_invocable_v<const Curve&, decltype(a)...> {
+    return curve(a...);
+  }
+  [[nodiscard]] std::string fault() const {
+    if constexpr (requires { curve.fault(); }) return curve.fault();
+    return {};
+  }
+};
+template <class P, class Curve>
+OnCurve(P, Curve) -> OnCurve<P, Curve>;
+
+static_assert(HolonomicConstraint<OnCurve<Particle<2>, Sphere<2>>>);
+
+}  // namespace dalembert

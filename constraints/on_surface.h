@@ -1,0 +1,38 @@
+#pragma once
+
+#include <dalembert/constraints/surfaces.h>
+#include <dalembert/core/constraint.h>
+
+namespace dalembert {
+
+/// Keeps a point on a surface g(r) = 0 in space, given as Plane, Sphere, Cylinder, Cone or any
+/// function of position (with time in front if the surface moves).
+///
+///   Z = lambda grad g
+///
+/// The library's surfaces are signed distances, so lambda is the normal force, pushing towards
+/// g > 0. For a user's own function lambda is the normal force divided by |grad g|.
+template <Point P, class Surface>
+struct OnSurface {
+  static constexpr std::string_view kind = "OnSurface";
+  static constexpr std::string_view singular =
+      "the surface has no normal there (an apex, a centre or an axis)";
+  P point;
+  Surface surface;
+
+  auto points() const { return std::tie(point); }
+  auto operator()(const auto&... a) const requires std::is_invocable_v<const Surface&, decltype(a)...> {
+    return surface(a...);
+  }
+  [[nodiscard]] std::string fault() const {
+    if constexpr (requires { surface.fault(); }) return surface.fault();
+    return {};
+  }
+};
+template <class P, class Surface>
+OnSurface(P, Surface) -> OnSurface<P, Surface>;
+
+static_assert(HolonomicConstraint<OnSurface<Particle<3>, Cone>>);
+static_assert(HolonomicConstraint<OnSurface<Particle<3>, Plane<3>>>);
+
+}  // namespace dalembert

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <dalembert/core/vec.h>
+
+#include <cmath>
+#include <string>
+
+/// Surfaces for OnSurface, each as its signed distance: a function of position whose gradient has
+/// unit length on the surface, so that the multiplier is the normal force, positive towards g > 0.
+namespace dalembert {
+
+namespace detail {
+
+template <class V>
+[[nodiscard]] std::string direction_fault(const V& direction, const char* name) {
+  if (direction.allFinite() && direction.norm() > 0.0) return {};
+  return std::string(name) + " must be finite and not zero";
+}
+[[nodiscard]] inline std::string positive_fault(double value, const char* name) {
+  if (std::isfinite(value) && value > 0.0) return {};
+  return std::string(name) + " = " + std::to_string(value) + ", must be finite and > 0";
+}
+
+}  // namespace detail
+
+/// The plane (in two dimensions the line) through `point`: g = n . (r - point), n = normal/|normal|.
+/// g > 0 on the side that the normal points to.
+template <int D>
+struct Plane {
+  static constexpr std::string_view kind = "Plane";
+  Vec<D> point = Vec<D>::Zero();
+  Vec<D> normal = Vec<D>::Unit(D - 1);
+
+  auto operator()(const auto& r) const { return normal.normalized().dot(r - point); }
+  [[nodiscard]] std::string fault() const { return detail::direction_fault(normal, "normal"); }
+};
+
+/// The sphere (in two dimensions the circle): g = |r - centre| - radius, positive outside.
+template <int D>
+struct Sphere {
+  static constexpr std::string_view kind = "Sphere";
+  Vec<D> centre = Vec<D>::Zero();
+  double radius = 1.0;
+
+  auto operator()(const auto& r) const { return (r - centre).norm() - radius; }
+  [[nodiscard]] std::string fault() const { return detail::positive_fault(radius, "radius"); }
+};
+
+/// The circular cylinder about an axis: g = (distance from the axis) - radius, positive outside.
+struct Cylinder {
+  static constexpr std::string_view kind = "Cylinder";
+  Vec<3> point = Vec<3>::Zero();  ///< any point of the axis
+  Vec<3> axis = Vec<3>::UnitZ();
+  double radius = 1.0;
+
+  auto operator()(const auto& r) const { return axis.normalized().cross(r - point).norm() - radius; }
+  [[nodiscard]] std::string fault() const {
+    const std::string axis_fault = detail::direction_fault(axis, "axis");
+    return axis_fault.empty() ? detail::positive_fault(radius, "radius") : axis_fault;
+  }
+};
+
+/// The circular cone that opens from its apex along the axis (notes, mex133). With s the height
+/// above the apex along the axis and rho the distance from the axis,
+///
+///   g = s sin(half_angle) - rho cos(half_angle),
+///
+/// positive inside: a multiplier > 0 pushes a particle that slides inside away from the wall.
+/// Singular at the apex and on the axis.
+struct Cone {
+  static constexpr std::string_view kind = "Cone";
+  Vec<3> apex = Vec<3>::Zero();
+  Vec<3> axis = Vec<3>::UnitZ();
+  double half_angle = 0.7853981633974483;  ///< [rad], between 0 and pi/2
+
+  auto operator()(const auto& r) const {
+    const Vec<3> e = axis.normalized();
+    const auto d = (r - apex).eval();
+    return e.dot(d) * std::sin(half_angle) - e.cross(d).norm() * std::cos(half_angle);
+  }
+  [[nodiscard]] std::string fault() const {
+    if (!(half_angle > 0.0 && half_angle < 1.5707963267948966)) {
+      return "half_angle = " + std::to_string(half_angle) + " rad, must lie between 0 and pi/2";
+    }
+    return detail::direction_fault(axis, "axis");
+  }
+};
+
+}  // namespace dalembert

@@ -1,0 +1,193 @@
+#pragma once
+
+#include <dalembert/core/dual.h>
+#include <dalembert/core/points.h>
+
+#include <array>
+#include <span>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+namespace dalembert {
+
+/// Time, coordinates and velocities: what every equation is evaluated at. A view.
+struct Instant {
+  double t;
+  std::span<const double> q;  ///< n coordinates
+  std::span<const double> v;  ///< n velocities
+};
+
+/// Compile-time facts about the points of one constraint or force.
+template <class Tuple>
+struct PointsOf;
+
+template <Point... P>
+struct PointsOf<std::tuple<P...>> {
+  static constexpr int count = sizeof...(P);
+  static constexpr int inputs = (0 + ... + P::inputs);
+  static constexpr bool driven = (false || ... || P::driven);
+  static constexpr std::array<int, count> dimension{P::dimension...};
+  /// Where the inputs of each point begin among those of all.
+  static constexpr std::array<int, count> first_input = [] {
+    std::array<int, count> first{};
+    const std::array<int, count> own{P::inputs...};
+    for (std::size_t i = 1; i < count; ++i) first[i] = first[i - 1] + own[i - 1];
+    return first;
+  }();
+  template <class S>
+  using Positions = std::tuple<VecOf<S, P::dimension>...>;
+};
+
+namespace detail {
+template <class Tuple>
+struct WithoutReferences;
+template <class... P>
+struct WithoutReferences<std::tuple<P...>> {
+  using type = std::tuple<std::remove_cvref_t<P>...>;
+};
+}  // namespace detail
+
+/// The tuple of points that an element declares, without references.
+template <class Element>
+using PointTuple = typename detail::WithoutReferences<
+    std::remove_cvref_t<decltype(std::declval<const Element&>().points())>>::type;
+
+template <class Element>
+using PointFacts = PointsOf<PointTuple<Element>>;
+
+/// The three ways to look at a coordinate r with velocity v that is input number k:
+/// as a plain number, as the k-th variable, or as a function of time along the motion.
+struct AsNumber {
+  double operator()(double r, double /*v*/, int /*k*/) const { return r; }
+};
+template <class S>
+struct AsInput {
+  S operator()(double r, double /*v*/, int k) const { return S::input(r, k); }
+};
+template <class S>
+struct AlongMotion {
+  S operator()(double r, double v, int /*k*/) const {
+    S s = S::input(r, 0);
+    s.gradient[0] = v;
+    return s;
+  }
+};
+
+/// Position of a point as scalars of type S; `lift` says how its own coordinates enter.
+template <class S, Point P, class Lift>
+[[nodiscard]] VecOf<S, P::dimension> position(const P& point, const S& t, const Instant& at, const Lift& lift,
+                                              int first) {
+  if constexpr (P::inputs > 0) {
+    const auto r = point.gather(at.q);
+    const auto v = point.gather(at.v);
+    VecOf<S, P::dimension> lifted;
+    for (int k = 0; k < P::dimension; ++k) lifted[k] = lift(r[k], v[k], first + k);
+    return lifted;
+  } else if constexpr (P::driven) {
+    return point.path(t).template cast<S>();
+  } else {
+    return point.position.template cast<S>();
+  }
+}
+
+/// Velocity of a driven point with its dependence on time: the chain rule on r'(t), r''(t).
+/// (Second order in t would need r'''; velocities are never asked for that.)
+template <class S, Point P>
+[[nodiscard]] VecOf<S, P::dimension> driven_velocity(const P& point, const S& t) {
+  using Time = Dual<1, 2>;
+  if constexpr (std::is_same_v<S, double>) {
+    const VecOf<Time, P::dimension> path = point.path(Time::input(t, 0)).template cast<Time>();
+    return path.unaryExpr([](const Time& x) { return x.gradient[0]; });
+  } else {
+    const VecOf<Time, P::dimension> path = point.path(Time::input(t.value, 0)).template cast<Time>();
+    return path.unaryExpr([&t](const Time& x) { return S::chain(t, x.gradient[0], x.hessian(0, 0), 0.0); });
+  }
+}
+
+/// Velocity of a point as scalars of type S; `lift` gets a velocity as its first argument.
+template <class S, Point P, class Lift>
+[[nodiscard]] VecOf<S, P::dimension> velocity(const P& point, const S& t, const Instant& at, const Lift& lift,
+                                              int first) {
+  if constexpr (P::inputs > 0) {
+    const auto v = point.gather(at.v);
+    VecOf<S, P::dimension> lifted;
+    for (int k = 0; k < P::dimension; ++k) lifted[k] = lift(v[k], 0.0, first + k);
+    return lifted;
+  } else if constexpr (P::driven) {
+    return driven_velocity<S>(point, t);
+  } else {
+    return VecOf<S, P::dimension>::Constant(S(0.0));
+  }
+}
+
+/// Positions of all points of an element, inputs numbered from `first`.
+template <class S, class Element, class Lift>
+[[nodiscard]] auto positions(const Element& element, const S& t, const Instant& at, const Lift& lift,
+                             int first = 0) {
+  const auto& points = element.points();
+  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+    return std::make_tuple(
+        position<S>(std::get<I>(points), t, at, lift, first + PointFacts<Element>::first_input[I])...);
+  }
+  (std::make_index_sequence<PointFacts<Element>::count>{});
+}
+
+/// Velocities of all points of an element, inputs numbered from `first`.
+template <class S, class Element, class Lift>
+[[nodiscard]] auto velocities(const Element& element, const S& t, const Instant& at, const Lift& lift,
+                              int first = 0) {
+  const auto& points = element.points();
+  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+    return std::make_tuple(
+        velocity<S>(std::get<I>(points), t, at, lift, first + PointFacts<Element>::first_input[I])...);
+  }
+  (std::make_index_sequence<PointFacts<Element>::count>{});
+}
+
+/// Calls `f` with the given arguments, with time in front if it takes time.
+template <bool takes_time, class F, class S, class Arguments>
+[[nodiscard]] decltype(auto) call(const F& f, const S& t, const Arguments& arguments) {
+  if constexpr (takes_time) {
+    return std::apply([&](const auto&... a) { return f(t, a...); }, arguments);
+  } else {
+    return std::apply(f, arguments);
+  }
+}
+
+/// Whether `f` can be called with the types in a tuple, and whether with time in front.
+template <class F, class Tuple>
+inline constexpr bool applicable = false;
+template <class F, class... A>
+inline constexpr bool applicable<F, std::tuple<A...>> = std::is_invocable_v<const F&, const A&...>;
+template <class F, class S, class Tuple>
+inline constexpr bool applicable_with_time = false;
+template <class F, class S, class... A>
+inline constexpr bool applicable_with_time<F, S, std::tuple<A...>> =
+    std::is_invocable_v<const F&, const S&, const A&...>;
+
+/// A value that outlives its evaluation: a number, or an Eigen matrix rather than an expression
+/// that may refer to dead temporaries.
+template <class T>
+inline constexpr bool is_plain = true;
+template <class T>
+  requires std::is_base_of_v<Eigen::EigenBase<T>, T>
+inline constexpr bool is_plain<T> = std::is_base_of_v<Eigen::PlainObjectBase<T>, T>;
+
+/// The coordinates that an element reads: one for every input.
+template <class Element>
+void read_coordinates(const Element& element, std::span<int> coordinates) {
+  std::size_t next = 0;
+  std::apply(
+      [&](const auto&... point) {
+        const auto read = [&](const auto& p) {
+          if constexpr (std::remove_cvref_t<decltype(p)>::inputs > 0) {
+            for (int k = 0; k < p.inputs; ++k) coordinates[next++] = p.coordinate + k;
+          }
+        };
+        (read(point), ...);
+      },
+      element.points());
+}
+
+}  // namespace dalembert

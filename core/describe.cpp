@@ -1,0 +1,48 @@
+#include "dalembert/core/system.h"
+
+#include <map>
+#include <sstream>
+
+namespace dalembert {
+
+namespace {
+
+template <class Batches>
+std::string kinds(const Batches& batches) {
+  std::map<std::string, std::size_t> count;
+  for (const auto& batch : batches) count[std::string(batch->shape().kind)] += batch->size();
+  std::string text;
+  for (const auto& [kind, number] : count) {
+    text += (text.empty() ? "" : ", ") + std::to_string(number) + ' ' + kind;
+  }
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+std::string System::describe() const {
+  const int n = coordinates();
+  const int nonholonomic = rows() - holonomic_rows();
+  std::ostringstream out;
+  out << "scene \"" << layout_->scene << "\": " << layout_->particles.size()
+      << (layout_->particles.size() == 1 ? " particle in " : " particles in ") << layout_->dimension
+      << " dimensions, " << n << " coordinates\n"
+      << "constraints: " << kinds(parts_.constraints) << "; " << holonomic_rows() << " holonomic and "
+      << nonholonomic << " nonholonomic equations, " << (rheonomic() ? "rheonomic" : "scleronomic") << '\n'
+      << "degrees of freedom: " << n - holonomic_rows() << " of position, " << n - rows()
+      << " of velocity (if the constraints are independent)\n"
+      << "forces: " << kinds(parts_.forces) << " besides constant ones\n"
+      << "unknowns of the stabilised index-2 equations: " << 2 * n + rows() + holonomic_rows() << '\n';
+  const auto left_out = [&out](bool is, const char* what) {
+    if (is) out << "left out: " << what << '\n';
+  };
+  left_out(layout_->dimension == 2, "the third coordinate: the scene is planar");
+  left_out(rows() > 0 && !rheonomic(), "time derivatives of the constraints: none depends on time");
+  left_out(stiffness_pattern_.empty(), "the stiffness block: no force or constraint varies with position");
+  left_out(damping_pattern_.empty(), "the damping block: no force depends on velocities");
+  left_out(holonomic_rows() == 0, "the position multipliers mu: there is no holonomic constraint");
+  left_out(rows() == 0, "the constraint forces: there is no constraint");
+  return out.str();
+}
+
+}  // namespace dalembert

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace dalembert {
+
+struct Record;
+template <int D>
+class Trajectory;
+
+/// Root of everything that dalembert throws. what() says what was wrong (with values), where
+/// (particle, constraint or force by name, time), and what to do about it.
+class Error : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The scene, an option or a handle makes no sense by itself: a negative mass, a handle of another
+/// scene, t_end before t_start. Nothing was computed.
+class InvalidScene : public Error {
+  using Error::Error;
+};
+
+/// The initial positions or velocities contradict the constraints, or the constraints cannot all be
+/// met, or one is singular there.
+class InconsistentStart : public Error {
+  using Error::Error;
+};
+
+/// A constraint or force threw, or gave a number that is not finite; says which, and when. Turned
+/// into InconsistentStart or IntegrationFailure by a run.
+class EquationFault : public Error {
+  using Error::Error;
+};
+
+/// The integration could not go on. Nothing computed is lost: `trajectory<D>()` is the run up to
+/// the failure.
+class IntegrationFailure : public Error {
+ public:
+  IntegrationFailure(const std::string& what, double time, std::shared_ptr<const Record> record)
+      : Error(what), time_(time), record_(std::move(record)) {}
+
+  /// The last time reached.
+  [[nodiscard]] double time() const { return time_; }
+  /// The samples before the failure. D is the dimension of the scene; throws InvalidScene if not.
+  template <int D>
+  [[nodiscard]] Trajectory<D> trajectory() const;
+
+ private:
+  double time_;
+  std::shared_ptr<const Record> record_;
+};
+
+}  // namespace dalembert

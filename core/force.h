@@ -1,0 +1,182 @@
+#pragma once
+
+#include <dalembert/core/constraint.h>
+
+namespace dalembert {
+
+namespace detail {
+
+/// Makes `energy` or `force` of an element callable like a function, without hiding its arity.
+template <class E>
+struct EnergyOf {
+  const E& element;
+  auto operator()(const auto&... a) const requires requires { element.energy(a...); }
+  { return element.energy(a...); }
+};
+template <class E>
+struct ForceOf {
+  const E& element;
+  auto operator()(const auto&... a) const requires requires { element.force(a...); }
+  { return element.force(a...); }
+};
+
+/// The force on point I out of what a force law returned: a vector for one point, a tuple or array
+/// of vectors for several.
+template <std::size_t I, class T>
+[[nodiscard]] const auto& force_on(const T& forces) {
+  if constexpr (std::is_base_of_v<Eigen::EigenBase<T>, T>) {
+    static_assert(I == 0, "return one force for each point: std::tuple{f_a, f_b}");
+    return forces;
+  } else {
+    return std::get<I>(forces);
+  }
+}
+
+}  // namespace detail
+
+/// A force with a potential: `points()` and `energy([t,] r_1, ..., r_k)`, for any scalar type.
+/// Force and stiffness follow: F_i = -dV/dr_i.
+template <class E>
+concept PotentialForce = ActsOnPoints<E> &&
+    (applicable<detail::EnergyOf<E>, detail::ProbePositions<E>> ||
+     applicable_with_time<detail::EnergyOf<E>, detail::Probe<E>, detail::ProbePositions<E>>);
+
+/// A force given by its law: `points()` and `force([t,] r_1, ..., r_k, v_1, ..., v_k)`, which
+/// returns the force on each point: a vector for a single point, else a std::tuple of vectors.
+template <class E>
+concept LawForce = ActsOnPoints<E> &&
+    (applicable<detail::ForceOf<E>, detail::ProbeMotion<E>> ||
+     applicable_with_time<detail::ForceOf<E>, detail::Probe<E>, detail::ProbeMotion<E>>);
+
+/// Forces of one type that have a potential: F = -V_r, dF/dq = -V_rr.
+template <PotentialForce E>
+class PotentialBatch final : public ForceBatch {
+  static constexpr int inputs = PointFacts<E>::inputs;
+  static constexpr bool takes_time =
+      applicable_with_time<detail::EnergyOf<E>, detail::Probe<E>, detail::ProbePositions<E>>;
+
+ public:
+  void add(E element) { elements_.add(std::move(element)); }
+
+  [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override {
+    return std::make_unique<PotentialBatch>(*this);
+  }
+  [[nodiscard]] ForceShape shape() const override {
+    return {detail::kind_of<E>("Potential"), inputs, false, true};
+  }
+  [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
+  [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
+
+  void add_force(const Instant& at, std::span<double> F) const override {
+    using S = Dual<inputs, 1>;
+    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      const S V = potential<S>(e, at, AsInput<S>{});
+      detail::require_finite(isfinite(V), i, "is not a finite number or has no finite gradient");
+      const auto coordinate = elements_.coordinates(i);
+      for (std::size_t j = 0; j < inputs; ++j) {
+        F[static_cast<std::size_t>(coordinate[j])] -= V.gradient[static_cast<int>(j)];
+      }
+    });
+  }
+
+  void linearise(const Instant& at, std::span<double> stiffness,
+                 std::span<double> /*damping*/) const override {
+    using S = Dual<inputs, 2>;
+    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      const S V = potential<S>(e, at, AsInput<S>{});
+      detail::require_finite(V.hessian.allFinite(), i, "has no finite second derivative");
+      Eigen::Map<Eigen::Matrix<double, inputs, inputs, Eigen::RowMajor>>(stiffness.data() +
+                                                                         i * inputs * inputs) = -V.hessian;
+    });
+  }
+
+  [[nodiscard]] double energy(const Instant& at) const override {
+    double sum = 0.0;
+    for_each_element(elements_.all(),
+                     [&](const E& e, std::size_t) { sum += potential<double>(e, at, AsNumber{}); });
+    return sum;
+  }
+
+ private:
+  template <class S, class Lift>
+  [[nodiscard]] static S potential(const E& e, const Instant& at, const Lift& lift) {
+    const S t(at.t);
+    return S(call<takes_time>(detail::EnergyOf<E>{e}, t, positions<S>(e, t, at, lift)));
+  }
+
+  Elements<E> elements_;
+};
+
+/// Forces of one type given by their law F(t, r, v).
+template <LawForce E>
+class LawBatch final : public ForceBatch {
+  using Facts = PointFacts<E>;
+  static constexpr int inputs = Facts::inputs;
+  static constexpr bool takes_time =
+      applicable_with_time<detail::ForceOf<E>, detail::Probe<E>, detail::ProbeMotion<E>>;
+
+ public:
+  void add(E element) { elements_.add(std::move(element)); }
+
+  [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override {
+    return std::make_unique<LawBatch>(*this);
+  }
+  [[nodiscard]] ForceShape shape() const override {
+    return {detail::kind_of<E>("Force"), inputs, true, false};
+  }
+  [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
+  [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
+
+  void add_force(const Instant& at, std::span<double> F) const override {
+    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      const auto coordinate = elements_.coordinates(i);
+      for_each_component<double>(e, at, AsNumber{}, AsNumber{}, [&](int k, double f) {
+        detail::require_finite(std::isfinite(f), i, "is not a finite number");
+        F[static_cast<std::size_t>(coordinate[static_cast<std::size_t>(k)])] += f;
+      });
+    });
+  }
+
+  void linearise(const Instant& at, std::span<double> stiffness, std::span<double> damping) const override {
+    using S = Dual<2 * inputs, 1>;
+    using Block = Eigen::Map<Eigen::Matrix<double, inputs, inputs, Eigen::RowMajor>>;
+    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      Block F_q(stiffness.data() + i * inputs * inputs);
+      Block F_v(damping.data() + i * inputs * inputs);
+      for_each_component<S>(e, at, AsInput<S>{}, AsInput<S>{}, [&](int k, const S& f) {
+        detail::require_finite(isfinite(f), i, "has no finite derivative");
+        F_q.row(k) = f.gradient.template head<inputs>();
+        F_v.row(k) = f.gradient.template tail<inputs>();
+      });
+    });
+  }
+
+  [[nodiscard]] double energy(const Instant& /*at*/) const override { return 0.0; }
+
+ private:
+  /// Calls `f(k, component)` for the force on each of the inputs.
+  template <class S, class LiftPosition, class LiftVelocity, class F>
+  static void for_each_component(const E& e, const Instant& at, const LiftPosition& lift_r,
+                                 const LiftVelocity& lift_v, const F& f) {
+    const S t(at.t);
+    const auto forces = call<takes_time>(
+        detail::ForceOf<E>{e}, t,
+        std::tuple_cat(positions<S>(e, t, at, lift_r), velocities<S>(e, t, at, lift_v, inputs)));
+    [&]<std::size_t... I>(std::index_sequence<I...>) { (on_point<S, I>(forces, f), ...); }
+    (std::make_index_sequence<Facts::count>{});
+  }
+  template <class S, std::size_t I, class Forces, class F>
+  static void on_point(const Forces& forces, const F& f) {
+    using P = std::tuple_element_t<I, PointTuple<E>>;
+    if constexpr (P::inputs > 0) {
+      const auto& force = detail::force_on<I>(forces);
+      static_assert(is_plain<std::remove_cvref_t<decltype(force)>>,
+                    "return plain vectors, not Eigen expressions: append .eval()");
+      for (int k = 0; k < P::dimension; ++k) f(Facts::first_input[I] + k, S(force[k]));
+    }
+  }
+
+  Elements<E> elements_;
+};
+
+}  // namespace dalembert

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <dalembert/core/vec.h>
+
+#include <concepts>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <utility>
+
+namespace dalembert {
+
+/// A point that never moves; it reads no coordinates.
+template <int D>
+struct Fixed {
+  static constexpr int dimension = D;
+  static constexpr int inputs = 0;
+  static constexpr bool driven = false;
+
+  Vec<D> position = Vec<D>::Zero();
+};
+
+/// A particle of a scene, as returned by Scene::add_particle: a handle to read results with, and a
+/// point to build constraints and forces on. Valid for its own scene (and copies of it) only.
+template <int D>
+struct Particle {
+  static constexpr int dimension = D;
+  static constexpr int inputs = D;
+  static constexpr bool driven = false;
+
+  int index = -1;           ///< its number in the scene, in the order of adding
+  int coordinate = -1;      ///< where its D coordinates begin in q
+  std::uint64_t scene = 0;  ///< identity of the scene it belongs to
+
+  /// Its D numbers out of q (its position) or v (its velocity).
+  [[nodiscard]] Vec<D> gather(std::span<const double> x) const {
+    return Eigen::Map<const Vec<D>>(x.data() + coordinate);
+  }
+
+  friend bool operator==(const Particle&, const Particle&) = default;
+};
+
+/// A point that follows a prescribed path r(t); made by `driven`. Its path is differentiated with
+/// respect to time, so it must be written for any scalar: `[](auto t) { return vec(...); }`.
+template <int D, class Path>
+struct Driven {
+  static constexpr int dimension = D;
+  static constexpr int inputs = 0;
+  static constexpr bool driven = true;
+
+  Path path;
+};
+
+/// A driven point from its path: `driven([](auto t) { return vec(0.1 * sin(10.0 * t), 0.0); })`.
+template <class Path>
+[[nodiscard]] auto driven(Path path) {
+  using Position = decltype(path(0.0));
+  return Driven<Position::RowsAtCompileTime, Path>{std::move(path)};
+}
+
+/// Anything with a position. `inputs` is how many numbers of that position are unknowns (none or
+/// all), so that constraints differentiate with respect to those only; `driven` says that the
+/// position depends on time explicitly.
+template <class P>
+concept Point = requires {
+  { P::dimension } -> std::convertible_to<int>;
+  { P::inputs } -> std::convertible_to<int>;
+  { P::driven } -> std::convertible_to<bool>;
+};
+
+/// The points that a constraint or force acts on, in the order of its equation's arguments.
+template <Point... P>
+[[nodiscard]] std::tuple<P...> points(P... point) {
+  return {std::move(point)...};
+}
+
+static_assert(Point<Fixed<2>> && Point<Particle<3>>);
+
+}  // namespace dalembert

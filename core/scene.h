@@ -1,0 +1,174 @@
+#pragma once
+
+#include <dalembert/core/errors.h>
+#include <dalembert/core/force.h>
+#include <dalembert/core/forces.h>
+#include <dalembert/core/handles.h>
+#include <dalembert/core/holonomic_batch.h>
+#include <dalembert/core/nonholonomic_batch.h>
+#include <dalembert/core/system.h>
+
+#include <Eigen/Geometry>
+
+#include <memory>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+namespace dalembert {
+
+/// A particle as its user states it. Units are the user's own, consistent ones.
+template <int D>
+struct ParticleState {
+  double mass = 0.0;  ///< finite and > 0; there is no default
+  Vec<D> position = Vec<D>::Zero();
+  Vec<D> velocity = Vec<D>::Zero();
+};
+
+/// What the user says: particles, forces, and constraints, each as its equation. D is 2 or 3.
+///
+/// Everything is checked as it is added; the initial state against the constraints when a run
+/// starts. Names are optional, must differ, and appear in errors and output. Scenes can be moved,
+/// not copied, so that a handle belongs to one scene.
+template <int D>
+class Scene {
+ public:
+  static_assert(D == 2 || D == 3);
+
+  explicit Scene(std::string name = "scene");
+
+  /// Throws InvalidScene unless mass, position and velocity are finite and the mass is positive.
+  Particle<D> add_particle(const ParticleState<D>& state, const std::string& name = {});
+
+  /// Gravity for every particle, added before or after it.
+  void add(const UniformGravity<D>& gravity);
+
+  /// Adds a constraint. Throws InvalidScene if its parameters make no sense (it says which) or a
+  /// particle of it does not belong to this scene.
+  template <HolonomicConstraint C>
+  Constraint<rows_of_constraint<C>> add(C constraint, const std::string& name = {}) {
+    const std::string own =
+        admit(constraint, detail::kind_of<C>("Holonomic"), name, layout_.constraints.size());
+    return place<HolonomicBatch<C>, rows_of_constraint<C>>(std::move(constraint), own);
+  }
+  template <NonholonomicConstraint C>
+  Constraint<rows_of_constraint<C>> add(C constraint, const std::string& name = {}) {
+    const std::string own =
+        admit(constraint, detail::kind_of<C>("Nonholonomic"), name, layout_.constraints.size());
+    return place<NonholonomicBatch<C>, rows_of_constraint<C>>(std::move(constraint), own);
+  }
+
+  /// Adds a force; throws like a constraint.
+  template <PotentialForce E>
+  void add(E force, const std::string& name = {}) {
+    const std::string own = admit(force, detail::kind_of<E>("Potential"), name, force_count_);
+    place_force<PotentialBatch<E>>(std::move(force), own);
+  }
+  template <LawForce E>
+  void add(E force, const std::string& name = {}) {
+    const std::string own = admit(force, detail::kind_of<E>("ForceLaw"), name, force_count_);
+    place_force<LawBatch<E>>(std::move(force), own);
+  }
+
+  [[nodiscard]] const std::string& name() const { return layout_.scene; }
+  /// Initial coordinates and velocities, all particles in the order of adding.
+  [[nodiscard]] std::span<const double> initial_positions() const { return q_; }
+  [[nodiscard]] std::span<const double> initial_velocities() const { return v_; }
+
+  /// The equations of the scene as it is now. Throws InvalidScene if it has no particles.
+  [[nodiscard]] System system() const;
+
+ private:
+  struct ConstraintGroup {
+    std::unique_ptr<ConstraintBatch> batch;
+    std::vector<int> numbers;
+  };
+  struct ForceGroup {
+    std::unique_ptr<ForceBatch> batch;
+    std::vector<std::string> names;
+  };
+
+  /// `name`, or `kind` and a number if it is empty; throws InvalidScene if it is taken.
+  std::string unique_name(std::string_view kind, const std::string& name, std::size_t number);
+
+  /// Checks an element's parameters and points and returns its name.
+  template <class Element>
+  std::string admit(const Element& element, std::string_view kind, const std::string& name,
+                    std::size_t number) {
+    const std::string own = unique_name(kind, name, number);
+    const std::string label = std::string(kind) + " \"" + own + '"';
+    if constexpr (requires { element.fault(); }) {
+      const std::string fault = element.fault();
+      if (!fault.empty()) throw InvalidScene(label + ": " + fault);
+    }
+    std::apply([&](const auto&... point) { (admit_point(point, label), ...); }, element.points());
+    return own;
+  }
+  template <Point P>
+  void admit_point(const P& point, const std::string& label) {
+    static_assert(P::dimension == D,
+                  "a point of this constraint or force has another dimension than the scene");
+    if constexpr (std::is_same_v<P, Particle<D>>) {
+      require_own(point, label);
+    } else if constexpr (P::driven) {
+      extent_.extend(Vec<D>(point.path(0.0).template cast<double>()));
+    } else if constexpr (P::inputs == 0) {
+      require_finite(point.position, label);
+      extent_.extend(point.position);
+    }
+  }
+  void require_own(const Particle<D>& particle, const std::string& label) const;
+  static void require_finite(const Vec<D>& fixed, const std::string& label);
+
+  template <class Batch, int rows, class C>
+  Constraint<rows> place(C constraint, const std::string& name) {
+    Batch* batch = nullptr;
+    ConstraintGroup* group = nullptr;
+    for (ConstraintGroup& g : constraints_) {
+      if (auto* same = dynamic_cast<Batch*>(g.batch.get())) {
+        batch = same;
+        group = &g;
+      }
+    }
+    if (batch == nullptr) {
+      auto fresh = std::make_unique<Batch>();
+      batch = fresh.get();
+      group = &constraints_.emplace_back(ConstraintGroup{std::move(fresh), {}});
+    }
+    batch->add(std::move(constraint));
+    const int number = static_cast<int>(layout_.constraints.size());
+    group->numbers.push_back(number);
+    const ConstraintShape shape = batch->shape();
+    layout_.constraints.push_back({std::string(shape.kind), name, shape.rows, shape.width, 0, 0});
+    return {number, layout_.id};
+  }
+
+  template <class Batch, class E>
+  void place_force(E force, const std::string& name) {
+    ++force_count_;
+    for (ForceGroup& g : forces_) {
+      if (auto* same = dynamic_cast<Batch*>(g.batch.get())) {
+        same->add(std::move(force));
+        g.names.push_back(name);
+        return;
+      }
+    }
+    auto fresh = std::make_unique<Batch>();
+    fresh->add(std::move(force));
+    forces_.push_back({std::move(fresh), {name}});
+  }
+
+  Layout layout_;
+  std::vector<double> q_, v_;
+  Vec<D> gravity_ = Vec<D>::Zero();
+  std::vector<ConstraintGroup> constraints_;
+  std::vector<ForceGroup> forces_;
+  std::size_t force_count_ = 0;
+  std::unordered_set<std::string> names_;  // asked for membership only, never iterated
+  Eigen::AlignedBox<double, D> extent_;
+};
+
+extern template class Scene<2>;
+extern template class Scene<3>;
+
+}  // namespace dalembert

@@ -1,0 +1,16 @@
+#include "dalembert/core/statistics.h"
+
+#include <sstream>
+
+namespace dalembert {
+
+std::string Statistics::report() const {
+  std::ostringstream out;
+  out << steps << " steps, " << evaluations << " evaluations, " << factorisations << " factorisations, "
+      << error_test_failures << " error test failures, " << convergence_failures
+      << " convergence failures, residuals " << residual_position << " (position) " << residual_velocity
+      << " (velocity), correction " << correction << ", " << run_time << " s";
+  return out.str();
+}
+
+}  // namespace dalembert

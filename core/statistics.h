@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+namespace dalembert {
+
+/// What a run cost, and how well it kept its constraints.
+struct Statistics {
+  long steps = 0;                  ///< accepted steps
+  long evaluations = 0;            ///< of the equations of motion
+  long factorisations = 0;         ///< of a KKT matrix
+  long error_test_failures = 0;    ///< steps repeated because their error was too large
+  long convergence_failures = 0;   ///< steps repeated because Newton's iteration did not converge
+  double residual_position = 0.0;  ///< largest |g|/|grad g| at any sample [length]
+  double residual_velocity = 0.0;  ///< largest |psi|/|W row| at any sample [speed]
+  double correction = 0.0;         ///< largest move that put a sample onto its constraints [length]
+  double run_time = 0.0;           ///< of the integration and its output, without set-up [s]
+
+  /// One line for a log.
+  [[nodiscard]] std::string report() const;
+};
+
+}  // namespace dalembert

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <dalembert/core/batch.h>
+#include <dalembert/core/layout.h>
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dalembert {
+
+/// The parts a System is made of; Scene::system() fills them in.
+struct SystemParts {
+  Layout layout;                       ///< rows and slots are filled in by System
+  std::vector<double> masses;          ///< one per coordinate
+  std::vector<double> constant_force;  ///< one per coordinate
+  std::vector<std::unique_ptr<ConstraintBatch>> constraints;
+  std::vector<std::vector<int>> constraint_numbers;  ///< per batch: the scene's number of each element
+  std::vector<std::unique_ptr<ForceBatch>> forces;
+  std::vector<std::vector<std::string>> force_names;  ///< per batch, one per element
+  double extent;  ///< diagonal of the box around all points at the start [length]
+};
+
+/// The equations of motion of a scene as flat arrays: no dimension, no particles, no types.
+///
+///   M q'' = F(t,q,v) + W^T lambda,   g(t,q) = 0,   psi(t,q,v) = 0,   W = psi_v          (1)
+///
+/// Rows of holonomic constraints come first, with psi = dg/dt; rows of nonholonomic ones follow,
+/// with psi = a(t,q,v). At acceleration level W v' + gamma = 0 with gamma = psi_q v + psi_t.
+/// The force of constraint on coordinate i is Z_i = (W^T lambda)_i.
+class System {
+ public:
+  /// Everything a residual needs at one instant.
+  struct Evaluation {
+    std::vector<double> force;  ///< F, n
+    std::vector<double> g;      ///< position residual, m_holonomic
+    std::vector<double> psi;    ///< velocity residual, m
+    std::vector<double> w;      ///< W, in the order of its pattern
+  };
+  /// Everything the Newton matrix needs besides W.
+  struct Linearisation {
+    std::vector<double> psi_q;      ///< d psi/dq, in W's pattern
+    std::vector<double> stiffness;  ///< d(F + W^T lambda)/dq, in the order of its pattern
+    std::vector<double> damping;    ///< dF/dv, in the order of its pattern
+  };
+  struct Entry {
+    int row;
+    int column;
+  };
+
+  explicit System(SystemParts parts);
+
+  [[nodiscard]] int coordinates() const { return static_cast<int>(parts_.masses.size()); }
+  [[nodiscard]] int rows() const { return static_cast<int>(row_start_.size()) - 1; }
+  [[nodiscard]] int holonomic_rows() const { return holonomic_rows_; }
+  /// Whether any constraint depends on time explicitly.
+  [[nodiscard]] bool rheonomic() const;
+  [[nodiscard]] std::span<const double> masses() const { return parts_.masses; }
+  [[nodiscard]] double extent() const { return parts_.extent; }
+  [[nodiscard]] const std::shared_ptr<const Layout>& layout() const { return layout_; }
+
+  /// Pattern of W by rows: row r has the entries row_start()[r] ... row_start()[r+1] - 1. A column
+  /// may occur twice in a row; its entries add.
+  [[nodiscard]] std::span<const int> row_start() const { return row_start_; }
+  [[nodiscard]] std::span<const int> w_columns() const { return w_columns_; }
+  /// Places of the entries of Linearisation; places may repeat, their entries add.
+  [[nodiscard]] std::span<const Entry> stiffness_pattern() const { return stiffness_pattern_; }
+  [[nodiscard]] std::span<const Entry> damping_pattern() const { return damping_pattern_; }
+
+  /// Work space of the right sizes; the functions below allocate nothing.
+  [[nodiscard]] Evaluation evaluation() const;
+  [[nodiscard]] Linearisation linearisation() const;
+
+  /// F, g, psi and W. Throws EquationFault if a constraint or force throws or is not finite.
+  void evaluate(const Instant& at, Evaluation& out) const;
+  /// gamma, m numbers. Throws like `evaluate`.
+  void bias(const Instant& at, std::span<double> gamma) const;
+  /// Derivatives for the multipliers lambda (m numbers). Throws like `evaluate`.
+  void linearise(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
+
+  /// The force W^T lambda of every constraint on every coordinate it acts on, by Layout's slots.
+  void constraint_forces(std::span<const double> w, std::span<const double> lambda,
+                         std::span<double> slots) const;
+  [[nodiscard]] double kinetic_energy(std::span<const double> v) const;
+  /// Energy of all forces that have one.
+  [[nodiscard]] double potential_energy(const Instant& at) const;
+
+  /// The label of the constraint that row r belongs to.
+  [[nodiscard]] std::string row_label(int row) const;
+  /// What a constraint of this row says when it is singular; may be empty.
+  [[nodiscard]] std::string_view singular_hint(int row) const;
+
+  /// What the scene consists of, its degrees of freedom, and what was left out because nothing in
+  /// it needs it.
+  [[nodiscard]] std::string describe() const;
+
+ private:
+  void place_constraints();
+  void place_forces();
+  [[nodiscard]] const Layout::Constraint& constraint_of_row(int row, std::size_t& batch) const;
+
+  template <class F>
+  void on_constraints(double t, const F& f) const;
+  template <class F>
+  void on_forces(double t, const F& f) const;
+
+  /// Where a batch's part of each array begins.
+  struct Offsets {
+    std::size_t row, w, stiffness, damping;
+  };
+
+  SystemParts parts_;
+  std::shared_ptr<const Layout> layout_;
+  std::vector<Offsets> constraint_offsets_;
+  std::vector<Offsets> force_offsets_;
+  int holonomic_rows_ = 0;
+  std::vector<int> row_start_;
+  std::vector<int> w_columns_;
+  std::vector<Entry> stiffness_pattern_;
+  std::vector<Entry> damping_pattern_;
+};
+
+}  // namespace dalembert

@@ -1,0 +1,196 @@
+#include "dalembert/solvers/integrator.h"
+
+#include <dalembert/core/errors.h>
+#include <dalembert/solvers/private/ida.h>
+#include <dalembert/solvers/private/manifold.h>
+#include <dalembert/solvers/private/start.h>
+
+#include <algorithm>
+#include <chrono>
+#include <sstream>
+
+namespace dalembert {
+
+namespace {
+
+/// Output is put onto the constraints to this fraction of the scene's length: a few units of
+/// round-off.
+constexpr double output_distance = 1e-15;
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total) : total_(total) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  ~Stopwatch() { total_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  double& total_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+struct Integrator::State {
+  State(System s, std::span<const double> q0, std::span<const double> v0, const Options& o)
+      : options(o),
+        times(sample_times(o)),
+        system(std::move(s)),
+        start(consistent_start(system, q0, v0, o)),
+        manifold(system, start.rows),
+        stepper(system, start, o),
+        t(o.t_start),
+        q(start.q),
+        v(start.v),
+        a(start.a),
+        lambda(start.lambda),
+        forces(system.layout()->slot_coordinate.size()),
+        given(q.size()) {
+    record.layout = system.layout();
+    record.stepper = "ida";
+    record.tolerance = o.tolerance;
+    recover();
+  }
+
+  /// The state at a time that the stepper has passed, put onto the constraints, with its forces.
+  void visit(double time) {
+    t = time;
+    stepper.interpolate(t, q, v);
+    recover();
+  }
+
+  void recover() {
+    std::ranges::copy(q, given.begin());
+    const Violation left = manifold.project_positions(t, q, v, output_distance * start.scales.length);
+    if (!manifold.solve_motion(t, q, v, a, lambda)) {
+      throw StepFailure{"the constraints depend on each other here: forces of constraint are not determined",
+                        t};
+    }
+    const auto& equations = manifold.equations();
+    system.constraint_forces(equations.w, lambda, forces);
+    energy = system.kinetic_energy(v) + system.potential_energy({t, q, v});
+    auto& s = record.statistics;
+    s.residual_position = std::max(s.residual_position, left.size);
+    s.residual_velocity = std::max(s.residual_velocity, velocity_violation(system, equations).size);
+    for (std::size_t i = 0; i < q.size(); ++i)
+      s.correction = std::max(s.correction, std::abs(q[i] - given[i]));
+  }
+
+  [[nodiscard]] FlatSample sample() const { return {t, q, v, lambda, forces, energy}; }
+
+  void step_once() {
+    if (++steps > options.max_steps) {
+      throw StepFailure{"max_steps = " + std::to_string(options.max_steps) +
+                            " is used up; raise it, or ask for a looser tolerance",
+                        stepper.time()};
+    }
+    stepper.step();
+  }
+
+  void step_past(double time) {
+    while (stepper.time() < time) step_once();
+  }
+
+  /// Runs `f`; whatever stops it becomes an IntegrationFailure with the samples so far.
+  template <class F>
+  void guarded(const F& f) {
+    const Stopwatch stopwatch(record.statistics.run_time);
+    try {
+      f();
+    } catch (const StepFailure& failure) {
+      fail(failure.what, failure.time);
+    } catch (const EquationFault& fault) {
+      fail(fault.what(), t);
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& why, double time) {
+    record.statistics = statistics();
+    std::ostringstream what;
+    what.precision(10);
+    what << "Scene \"" << record.layout->scene << "\" stopped at t = " << time << ": " << why;
+    throw IntegrationFailure(what.str(), time, std::make_shared<const Record>(std::move(record)));
+  }
+
+  [[nodiscard]] Statistics statistics() const {
+    Statistics s = record.statistics;
+    stepper.count(s);
+    s.evaluations += manifold.evaluations();
+    s.factorisations += manifold.factorisations();
+    return s;
+  }
+
+  Options options;
+  std::vector<double> times;
+  System system;
+  Start start;
+  Manifold manifold;
+  IdaStepper stepper;
+  long steps = 0;
+
+  // The current instant.
+  double t;
+  std::vector<double> q, v, a, lambda, forces;
+  double energy = 0.0;
+  std::vector<double> given;  // q before projection
+
+  Record record;
+};
+
+Integrator::Integrator(System system, std::span<const double> q, std::span<const double> v,
+                       const Options& options)
+    : state_(std::make_unique<State>(std::move(system), q, v, options)) {}
+Integrator::Integrator(Integrator&&) noexcept = default;
+Integrator::~Integrator() = default;
+
+FlatSample Integrator::sample() const { return state_->sample(); }
+const System& Integrator::system() const { return state_->system; }
+Statistics Integrator::statistics() const { return state_->statistics(); }
+
+void Integrator::step() {
+  State& s = *state_;
+  s.guarded([&s] {
+    if (s.stepper.time() >= s.options.t_end) throw StepFailure{"t_end is reached; choose a later one", s.t};
+    s.step_once();
+    s.visit(s.stepper.time());
+  });
+}
+
+void Integrator::advance_to(double t) {
+  State& s = *state_;
+  if (!(t >= s.t && t <= s.options.t_end)) {
+    std::ostringstream what;
+    what << "advance_to(" << t << "): must lie between the current time " << s.t
+         << " and t_end = " << s.options.t_end;
+    throw InvalidScene(what.str());
+  }
+  s.guarded([&] {
+    s.step_past(t);
+    s.visit(t);
+  });
+}
+
+void Integrator::run(const std::function<void(const FlatSample&)>& observe) {
+  State& s = *state_;
+  s.guarded([&] {
+    for (const double t : s.times) {
+      if (t < s.t) continue;
+      if (t > s.t) {
+        s.step_past(t);
+        s.visit(t);
+      }
+      observe(s.sample());
+    }
+  });
+}
+
+std::shared_ptr<const Record> Integrator::run() {
+  State& s = *state_;
+  s.record.reserve(s.times.size(), s.sample());
+  run([&s](const FlatSample& sample) { s.record.append(sample); });
+  auto record = std::make_shared<Record>(s.record);
+  record->statistics = s.statistics();
+  return record;
+}
+
+}  // namespace dalembert

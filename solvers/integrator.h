@@ -1,0 +1,44 @@
+#pragma once
+
+#include <dalembert/core/system.h>
+#include <dalembert/core/trajectory.h>
+#include <dalembert/solvers/options.h>
+
+#include <functional>
+#include <memory>
+#include <span>
+
+namespace dalembert {
+
+/// Runs a System through time: consistent start, steps, output on the constraints with recovered
+/// forces. Knows no scene; Simulation reads its results by handle.
+class Integrator {
+ public:
+  /// Checks the options and the start. Throws InvalidScene, InconsistentStart.
+  Integrator(System system, std::span<const double> q, std::span<const double> v, const Options& options);
+  Integrator(Integrator&&) noexcept;
+  ~Integrator();
+
+  /// The current instant: at first the start, later where `step` or `advance_to` went.
+  [[nodiscard]] FlatSample sample() const;
+  /// One step of the integrator's own choice. Throws IntegrationFailure, also beyond t_end.
+  void step();
+  /// To a time not before the current one and not after t_end. Throws InvalidScene outside,
+  /// IntegrationFailure.
+  void advance_to(double t);
+
+  /// All samples that the options ask for, from here on. Throws IntegrationFailure, with all
+  /// samples before.
+  [[nodiscard]] std::shared_ptr<const Record> run();
+  /// The same for runs too long to keep: each sample goes to `observe`, none is stored.
+  void run(const std::function<void(const FlatSample&)>& observe);
+
+  [[nodiscard]] Statistics statistics() const;
+  [[nodiscard]] const System& system() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace dalembert

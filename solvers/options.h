@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace dalembert {
+
+/// How to run a scene. An aggregate: `simulate(scene, {.t_end = 10.0, .tolerance = 1e-8})`.
+struct Options {
+  double t_end = 0.0;    ///< where the run ends, > t_start [time]
+  double t_start = 0.0;  ///< time of the initial state [time]
+
+  /// Number of samples, equally spaced, with one at either end; >= 2. Unless one of the next two is given.
+  int samples = 101;
+  double sample_interval = 0.0;  ///< or a sample every so often, from t_start [time]
+  std::vector<double> times;     ///< or samples at these very times, increasing, within the run
+
+  /// Relative error of one step: positions are kept to tolerance times the scene's own length,
+  /// velocities to tolerance times its length over its time. Between 1e-13 and 1e-1. The error of
+  /// the result grows with the length of the run; the benchmarks show how much.
+  double tolerance = 1e-6;
+  long max_steps = 10'000'000;  ///< give up after so many steps
+
+  /// False: an initial state that violates a constraint is an error. True: it is moved onto the
+  /// constraints by the least mass-weighted change.
+  bool assemble = false;
+};
+
+/// The sample times that the options ask for. Throws InvalidScene, naming the option, its value
+/// and its bounds, if any option makes no sense.
+[[nodiscard]] std::vector<double> sample_times(const Options& options);
+
+/// The part of that check that does not concern sampling.
+void validate(const Options& options);
+
+}  // namespace dalembert

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <dalembert/core/statistics.h>
+#include <dalembert/core/system.h>
+#include <dalembert/solvers/private/start.h>
+
+#include <memory>
+#include <span>
+
+namespace dalembert {
+
+/// Thrown when a step cannot be taken; the integrator adds the trajectory so far.
+struct StepFailure {
+  std::string what;
+  double time;
+};
+
+/// Steps the stabilised index-2 equations (see NewtonMatrix) by SUNDIALS' IDA: variable-order,
+/// variable-step BDF.
+///
+/// The error test looks at q and v only. Multipliers are index-2 variables whose round-off grows
+/// like 1/h; Newton's iteration weighs each by the impulse it delivers in one step,
+///
+///   h |lambda| |W| ~ m v,    h |mu| |G| ~ m q,
+///
+/// and is made tight, so that they do not limit the step. Forces of constraint are not read off
+/// here but recovered from (q, v) by Manifold.
+class IdaStepper {
+ public:
+  /// The system must outlive the stepper.
+  IdaStepper(const System& system, const Start& start, const Options& options);
+  ~IdaStepper();
+
+  /// One accepted step, not beyond t_end. Throws StepFailure.
+  void step();
+  [[nodiscard]] double time() const;
+  /// The state at a time inside the last step (or at the start, before the first).
+  void interpolate(double t, std::span<double> q, std::span<double> v) const;
+  /// Adds its counts.
+  void count(Statistics& statistics) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace dalembert

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace dalembert {
+
+/// A sparse unsymmetric matrix with a fixed pattern, factored by SuiteSparse's KLU: ordered once,
+/// pivoted at the first factorisation and again whenever the pivots have become bad, refactored
+/// with the same pivots otherwise.
+///
+/// The pattern is given as a list of entries; values are added up per place, so that several
+/// entries may share one.
+class SparseLU {
+ public:
+  struct Entry {
+    int row, column;
+  };
+
+  SparseLU(int size, std::span<const Entry> entries);
+  SparseLU(SparseLU&&) noexcept;
+  ~SparseLU();
+
+  [[nodiscard]] int size() const;
+  void set_zero();
+  /// Adds to the k-th entry of the list.
+  void add(std::size_t k, double value);
+  /// False if the matrix is singular to working precision.
+  [[nodiscard]] bool factorise();
+  /// Solves in place.
+  void solve(std::span<double> x);
+  /// A cheap estimate of the reciprocal condition number: smallest over largest pivot.
+  [[nodiscard]] double reciprocal_condition() const;
+  [[nodiscard]] long factorisations() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace dalembert

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <dalembert/solvers/private/kkt.h>
+
+#include <vector>
+
+namespace dalembert {
+
+/// The largest violation of the constraints at a state, and which row has it. A row's residual is
+/// divided by the length of its gradient: |g|/|G| is the distance to the constraint, |psi|/|W| a speed.
+struct Violation {
+  double size = 0.0;
+  int row = -1;
+};
+[[nodiscard]] Violation position_violation(const System& system, const System::Evaluation& e);
+[[nodiscard]] Violation velocity_violation(const System& system, const System::Evaluation& e);
+
+/// The set of states that obey the constraints: puts a state onto it, and finds the accelerations
+/// and multipliers there.
+///
+/// Position: Newton's iteration for the least mass-weighted change, with q0 the given state,
+///
+///   [ M  -W^T ] [ dq ]   [  0 ]
+///   [ W   0   ] [ y  ] = [ -g ]      (0 in nonholonomic rows).                        (1)
+///
+/// Velocity: the same matrix with -psi on the right, linear and so done in one solve.        (2)
+/// Acceleration and multipliers:
+///
+///   [ M  -W^T ] [ v'     ]   [    F   ]
+///   [ W   0   ] [ lambda ] = [ -gamma ].                                              (3)
+class Manifold {
+ public:
+  Manifold(const System& system, const ActiveRows& rows);
+
+  /// (1), with steps halved until they bring the state closer, until the distance is at most
+  /// `tolerance` or no longer shrinks. Returns what is left. Throws EquationFault.
+  Violation project_positions(double t, std::span<double> q, std::span<const double> v, double tolerance);
+  /// (2) and (3) at positions that obey the constraints. False if the matrix is singular there.
+  /// `lambda` has one number per row of the system, zero for rows that are not active.
+  [[nodiscard]] bool solve_motion(double t, std::span<const double> q, std::span<double> v,
+                                  std::span<double> a, std::span<double> lambda);
+
+  /// The equations at the state last visited.
+  [[nodiscard]] const System::Evaluation& equations() const { return e_; }
+  [[nodiscard]] long evaluations() const { return evaluations_; }
+  [[nodiscard]] long factorisations() const { return kkt_.factorisations(); }
+
+ private:
+  void evaluate(const Instant& at);
+  void solve_for_position_step(std::size_t n);
+
+  const System* system_;
+  ActiveRows rows_;
+  System::Evaluation e_;
+  std::vector<double> gamma_, x_, q_before_;
+  KktMatrix kkt_;
+  long evaluations_ = 0;
+};
+
+}  // namespace dalembert

@@ -1,0 +1,89 @@
+#include "dalembert/solvers/private/newton_matrix.h"
+
+#include <algorithm>
+
+namespace dalembert {
+
+namespace {
+
+ActiveRows holonomic_only(const ActiveRows& all) {
+  return {{all.rows.begin(), all.rows.begin() + all.holonomic}, all.holonomic};
+}
+
+}  // namespace
+
+NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows)
+    : system_(&system),
+      rows_(rows),
+      at_(system.evaluation()),
+      linear_(system.linearisation()),
+      lower_(at_.w.size()),
+      k1_(system, rows, KktMatrix::Forces::linearised),
+      k2_(system, holonomic_only(rows), KktMatrix::Forces::none),
+      x1_(static_cast<std::size_t>(k1_.size())),
+      x2_(static_cast<std::size_t>(k2_.size())),
+      p_(static_cast<std::size_t>(system.coordinates())) {}
+
+bool NewtonMatrix::factorise(const Instant& at, std::span<const double> lambda, double c) {
+  system_->evaluate(at, at_);
+  system_->linearise(at, lambda, linear_);
+  const auto first_nonholonomic =
+      static_cast<std::size_t>(system_->row_start()[static_cast<std::size_t>(system_->holonomic_rows())]);
+  std::copy(at_.w.begin(), at_.w.end(), lower_.begin());
+  for (std::size_t k = first_nonholonomic; k < lower_.size(); ++k) lower_[k] += linear_.psi_q[k] / c;
+  return k1_.factorise(at_.w, lower_, linear_, 1.0 / (c * c), 1.0 / c) && k2_.factorise(at_.w);
+}
+
+double NewtonMatrix::along(std::size_t row, std::span<const double> values, std::span<const double> x) const {
+  double sum = 0.0;
+  for (auto k = static_cast<std::size_t>(system_->row_start()[row]);
+       k < static_cast<std::size_t>(system_->row_start()[row + 1]); ++k) {
+    sum += values[k] * x[static_cast<std::size_t>(system_->w_columns()[k])];
+  }
+  return sum;
+}
+
+void NewtonMatrix::solve(double c, std::span<double> b) {
+  const auto n = static_cast<std::size_t>(system_->coordinates());
+  const auto m = static_cast<std::size_t>(rows_.size());
+  const auto m_holonomic = static_cast<std::size_t>(rows_.holonomic);
+  const auto b1 = b.subspan(0, n);
+  const auto b2 = b.subspan(n, n);
+  const auto b3 = b.subspan(2 * n, m);
+  const auto b4 = b.subspan(2 * n + m, m_holonomic);
+  const auto masses = system_->masses();
+
+  // (5), (6)
+  for (std::size_t i = 0; i < n; ++i) {
+    p_[i] = b1[i] / masses[i];
+    x1_[i] = -b2[i] - c * b1[i];
+  }
+  for (std::size_t k = 0; k < linear_.damping.size(); ++k) {
+    const auto [row, column] = system_->damping_pattern()[k];
+    x1_[static_cast<std::size_t>(row)] += linear_.damping[k] * p_[static_cast<std::size_t>(column)];
+  }
+  for (std::size_t r = 0; r < m; ++r) {
+    const auto row = static_cast<std::size_t>(rows_.rows[r]);
+    x1_[n + r] = r < m_holonomic ? c * c * b4[r] : c * (b3[r] - along(row, at_.w, p_));
+  }
+  k1_.solve(x1_);
+  const auto dq = std::span(x1_).first(n);
+  for (double& x : dq) x /= c * c;
+
+  // (7)
+  for (std::size_t i = 0; i < n; ++i) x2_[i] = b1[i] + c * masses[i] * dq[i];
+  for (std::size_t r = 0; r < m_holonomic; ++r) {
+    x2_[n + r] = b3[r] - along(static_cast<std::size_t>(rows_.rows[r]), linear_.psi_q, dq);
+  }
+  k2_.solve(x2_);
+
+  std::ranges::copy(dq, b1.begin());
+  std::copy_n(x2_.begin(), n, b2.begin());
+  for (std::size_t r = 0; r < m; ++r) {
+    const double dmu = r < m_holonomic ? -x2_[n + r] : 0.0;  // the matrix of (7) has -G^T
+    b3[r] = x1_[n + r] - c * dmu;
+    if (r < m_holonomic) b4[r] = dmu;
+  }
+}
+
+}  // namespace dalembert

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <dalembert/solvers/private/kkt.h>
+
+#include <vector>
+
+namespace dalembert {
+
+/// Solves the linear systems of Newton's iteration for the stabilised index-2 equations
+///
+///   R1 = M (v - q') + G^T mu                     (n)
+///   R2 = F(t,q,v) + W^T lambda - M v'            (n)
+///   R3 = psi(t,q,v)                              (m)
+///   R4 = g(t,q)                                  (m_holonomic)
+///
+/// in the unknowns (q, v, lambda, mu), where an integrator replaces q' and v' by c q + ..., c v + ...
+/// With H = -(F + W^T lambda)_q and D = -F_v the correction obeys
+///
+///   (1)  M (dv - c dq) + G^T dmu                = b1        [neglecting (G^T mu)_q: mu is round-off]
+///   (2)  -H dq - (D + c M) dv + W^T dlambda     = b2
+///   (3)  psi_q dq + W dv                        = b3
+///   (4)  G dq                                   = b4
+///
+/// (1) gives dv = c dq + M^-1 (b1 - G^T dmu). In (2), with dnu = dlambda + c dmu on holonomic rows
+/// and dnu = dlambda on the others, and D M^-1 G^T dmu and A M^-1 G^T dmu neglected like mu,
+///
+///   (5)  (M + D/c + H/c^2) x - W^T dnu          = -b2 - c b1 - D M^-1 b1,      x = c^2 dq
+///   (6)  G x = c^2 b4,   (A + psi_q/c) x        = c (b3 - A M^-1 b1)
+///
+/// for holonomic and nonholonomic rows. Then the velocities, from (1) and the holonomic rows of (3):
+///
+///   (7)  M dv + G^T dmu                         = b1 + c M dq,     G dv = b3 - psi_q dq
+///
+/// Two systems of n + m instead of one of 2n + m + m_holonomic, and their matrices hardly depend on
+/// c: where forces are soft a factorisation outlives changes of the step.
+class NewtonMatrix {
+ public:
+  NewtonMatrix(const System& system, const ActiveRows& rows);
+
+  /// Factors at a state; `lambda` has one number per row of the system. False if singular. Throws
+  /// EquationFault.
+  [[nodiscard]] bool factorise(const Instant& at, std::span<const double> lambda, double c);
+  /// In place: b = (b1, b2, b3, b4) becomes (dq, dv, dlambda, dmu). `c` may have changed since.
+  void solve(double c, std::span<double> b);
+
+  [[nodiscard]] long factorisations() const { return k1_.factorisations() + k2_.factorisations(); }
+
+ private:
+  [[nodiscard]] double along(std::size_t row, std::span<const double> values,
+                             std::span<const double> x) const;
+
+  const System* system_;
+  ActiveRows rows_;
+  System::Evaluation at_;
+  System::Linearisation linear_;
+  std::vector<double> lower_;
+  KktMatrix k1_, k2_;
+  std::vector<double> x1_, x2_, p_;
+};
+
+}  // namespace dalembert

@@ -1,0 +1,166 @@
+#include "dalembert/solvers/private/start.h"
+
+#include <dalembert/core/errors.h>
+#include <dalembert/solvers/private/manifold.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+namespace dalembert {
+
+namespace {
+
+/// A start that violates a constraint by less than this, relative to the scene's length or speed,
+/// is taken for one that obeys it in rounded numbers, and projected without a word.
+constexpr double rounding_of_the_user = 1e-8;
+/// What Newton's iteration leaves when it has converged; a few units of round-off.
+constexpr double converged = 1e-14;
+
+double largest_entry(std::span<const double> x) {
+  return std::accumulate(x.begin(), x.end(), 0.0,
+                         [](double m, double y) { return std::max(m, std::abs(y)); });
+}
+
+double largest_acceleration(std::span<const double> force, std::span<const double> masses) {
+  double a = 0.0;
+  for (std::size_t i = 0; i < masses.size(); ++i) a = std::max(a, std::abs(force[i]) / masses[i]);
+  return a;
+}
+
+void require_gradients(const System& system, const System::Evaluation& e, double t) {
+  for (std::size_t r = 0; r + 1 < system.row_start().size(); ++r) {
+    const auto first = static_cast<std::size_t>(system.row_start()[r]);
+    const auto count = static_cast<std::size_t>(system.row_start()[r + 1]) - first;
+    if (largest_entry(std::span(e.w).subspan(first, count)) > 0.0) continue;
+    std::ostringstream what;
+    what << system.row_label(static_cast<int>(r))
+         << " has no gradient: " << system.singular_hint(static_cast<int>(r)) << " (t = " << t << ')';
+    throw InconsistentStart(what.str());
+  }
+}
+
+/// Smallest radius of curvature of the holonomic constraints, from their second derivatives at
+/// unit gradient; infinite if all are flat. It needs no knowledge of what they are.
+double smallest_radius(const System& system, const Instant& at, const System::Evaluation& e) {
+  std::vector<double> unit(static_cast<std::size_t>(system.rows()), 0.0);
+  for (std::size_t r = 0; r < static_cast<std::size_t>(system.holonomic_rows()); ++r) {
+    double square = 0.0;
+    for (int k = system.row_start()[r]; k < system.row_start()[r + 1]; ++k) {
+      square += e.w[static_cast<std::size_t>(k)] * e.w[static_cast<std::size_t>(k)];
+    }
+    unit[r] = 1.0 / std::sqrt(square);
+  }
+  auto with = system.linearisation();
+  auto without = system.linearisation();
+  system.linearise(at, unit, with);
+  std::ranges::fill(unit, 0.0);
+  system.linearise(at, unit, without);
+  double curvature = 0.0;
+  for (std::size_t k = 0; k < with.stiffness.size(); ++k) {
+    curvature = std::max(curvature, std::abs(with.stiffness[k] - without.stiffness[k]));
+  }
+  return 1.0 / curvature;
+}
+
+/// The length of the scene: the box around its points; for a lone particle on a surface or curve
+/// the radius of curvature; for a free one the radius of its path, or how far it gets.
+double length_scale(const System& system, const Instant& at, const System::Evaluation& e, double duration) {
+  if (system.extent() > 0.0) return system.extent();
+  const double radius = smallest_radius(system, at, e);
+  if (std::isfinite(radius)) return radius;
+  const double v = largest_entry(at.v);
+  const double a = largest_acceleration(e.force, system.masses());
+  if (v > 0.0 && a > 0.0) return v * v / a;
+  const double distance = v * duration + a * duration * duration;
+  return distance > 0.0 ? distance : 1.0;  // nothing moves: any length will do
+}
+
+/// The shortest time in which the scene's speeds, forces or accelerations move it by its length.
+double time_scale(const System& system, const System::Evaluation& e, const Start& start, double length,
+                  double duration) {
+  const double v = largest_entry(start.v);
+  const double a = std::max(largest_entry(start.a), largest_acceleration(e.force, system.masses()));
+  double time = duration;
+  if (v > 0.0) time = std::min(time, length / v);
+  if (a > 0.0) time = std::min(time, std::sqrt(length / a));
+  return time;
+}
+
+[[noreturn]] void refuse(const System& system, const Violation& violation, double t, const char* quantity,
+                         const char* remedy) {
+  std::ostringstream what;
+  what << system.row_label(violation.row) << ' ' << quantity << ' ' << violation.size << " at t = " << t
+       << "; " << remedy;
+  throw InconsistentStart(what.str());
+}
+
+ActiveRows all_rows(const System& system) {
+  ActiveRows rows{std::vector<int>(static_cast<std::size_t>(system.rows())), system.holonomic_rows()};
+  std::iota(rows.rows.begin(), rows.rows.end(), 0);
+  return rows;
+}
+
+void start_positions(const System& system, Manifold& manifold, Start& start, const System::Evaluation& e,
+                     const Options& options) {
+  const double L = start.scales.length;
+  const Violation given = position_violation(system, e);
+  if (given.size > rounding_of_the_user * L && !options.assemble) {
+    refuse(system, given, options.t_start, "is violated by the initial positions: distance",
+           "correct the positions, or set the option assemble to have them moved");
+  }
+  const Violation left = manifold.project_positions(options.t_start, start.q, start.v, converged * L);
+  if (left.size > rounding_of_the_user * L) {
+    refuse(system, left, options.t_start,
+           "cannot be met together with the other constraints: remaining distance",
+           "check lengths and fixed points, or start closer to the intended configuration");
+  }
+}
+
+void start_velocities(const System& system, const Start& start, const System::Evaluation& e,
+                      const Options& options) {
+  const double forced = std::sqrt(largest_acceleration(e.force, system.masses()) * start.scales.length);
+  const double speed = std::max(largest_entry(start.v), forced);
+  const Violation given = velocity_violation(system, e);
+  if (given.size > rounding_of_the_user * speed && !options.assemble) {
+    refuse(system, given, options.t_start, "is violated by the initial velocities: speed",
+           "correct the velocities, or set the option assemble to have them changed");
+  }
+}
+
+}  // namespace
+
+Start consistent_start(const System& system, std::span<const double> q, std::span<const double> v,
+                       const Options& options) {
+  const double t = options.t_start;
+  const double duration = options.t_end - options.t_start;
+  Start start{{q.begin(), q.end()},
+              {v.begin(), v.end()},
+              std::vector<double>(q.size()),
+              std::vector<double>(static_cast<std::size_t>(system.rows())),
+              all_rows(system),
+              {}};
+  try {
+    auto e = system.evaluation();
+    system.evaluate({t, q, v}, e);
+    require_gradients(system, e, t);
+    start.scales.length = length_scale(system, {t, q, v}, e, duration);
+
+    Manifold manifold(system, start.rows);
+    start_positions(system, manifold, start, e, options);
+    system.evaluate({t, start.q, start.v}, e);
+    start_velocities(system, start, e, options);
+    if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda)) {
+      throw InconsistentStart("The constraints of this scene depend on each other at the start");
+    }
+    start.scales.time = time_scale(system, manifold.equations(), start, start.scales.length, duration);
+  } catch (const EquationFault& fault) {
+    throw InconsistentStart(std::string(fault.what()) +
+                            ": correct the equation, or start where it is defined");
+  }
+  return start;
+}
+
+}  // namespace dalembert

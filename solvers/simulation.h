@@ -1,0 +1,74 @@
+#pragma once
+
+#include <dalembert/core/scene.h>
+#include <dalembert/core/trajectory.h>
+#include <dalembert/solvers/integrator.h>
+#include <dalembert/solvers/options.h>
+
+namespace dalembert {
+
+/// A scene in motion, for step-wise control; the scene may be changed or destroyed meanwhile.
+/// After a failure the last good instant can still be read.
+template <int D>
+class Simulation {
+ public:
+  /// Throws InvalidScene, InconsistentStart.
+  Simulation(const Scene<D>& scene, const Options& options)
+      : integrator_(scene.system(), scene.initial_positions(), scene.initial_velocities(), options) {}
+
+  /// See Integrator.
+  void step() { integrator_.step(); }
+  void advance_to(double t) { integrator_.advance_to(t); }
+
+  /// The current instant; see Sample for what can be read. A view, valid until the next step.
+  [[nodiscard]] Sample<D> sample() const { return {*integrator_.system().layout(), integrator_.sample()}; }
+  [[nodiscard]] double time() const { return sample().time(); }
+  [[nodiscard]] double energy() const { return sample().energy(); }
+  [[nodiscard]] Vec<D> position(Particle<D> particle) const { return sample().position(particle); }
+  [[nodiscard]] Vec<D> velocity(Particle<D> particle) const { return sample().velocity(particle); }
+  template <int Rows>
+  [[nodiscard]] Multiplier<Rows> multiplier(Constraint<Rows> constraint) const {
+    return sample().multiplier(constraint);
+  }
+  template <int Rows>
+  [[nodiscard]] Vec<D> constraint_force(Constraint<Rows> constraint, Particle<D> particle) const {
+    return sample().constraint_force(constraint, particle);
+  }
+  [[nodiscard]] Vec<D> constraint_force(Particle<D> particle) const {
+    return sample().constraint_force(particle);
+  }
+  [[nodiscard]] Statistics statistics() const { return integrator_.statistics(); }
+
+  /// All samples that the options ask for.
+  [[nodiscard]] Trajectory<D> run() { return Trajectory<D>(integrator_.run()); }
+  /// Hands each sample to `observe(const Sample<D>&)` instead of keeping it.
+  template <class Observe>
+  void run(const Observe& observe) {
+    const Layout& layout = *integrator_.system().layout();
+    integrator_.run([&](const FlatSample& flat) { observe(Sample<D>(layout, flat)); });
+  }
+
+ private:
+  Integrator integrator_;
+};
+
+/// Runs a scene and returns its motion and forces of constraint. Throws InvalidScene,
+/// InconsistentStart, IntegrationFailure; see there.
+template <int D>
+[[nodiscard]] Trajectory<D> simulate(const Scene<D>& scene, const Options& options) {
+  return Simulation<D>(scene, options).run();
+}
+
+/// The same for runs too long to keep: hands each sample to `observe(const Sample<D>&)` and returns
+/// the statistics.
+template <int D, class Observe>
+Statistics simulate(const Scene<D>& scene, const Options& options, const Observe& observe) {
+  Simulation<D> simulation(scene, options);
+  simulation.run(observe);
+  return simulation.statistics();
+}
+
+extern template class Simulation<2>;
+extern template class Simulation<3>;
+
+}  // namespace dalembert

@@ -1,0 +1,19 @@
+#include <dalembert/dalembert.h>
+
+#include <cmath>
+#include <iostream>
+
+int main() {
+  using namespace dalembert;
+
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -9.81}});
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}, .velocity = {0.0, 0.0}});
+  const auto rod = scene.add(Distance{Fixed<2>{{0.0, 0.0}}, bob, 1.0});
+
+  const Trajectory<2> run = simulate(scene, {.t_end = 10.0, .samples = 101, .tolerance = 1e-8});
+
+  const auto last = run.times().size() - 1;
+  std::cout << "tension at " << run.times()[last] << " s: " << -run.multiplier(rod, last) << " N\n";
+  return std::abs(run.position(bob, last).norm() - 1.0) <= 1e-9 ? 0 : 1;
+}

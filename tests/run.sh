@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds and tests.  Usage: tests/run.sh [release|debug|ci]
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+preset=${1:-release}
+
+cmake/dependencies.sh
+cmake --preset "$preset"
+cmake --build --preset "$preset"
+ctest --preset "$preset" --parallel "$(nproc)"
