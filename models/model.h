@@ -1,0 +1,45 @@
+#pragma once
+
+#include <dalembert/dalembert.h>
+
+#include <functional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace dalembert::models {
+
+/// What is compared between a run and a hand derivation at one time.
+template <int D>
+struct Observation {
+  std::vector<Vec<D>> positions;  ///< of the points that the derivation speaks of
+  std::vector<double> forces;     ///< of constraint, in the derivation's own terms (a tension, a normal force)
+};
+
+/// A scene and how to read the observed quantities from a run of it.
+template <int D>
+struct Observed {
+  Scene<D> scene;
+  std::function<Observation<D>(const Sample<D>&)> observe;
+};
+
+/// A system of the catalogue: the scene, built from the public API, and the same motion and forces
+/// from a hand derivation that shares no code with the solver.
+template <int D>
+struct Model {
+  std::string name;       ///< as in the benchmark, e.g. "plane-pendulum"
+  std::string notes;      ///< its numbers in the lecture notes
+  std::string reference;  ///< what the reference is, in a few words
+  double t_end;           ///< the run compared, from t = 0 [time]
+  double length;          ///< position errors are relative to this [length]
+  double force;           ///< force errors are relative to this: its weight [force]
+  double energy;          ///< energy drift is relative to this [energy]
+  std::function<Observed<D>()> scene;
+  /// The observations at the given increasing times.
+  std::function<std::vector<Observation<D>>(std::span<const double> times)> observations;
+};
+
+using AnyModel = std::variant<Model<2>, Model<3>>;
+
+}  // namespace dalembert::models
