@@ -3,6 +3,7 @@
 #include <dalembert/core/dual.h>
 #include <dalembert/core/points.h>
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <tuple>
@@ -26,8 +27,10 @@ template <Point... P>
 struct PointsOf<std::tuple<P...>> {
   static constexpr int count = sizeof...(P);
   static constexpr int inputs = (0 + ... + P::inputs);
+  static constexpr int coordinates = (0 + ... + P::coordinates);
   static constexpr bool driven = (false || ... || P::driven);
-  static constexpr std::array<int, count> dimension{P::dimension...};
+  /// Whether the inputs simply are the coordinates.
+  static constexpr bool direct = (true && ... && (P::inputs == P::coordinates));
   /// Where the inputs of each point begin among those of all.
   static constexpr std::array<int, count> first_input = [] {
     std::array<int, count> first{};
@@ -82,7 +85,7 @@ template <class S, Point P, class Lift>
     const auto r = point.gather(at.q);
     const auto v = point.gather(at.v);
     VecOf<S, P::dimension> lifted;
-    for (int k = 0; k < P::dimension; ++k) lifted[k] = lift(r[k], v[k], first + k);
+    for (int k = 0; k < P::inputs; ++k) lifted[k] = lift(r[k], v[k], first + k);
     return lifted;
   } else if constexpr (P::driven) {
     return point.path(t).template cast<S>();
@@ -112,7 +115,7 @@ template <class S, Point P, class Lift>
   if constexpr (P::inputs > 0) {
     const auto v = point.gather(at.v);
     VecOf<S, P::dimension> lifted;
-    for (int k = 0; k < P::dimension; ++k) lifted[k] = lift(v[k], 0.0, first + k);
+    for (int k = 0; k < P::inputs; ++k) lifted[k] = lift(v[k], 0.0, first + k);
     return lifted;
   } else if constexpr (P::driven) {
     return driven_velocity<S>(point, t);
@@ -126,11 +129,11 @@ template <class S, class Element, class Lift>
 [[nodiscard]] auto positions(const Element& element, const S& t, const Instant& at, const Lift& lift,
                              int first = 0) {
   const auto& points = element.points();
-  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+  const auto each = [&]<std::size_t... I>(std::index_sequence<I...>) {
     return std::make_tuple(
         position<S>(std::get<I>(points), t, at, lift, first + PointFacts<Element>::first_input[I])...);
-  }
-  (std::make_index_sequence<PointFacts<Element>::count>{});
+  };
+  return each(std::make_index_sequence<PointFacts<Element>::count>{});
 }
 
 /// Velocities of all points of an element, inputs numbered from `first`.
@@ -138,11 +141,11 @@ template <class S, class Element, class Lift>
 [[nodiscard]] auto velocities(const Element& element, const S& t, const Instant& at, const Lift& lift,
                               int first = 0) {
   const auto& points = element.points();
-  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+  const auto each = [&]<std::size_t... I>(std::index_sequence<I...>) {
     return std::make_tuple(
         velocity<S>(std::get<I>(points), t, at, lift, first + PointFacts<Element>::first_input[I])...);
-  }
-  (std::make_index_sequence<PointFacts<Element>::count>{});
+  };
+  return each(std::make_index_sequence<PointFacts<Element>::count>{});
 }
 
 /// Calls `f` with the given arguments, with time in front if it takes time.
@@ -174,20 +177,77 @@ template <class T>
   requires std::is_base_of_v<Eigen::EigenBase<T>, T>
 inline constexpr bool is_plain<T> = std::is_base_of_v<Eigen::PlainObjectBase<T>, T>;
 
-/// The coordinates that an element reads: one for every input.
+/// Calls `f` with every point of the element that has inputs.
+template <class Element, class F>
+void for_each_moving_point(const Element& element, const F& f) {
+  const auto visit = [&f]<class P>(const P& point) {
+    if constexpr (P::inputs > 0) f(point);
+  };
+  std::apply([&visit](const auto&... point) { (visit(point), ...); }, element.points());
+}
+
+/// The entries of q that an element reads, PointFacts::coordinates of them.
 template <class Element>
 void read_coordinates(const Element& element, std::span<int> coordinates) {
-  std::size_t next = 0;
-  std::apply(
-      [&](const auto&... point) {
-        const auto read = [&](const auto& p) {
-          if constexpr (std::remove_cvref_t<decltype(p)>::inputs > 0) {
-            for (int k = 0; k < p.inputs; ++k) coordinates[next++] = p.coordinate + k;
-          }
-        };
-        (read(point), ...);
-      },
-      element.points());
+  auto next = coordinates.begin();
+  for_each_moving_point(element,
+                        [&next](const auto& point) { next = std::ranges::copy(point.reads(), next).out; });
+}
+
+/// The inputs of an element out of q, or their rates out of v.
+template <class Element>
+[[nodiscard]] Vec<PointFacts<Element>::inputs> gather_inputs(const Element& element,
+                                                             std::span<const double> x) {
+  Vec<PointFacts<Element>::inputs> inputs;
+  int next = 0;
+  for_each_moving_point(element, [&]<class P>(const P& point) {
+    inputs.template segment<P::inputs>(next) = point.gather(x);
+    next += P::inputs;
+  });
+  return inputs;
+}
+
+/// L, the constant matrix with inputs = L coordinates.
+template <class Element>
+[[nodiscard]] auto input_map(const Element& element) {
+  using Facts = PointFacts<Element>;
+  Eigen::Matrix<double, Facts::inputs, Facts::coordinates> L = decltype(L)::Zero();
+  int row = 0, column = 0;
+  for_each_moving_point(element, [&]<class P>(const P& point) {
+    if constexpr (P::inputs == P::coordinates) {
+      L.template block<P::inputs, P::coordinates>(row, column).setIdentity();
+    } else {
+      L.template block<P::inputs, P::coordinates>(row, column) = point.map();
+    }
+    row += P::inputs;
+    column += P::coordinates;
+  });
+  return L;
+}
+
+/// A gradient with respect to the inputs, as one with respect to the coordinates: L^T g.
+template <class Element, class Gradient>
+[[nodiscard]] Vec<PointFacts<Element>::coordinates> pull_back(const Element& element,
+                                                              const Gradient& gradient) {
+  if constexpr (PointFacts<Element>::direct) {
+    return gradient;
+  } else {
+    return input_map(element).transpose() * gradient;
+  }
+}
+
+/// A matrix of second derivatives likewise: L^T B L.
+template <class Element, class Block>
+[[nodiscard]] auto pull_back_block(const Element& element, const Block& block) {
+  constexpr int width = PointFacts<Element>::coordinates;
+  Eigen::Matrix<double, width, width> pulled;
+  if constexpr (PointFacts<Element>::direct) {
+    pulled = block;
+  } else {
+    const auto L = input_map(element);
+    pulled = L.transpose() * block * L;
+  }
+  return pulled;
 }
 
 }  // namespace dalembert

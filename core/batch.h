@@ -101,7 +101,7 @@ class ForceBatch {
 template <class Element>
 class Elements {
  public:
-  static constexpr int width = PointFacts<Element>::inputs;
+  static constexpr int width = PointFacts<Element>::coordinates;
 
   void add(Element element) {
     coordinates_.resize(coordinates_.size() + width);

@@ -8,10 +8,12 @@
 namespace dalembert {
 
 template <class E>
-concept ActsOnPoints = requires(const E& e) {
+concept HasPoints = requires(const E& e) {
   e.points();
-}
-&&(PointFacts<E>::inputs > 0);
+};
+
+template <class E>
+concept ActsOnPoints = HasPoints<E> &&(PointFacts<E>::inputs > 0);
 
 /// Marks a constraint type as one on velocities: `static constexpr bool velocity_level = true;`.
 template <class C>

@@ -10,99 +10,132 @@ namespace dalembert {
 
 namespace {
 
-constexpr const char* axis = "xyz";
+/// Names of each coordinate as a position, a velocity and a force: "bob.x", "bob.vx", "bob.Zx".
+struct CoordinateNames {
+  std::string position, velocity, force;
+};
 
-/// Particles that a constraint acts on, in the scene's order.
-template <int D>
-std::vector<Particle<D>> acted_on(const Layout& layout, const Layout::Constraint& constraint) {
-  std::vector<Particle<D>> result;
-  for (std::size_t p = 0; p < layout.particles.size(); ++p) {
-    const int first = layout.particles[p].coordinate;
-    const auto slots = std::span(layout.slot_coordinate)
-                           .subspan(static_cast<std::size_t>(constraint.first_slot),
-                                    static_cast<std::size_t>(constraint.width));
-    if (std::ranges::any_of(slots, [&](int c) { return c >= first && c < first + D; })) {
-      result.push_back({static_cast<int>(p), first, layout.id});
-    }
-  }
-  return result;
-}
-
-void write_preamble(std::ostream& out, const Record& record) {
-  out << "# dalembert " << DALEMBERT_VERSION << ", scene \"" << record.layout->scene << "\", stepper "
-      << record.stepper << ", tolerance " << record.tolerance << '\n'
-      << "# sign convention: M q'' = F + Z, force of constraint Z = +W^T lambda; units: the scene's own\n"
-      << "# " << record.statistics.report() << '\n';
-}
-
-template <int D>
-void write_header(std::ostream& out, const Layout& layout) {
-  out << 't';
+std::vector<CoordinateNames> coordinate_names(const Layout& layout, std::size_t n) {
+  std::vector<CoordinateNames> names(n);
   for (const auto& p : layout.particles) {
-    for (const char* quantity : {".", ".v"}) {
-      for (int k = 0; k < D; ++k) out << ',' << p.name << quantity << axis[k];
+    for (int k = 0; k < layout.dimension; ++k) {
+      const char axis = "xyz"[k];
+      names[static_cast<std::size_t>(p.coordinate + k)] = {p.name + '.' + axis, p.name + ".v" + axis,
+                                                           p.name + ".Z" + axis};
     }
   }
-  for (const auto& c : layout.constraints) {
-    for (int k = 0; k < c.rows; ++k) {
-      out << ',' << c.name << ".lambda";
-      if (c.rows > 1) out << k + 1;
-    }
-    for (const auto& p : acted_on<D>(layout, c)) {
-      for (int k = 0; k < D; ++k) {
-        out << ',' << c.name << ".on." << layout.particles[static_cast<std::size_t>(p.index)].name << ".Z"
-            << axis[k];
+  for (const auto& r : layout.rotors) {
+    names[static_cast<std::size_t>(r.coordinate)] = {r.name + ".angle", r.name + ".rate", r.name + ".torque"};
+  }
+  return names;
+}
+
+/// A column of a constraint's force: the slots that act on one coordinate.
+struct ForceColumn {
+  int coordinate;
+  std::vector<std::size_t> slots;
+};
+
+std::vector<ForceColumn> force_columns(const Layout& layout, const Layout::Constraint& c) {
+  std::vector<ForceColumn> columns;
+  for (int s = c.first_slot; s < c.first_slot + c.width; ++s) {
+    const auto slot = static_cast<std::size_t>(s);
+    const int coordinate = layout.slot_coordinate[slot];
+    auto column = std::ranges::find(columns, coordinate, &ForceColumn::coordinate);
+    if (column == columns.end()) column = columns.insert(column, {coordinate, {}});
+    column->slots.push_back(slot);
+  }
+  return columns;
+}
+
+/// Positions and velocities particle by particle, as a reader expects them: f(coordinate).
+template <class F>
+void for_each_body(const Layout& layout, const F& f) {
+  for (const auto& p : layout.particles) f(static_cast<std::size_t>(p.coordinate), layout.dimension);
+  for (const auto& r : layout.rotors) f(static_cast<std::size_t>(r.coordinate), 1);
+}
+
+class Writer {
+ public:
+  Writer(std::ostream& out, const Record& record) : out_(out), record_(record), layout_(*record.layout) {
+    for (const auto& c : layout_.constraints) forces_.push_back(force_columns(layout_, c));
+  }
+
+  void preamble() {
+    out_ << "# dalembert " << DALEMBERT_VERSION << ", scene \"" << layout_.scene << "\", stepper "
+         << record_.stepper << ", tolerance " << record_.tolerance << '\n'
+         << "# sign convention: M q'' = F + Z, force of constraint Z = +W^T lambda; units: the scene's own\n"
+         << "# " << record_.statistics.report() << '\n';
+  }
+
+  void header() {
+    const auto names = coordinate_names(layout_, record_.coordinates);
+    out_ << 't';
+    for_each_body(layout_, [&](std::size_t first, int count) {
+      const auto own = std::span(names).subspan(first, static_cast<std::size_t>(count));
+      for (const auto& name : own) out_ << ',' << name.position;
+      for (const auto& name : own) out_ << ',' << name.velocity;
+    });
+    for (std::size_t c = 0; c < layout_.constraints.size(); ++c) {
+      const auto& info = layout_.constraints[c];
+      for (int k = 0; k < info.rows; ++k) {
+        out_ << ',' << info.name << ".lambda" << (info.rows > 1 ? std::to_string(k + 1) : "");
+      }
+      for (const auto& column : forces_[c]) {
+        out_ << ',' << info.name << ".on." << names[static_cast<std::size_t>(column.coordinate)].force;
       }
     }
+    out_ << ",energy\n";
   }
-  out << ",energy\n";
-}
+
+  void line(const FlatSample& now) {
+    const auto write = [this](std::span<const double> numbers) {
+      for (const double x : numbers) out_ << ',' << x;
+    };
+    out_ << now.time;
+    for_each_body(layout_, [&](std::size_t first, int count) {
+      write(now.q.subspan(first, static_cast<std::size_t>(count)));
+      write(now.v.subspan(first, static_cast<std::size_t>(count)));
+    });
+    for (std::size_t c = 0; c < layout_.constraints.size(); ++c) {
+      const auto& info = layout_.constraints[c];
+      write(
+          now.lambda.subspan(static_cast<std::size_t>(info.first_row), static_cast<std::size_t>(info.rows)));
+      for (const auto& column : forces_[c]) {
+        double Z = 0.0;
+        for (const std::size_t slot : column.slots) Z += now.forces[slot];
+        out_ << ',' << Z;
+      }
+    }
+    out_ << ',' << now.energy << '\n';
+  }
+
+ private:
+  std::ostream& out_;
+  const Record& record_;
+  const Layout& layout_;
+  std::vector<std::vector<ForceColumn>> forces_;
+};
 
 }  // namespace
 
-template <int D>
-void Trajectory<D>::write_csv(std::ostream& out) const {
-  const Layout& layout = *record_->layout;
-  out << std::setprecision(std::numeric_limits<double>::max_digits10);
-  write_preamble(out, *record_);
-  write_header<D>(out, layout);
-  std::vector<std::vector<Particle<D>>> on;
-  for (const auto& c : layout.constraints) on.push_back(acted_on<D>(layout, c));
-  const auto write = [&out](const Vec<D>& r) {
-    for (int k = 0; k < D; ++k) out << ',' << r[k];
-  };
-  for (std::size_t i = 0; i < size(); ++i) {
-    const Sample<D> now = sample(i);
-    out << now.time();
-    for (std::size_t p = 0; p < layout.particles.size(); ++p) {
-      const Particle<D> particle{static_cast<int>(p), layout.particles[p].coordinate, layout.id};
-      write(now.position(particle));
-      write(now.velocity(particle));
-    }
-    for (std::size_t c = 0; c < layout.constraints.size(); ++c) {
-      const auto& info = layout.constraints[c];
-      for (int k = 0; k < info.rows; ++k)
-        out << ',' << now.flat().lambda[static_cast<std::size_t>(info.first_row + k)];
-      const Constraint<1> handle{static_cast<int>(c), layout.id};
-      for (const auto& particle : on[c]) write(now.constraint_force(handle, particle));
-    }
-    out << ',' << now.energy() << '\n';
-  }
+void Record::write_csv(std::ostream& out) const {
+  const auto digits = out.precision(std::numeric_limits<double>::max_digits10);
+  Writer writer(out, *this);
+  writer.preamble();
+  writer.header();
+  for (std::size_t i = 0; i < times.size(); ++i) writer.line(sample(i));
+  out.precision(digits);
 }
 
-template <int D>
-void Trajectory<D>::write_csv(const std::string& path) const {
+void Record::write_csv(const std::string& path) const {
   std::ofstream file(path);
   write_csv(file);
   file.flush();
-  if (!file)
+  if (!file) {
     throw Error("Cannot write the trajectory to \"" + path +
                 "\": check that the folder exists and is writable");
+  }
 }
-
-template void Trajectory<2>::write_csv(std::ostream&) const;
-template void Trajectory<3>::write_csv(std::ostream&) const;
-template void Trajectory<2>::write_csv(const std::string&) const;
-template void Trajectory<3>::write_csv(const std::string&) const;
 
 }  // namespace dalembert

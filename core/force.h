@@ -32,6 +32,12 @@ template <std::size_t I, class T>
   }
 }
 
+/// Adds the entries of `f` to those of F at the given places.
+template <int N>
+void scatter(const Vec<N>& f, std::span<const int> places, std::span<double> F) {
+  for (int k = 0; k < N; ++k) F[static_cast<std::size_t>(places[static_cast<std::size_t>(k)])] += f[k];
+}
+
 }  // namespace detail
 
 /// A force with a potential: `points()` and `energy([t,] r_1, ..., r_k)`, for any scalar type.
@@ -52,6 +58,7 @@ concept LawForce = ActsOnPoints<E> &&
 template <PotentialForce E>
 class PotentialBatch final : public ForceBatch {
   static constexpr int inputs = PointFacts<E>::inputs;
+  static constexpr int width = PointFacts<E>::coordinates;
   static constexpr bool takes_time =
       applicable_with_time<detail::EnergyOf<E>, detail::Probe<E>, detail::ProbePositions<E>>;
 
@@ -62,7 +69,7 @@ class PotentialBatch final : public ForceBatch {
     return std::make_unique<PotentialBatch>(*this);
   }
   [[nodiscard]] ForceShape shape() const override {
-    return {detail::kind_of<E>("Potential"), inputs, false, true};
+    return {detail::kind_of<E>("Potential"), width, false, true};
   }
   [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
   [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
@@ -72,10 +79,7 @@ class PotentialBatch final : public ForceBatch {
     for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
       const S V = potential<S>(e, at, AsInput<S>{});
       detail::require_finite(isfinite(V), i, "is not a finite number or has no finite gradient");
-      const auto coordinate = elements_.coordinates(i);
-      for (std::size_t j = 0; j < inputs; ++j) {
-        F[static_cast<std::size_t>(coordinate[j])] -= V.gradient[static_cast<int>(j)];
-      }
+      detail::scatter<width>(-pull_back(e, V.gradient), elements_.coordinates(i), F);
     });
   }
 
@@ -85,8 +89,8 @@ class PotentialBatch final : public ForceBatch {
     for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
       const S V = potential<S>(e, at, AsInput<S>{});
       detail::require_finite(V.hessian.allFinite(), i, "has no finite second derivative");
-      Eigen::Map<Eigen::Matrix<double, inputs, inputs, Eigen::RowMajor>>(stiffness.data() +
-                                                                         i * inputs * inputs) = -V.hessian;
+      using Block = Eigen::Matrix<double, width, width, Eigen::RowMajor>;
+      Eigen::Map<Block>(stiffness.data() + i * width * width) = pull_back_block(e, -V.hessian);
     });
   }
 
@@ -112,6 +116,7 @@ template <LawForce E>
 class LawBatch final : public ForceBatch {
   using Facts = PointFacts<E>;
   static constexpr int inputs = Facts::inputs;
+  static constexpr int width = Facts::coordinates;
   static constexpr bool takes_time =
       applicable_with_time<detail::ForceOf<E>, detail::Probe<E>, detail::ProbeMotion<E>>;
 
@@ -122,57 +127,61 @@ class LawBatch final : public ForceBatch {
     return std::make_unique<LawBatch>(*this);
   }
   [[nodiscard]] ForceShape shape() const override {
-    return {detail::kind_of<E>("Force"), inputs, true, false};
+    return {detail::kind_of<E>("ForceLaw"), width, true, false};
   }
   [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
   [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
 
   void add_force(const Instant& at, std::span<double> F) const override {
     for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      const auto coordinate = elements_.coordinates(i);
-      for_each_component<double>(e, at, AsNumber{}, AsNumber{}, [&](int k, double f) {
-        detail::require_finite(std::isfinite(f), i, "is not a finite number");
-        F[static_cast<std::size_t>(coordinate[static_cast<std::size_t>(k)])] += f;
-      });
+      const Vec<inputs> f = forces<double>(e, at, AsNumber{}, AsNumber{});
+      detail::require_finite(f.allFinite(), i, "is not a finite number");
+      detail::scatter<width>(pull_back(e, f), elements_.coordinates(i), F);
     });
   }
 
   void linearise(const Instant& at, std::span<double> stiffness, std::span<double> damping) const override {
     using S = Dual<2 * inputs, 1>;
-    using Block = Eigen::Map<Eigen::Matrix<double, inputs, inputs, Eigen::RowMajor>>;
+    using Block = Eigen::Matrix<double, width, width, Eigen::RowMajor>;
     for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      Block F_q(stiffness.data() + i * inputs * inputs);
-      Block F_v(damping.data() + i * inputs * inputs);
-      for_each_component<S>(e, at, AsInput<S>{}, AsInput<S>{}, [&](int k, const S& f) {
-        detail::require_finite(isfinite(f), i, "has no finite derivative");
-        F_q.row(k) = f.gradient.template head<inputs>();
-        F_v.row(k) = f.gradient.template tail<inputs>();
-      });
+      const VecOf<S, inputs> f = forces<S>(e, at, AsInput<S>{}, AsInput<S>{});
+      Eigen::Matrix<double, inputs, inputs> F_r, F_v;
+      for (int k = 0; k < inputs; ++k) {
+        detail::require_finite(isfinite(f[k]), i, "has no finite derivative");
+        F_r.row(k) = f[k].gradient.template head<inputs>();
+        F_v.row(k) = f[k].gradient.template tail<inputs>();
+      }
+      Eigen::Map<Block>(stiffness.data() + i * width * width) = pull_back_block(e, F_r);
+      Eigen::Map<Block>(damping.data() + i * width * width) = pull_back_block(e, F_v);
     });
   }
 
   [[nodiscard]] double energy(const Instant& /*at*/) const override { return 0.0; }
 
  private:
-  /// Calls `f(k, component)` for the force on each of the inputs.
-  template <class S, class LiftPosition, class LiftVelocity, class F>
-  static void for_each_component(const E& e, const Instant& at, const LiftPosition& lift_r,
-                                 const LiftVelocity& lift_v, const F& f) {
+  /// The force on each of the inputs.
+  template <class S, class LiftPosition, class LiftVelocity>
+  [[nodiscard]] static VecOf<S, inputs> forces(const E& e, const Instant& at, const LiftPosition& lift_r,
+                                               const LiftVelocity& lift_v) {
     const S t(at.t);
-    const auto forces = call<takes_time>(
-        detail::ForceOf<E>{e}, t,
-        std::tuple_cat(positions<S>(e, t, at, lift_r), velocities<S>(e, t, at, lift_v, inputs)));
-    [&]<std::size_t... I>(std::index_sequence<I...>) { (on_point<S, I>(forces, f), ...); }
-    (std::make_index_sequence<Facts::count>{});
+    const auto motion =
+        std::tuple_cat(positions<S>(e, t, at, lift_r), velocities<S>(e, t, at, lift_v, inputs));
+    const auto law = call<takes_time>(detail::ForceOf<E>{e}, t, motion);
+    VecOf<S, inputs> all;
+    const auto collect = [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (collect_on<S, I>(law, all), ...);
+    };
+    collect(std::make_index_sequence<Facts::count>{});
+    return all;
   }
-  template <class S, std::size_t I, class Forces, class F>
-  static void on_point(const Forces& forces, const F& f) {
+  template <class S, std::size_t I, class Law>
+  static void collect_on(const Law& law, VecOf<S, inputs>& all) {
     using P = std::tuple_element_t<I, PointTuple<E>>;
     if constexpr (P::inputs > 0) {
-      const auto& force = detail::force_on<I>(forces);
+      const auto& force = detail::force_on<I>(law);
       static_assert(is_plain<std::remove_cvref_t<decltype(force)>>,
                     "return plain vectors, not Eigen expressions: append .eval()");
-      for (int k = 0; k < P::dimension; ++k) f(Facts::first_input[I] + k, S(force[k]));
+      all.template segment<P::inputs>(Facts::first_input[I]) = force.template cast<S>();
     }
   }
 

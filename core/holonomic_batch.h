@@ -13,6 +13,7 @@ namespace dalembert {
 template <HolonomicConstraint C>
 class HolonomicBatch final : public ConstraintBatch {
   static constexpr int inputs = PointFacts<C>::inputs;
+  static constexpr int width = PointFacts<C>::coordinates;
   static constexpr int rows = rows_of_constraint<C>;
   static constexpr bool timed = is_timed<C>;
   static_assert(is_plain<detail::Residual<C>>,
@@ -25,7 +26,7 @@ class HolonomicBatch final : public ConstraintBatch {
     return std::make_unique<HolonomicBatch>(*this);
   }
   [[nodiscard]] ConstraintShape shape() const override {
-    return {detail::kind_of<C>("Holonomic"), rows, inputs, true, timed, detail::singular_hint_of<C>()};
+    return {detail::kind_of<C>("Holonomic"), rows, width, true, timed, detail::singular_hint_of<C>()};
   }
   [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
   [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
@@ -44,10 +45,10 @@ class HolonomicBatch final : public ConstraintBatch {
         const std::size_t row = i * rows + static_cast<std::size_t>(k);
         double psi = 0.0;
         if constexpr (timed) psi = g_k.gradient[inputs];
-        for (std::size_t j = 0; j < inputs; ++j) {
-          const double w = g_k.gradient[static_cast<int>(j)];
-          out.w[row * inputs + j] = w;
-          psi += w * at.v[static_cast<std::size_t>(coordinate[j])];
+        const Vec<width> w = pull_back(c, g_k.gradient.template head<inputs>());
+        for (std::size_t j = 0; j < width; ++j) {
+          out.w[row * width + j] = w[static_cast<int>(j)];
+          psi += w[static_cast<int>(j)] * at.v[static_cast<std::size_t>(coordinate[j])];
         }
         out.g[row] = g_k.value;
         out.psi[row] = psi;
@@ -70,25 +71,22 @@ class HolonomicBatch final : public ConstraintBatch {
   void linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
                  std::span<double> stiffness) const override {
     using S = Dual<inputs + timed, 2>;
-    using Block = Eigen::Matrix<double, inputs, inputs, Eigen::RowMajor>;
+    using Block = Eigen::Matrix<double, width, width, Eigen::RowMajor>;
     for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
       const auto g = residual<S>(c, time<S>(at.t), at, AsInput<S>{});
-      const auto coordinate = elements_.coordinates(i);
-      Eigen::Matrix<double, inputs + timed, 1> motion;
+      Vec<inputs + timed> motion;
+      motion.template head<inputs>() = gather_inputs(c, at.v);
       if constexpr (timed) motion[inputs] = 1.0;
-      for (int j = 0; j < inputs; ++j) {
-        motion[j] = at.v[static_cast<std::size_t>(coordinate[static_cast<std::size_t>(j)])];
-      }
-      Eigen::Map<Block> block(stiffness.data() + i * inputs * inputs);
-      block.setZero();
+      Eigen::Matrix<double, inputs, inputs> curvature = decltype(curvature)::Zero();
       for (int k = 0; k < rows; ++k) {
         const std::size_t row = i * rows + static_cast<std::size_t>(k);
         const S g_k = detail::row_of<S>(g, k);
         detail::require_finite(g_k.hessian.allFinite(), i, "has no finite second derivative");
-        Eigen::Map<Eigen::Matrix<double, inputs, 1>>(psi_q.data() + row * inputs) =
-            (g_k.hessian * motion).template head<inputs>();
-        block += lambda[row] * g_k.hessian.template topLeftCorner<inputs, inputs>();
+        Eigen::Map<Vec<width>>(psi_q.data() + row * width) =
+            pull_back(c, (g_k.hessian * motion).template head<inputs>());
+        curvature += lambda[row] * g_k.hessian.template topLeftCorner<inputs, inputs>();
       }
+      Eigen::Map<Block>(stiffness.data() + i * width * width) = pull_back_block(c, curvature);
     });
   }
 

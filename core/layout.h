@@ -13,6 +13,11 @@ struct Layout {
     int coordinate;  ///< first of its `dimension` entries in q and v
     double mass;
   };
+  struct Rotor {
+    std::string name;
+    int coordinate;
+    double inertia;
+  };
   struct Constraint {
     std::string kind;
     std::string name;
@@ -28,6 +33,7 @@ struct Layout {
   std::uint64_t id = 0;  ///< identity of the scene, to refuse handles of another
   int dimension = 0;
   std::vector<Particle> particles;
+  std::vector<Rotor> rotors;
   std::vector<Constraint> constraints;
   std::vector<int> slot_coordinate;  ///< the coordinate that each slot's force acts on
 };

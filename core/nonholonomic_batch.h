@@ -11,6 +11,7 @@ namespace dalembert {
 template <NonholonomicConstraint C>
 class NonholonomicBatch final : public ConstraintBatch {
   static constexpr int inputs = PointFacts<C>::inputs;
+  static constexpr int width = PointFacts<C>::coordinates;
   static constexpr int rows = rows_of_constraint<C>;
   static_assert(is_plain<detail::Residual<C>>,
                 "return a number or a plain vector, not an Eigen expression: append .eval()");
@@ -22,7 +23,7 @@ class NonholonomicBatch final : public ConstraintBatch {
     return std::make_unique<NonholonomicBatch>(*this);
   }
   [[nodiscard]] ConstraintShape shape() const override {
-    return {detail::kind_of<C>("Nonholonomic"), rows, inputs, false, is_timed<C>,
+    return {detail::kind_of<C>("Nonholonomic"), rows, width, false, is_timed<C>,
             detail::singular_hint_of<C>()};
   }
   [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
@@ -38,7 +39,7 @@ class NonholonomicBatch final : public ConstraintBatch {
         detail::require_finite(a_k.gradient.allFinite(), i, "has no finite gradient");
         const std::size_t row = i * rows + static_cast<std::size_t>(k);
         out.psi[row] = a_k.value;
-        Eigen::Map<Eigen::Matrix<double, inputs, 1>>(out.w.data() + row * inputs) = a_k.gradient;
+        Eigen::Map<Vec<width>>(out.w.data() + row * width) = pull_back(c, a_k.gradient);
       }
     });
   }
@@ -58,21 +59,21 @@ class NonholonomicBatch final : public ConstraintBatch {
   void linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
                  std::span<double> stiffness) const override {
     using S = Dual<2 * inputs, 2>;
-    using Block = Eigen::Matrix<double, inputs, inputs, Eigen::RowMajor>;
+    using Block = Eigen::Matrix<double, width, width, Eigen::RowMajor>;
     for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
       const auto a = residual<S>(c, S(at.t), at, AsInput<S>{}, AsInput<S>{}, inputs);
-      Eigen::Map<Block> block(stiffness.data() + i * inputs * inputs);
-      block.setZero();
+      Eigen::Matrix<double, inputs, inputs> turning = decltype(turning)::Zero();
       for (int k = 0; k < rows; ++k) {
         const std::size_t row = i * rows + static_cast<std::size_t>(k);
         const S a_k = detail::row_of<S>(a, k);
         detail::require_finite(a_k.gradient.allFinite() && a_k.hessian.allFinite(), i,
                                "has no finite second derivative");
-        require_linear(a_k, at, i);
-        Eigen::Map<Eigen::Matrix<double, inputs, 1>>(psi_q.data() + row * inputs) =
-            a_k.gradient.template head<inputs>();
-        block += lambda[row] * a_k.hessian.template bottomLeftCorner<inputs, inputs>();
+        require_linear(a_k, gather_inputs(c, at.v), i);
+        Eigen::Map<Vec<width>>(psi_q.data() + row * width) =
+            pull_back(c, a_k.gradient.template head<inputs>());
+        turning += lambda[row] * a_k.hessian.template bottomLeftCorner<inputs, inputs>();
       }
+      Eigen::Map<Block>(stiffness.data() + i * width * width) = pull_back_block(c, turning);
     });
   }
 
@@ -93,11 +94,8 @@ class NonholonomicBatch final : public ConstraintBatch {
 
   /// d^2 a/dv^2 vanishes for an equation linear in v; 1e-9 of the first derivative is far above the
   /// round-off of any formula that is linear after cancellation.
-  void require_linear(const Dual<2 * inputs, 2>& a, const Instant& at, std::size_t i) const {
-    double speed = 0.0;
-    for (const int k : elements_.coordinates(i)) {
-      speed = std::max(speed, std::abs(at.v[static_cast<std::size_t>(k)]));
-    }
+  static void require_linear(const Dual<2 * inputs, 2>& a, const Vec<inputs>& v, std::size_t i) {
+    const double speed = v.cwiseAbs().maxCoeff();
     const double curvature = a.hessian.template bottomRightCorner<inputs, inputs>().cwiseAbs().maxCoeff();
     const double slope = a.gradient.template tail<inputs>().cwiseAbs().maxCoeff();
     detail::require_finite(curvature * speed <= 1e-9 * slope, i,

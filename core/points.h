@@ -2,19 +2,31 @@
 
 #include <dalembert/core/vec.h>
 
+#include <array>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
 
 namespace dalembert {
 
+/// N numbers from `first` on.
+template <int N>
+[[nodiscard]] std::array<int, static_cast<std::size_t>(N)> consecutive(int first) {
+  std::array<int, static_cast<std::size_t>(N)> all{};
+  std::iota(all.begin(), all.end(), first);
+  return all;
+}
+
 /// A point that never moves; it reads no coordinates.
 template <int D>
 struct Fixed {
   static constexpr int dimension = D;
   static constexpr int inputs = 0;
+  static constexpr int coordinates = 0;
   static constexpr bool driven = false;
 
   Vec<D> position = Vec<D>::Zero();
@@ -26,6 +38,7 @@ template <int D>
 struct Particle {
   static constexpr int dimension = D;
   static constexpr int inputs = D;
+  static constexpr int coordinates = D;
   static constexpr bool driven = false;
 
   int index = -1;           ///< its number in the scene, in the order of adding
@@ -36,8 +49,29 @@ struct Particle {
   [[nodiscard]] Vec<D> gather(std::span<const double> x) const {
     return Eigen::Map<const Vec<D>>(x.data() + coordinate);
   }
+  [[nodiscard]] auto reads() const { return consecutive<D>(coordinate); }
 
   friend bool operator==(const Particle&, const Particle&) = default;
+};
+
+/// A scalar angle with its own inertia, as returned by Scene::add_rotor: the spin of a wheel, say. As
+/// a point of a constraint it gives that angle, a vector of one number, and its rate as velocity.
+struct Rotor {
+  static constexpr int dimension = 1;
+  static constexpr int inputs = 1;
+  static constexpr int coordinates = 1;
+  static constexpr bool driven = false;
+
+  int index = -1;           ///< its number among the rotors of the scene
+  int coordinate = -1;      ///< its place in q
+  std::uint64_t scene = 0;  ///< identity of the scene it belongs to
+
+  [[nodiscard]] Vec<1> gather(std::span<const double> x) const {
+    return Vec<1>(x[static_cast<std::size_t>(coordinate)]);
+  }
+  [[nodiscard]] auto reads() const { return consecutive<1>(coordinate); }
+
+  friend bool operator==(const Rotor&, const Rotor&) = default;
 };
 
 /// A point that follows a prescribed path r(t); made by `driven`. Its path is differentiated with
@@ -46,6 +80,7 @@ template <int D, class Path>
 struct Driven {
   static constexpr int dimension = D;
   static constexpr int inputs = 0;
+  static constexpr int coordinates = 0;
   static constexpr bool driven = true;
 
   Path path;
@@ -59,12 +94,14 @@ template <class Path>
 }
 
 /// Anything with a position. `inputs` is how many numbers of that position are unknowns (none or
-/// all), so that constraints differentiate with respect to those only; `driven` says that the
-/// position depends on time explicitly.
+/// all), so that equations are differentiated with respect to those only; they are a constant linear
+/// function of `coordinates` entries of q, given by `map()` unless they are those entries. `driven`
+/// says that the position depends on time explicitly.
 template <class P>
 concept Point = requires {
   { P::dimension } -> std::convertible_to<int>;
   { P::inputs } -> std::convertible_to<int>;
+  { P::coordinates } -> std::convertible_to<int>;
   { P::driven } -> std::convertible_to<bool>;
 };
 
@@ -74,6 +111,6 @@ template <Point... P>
   return {std::move(point)...};
 }
 
-static_assert(Point<Fixed<2>> && Point<Particle<3>>);
+static_assert(Point<Fixed<2>> && Point<Particle<3>> && Point<Rotor>);
 
 }  // namespace dalembert

@@ -6,7 +6,7 @@ namespace dalembert {
 
 namespace {
 
-void require_known(bool same_scene, bool exists, const char* what, const Layout& layout) {
+void require_known_handle(bool same_scene, bool exists, const char* what, const Layout& layout) {
   if (same_scene && exists) return;
   throw InvalidScene(
       std::string("This ") + what + " handle is not one of scene \"" + layout.scene + "\": " +
@@ -18,33 +18,45 @@ void require_known(bool same_scene, bool exists, const char* what, const Layout&
 
 template <int D>
 const Layout::Constraint& Sample<D>::info(int index, std::uint64_t scene) const {
-  require_known(scene == layout_->id, index >= 0 && index < static_cast<int>(layout_->constraints.size()),
-                "constraint", *layout_);
+  require_known_handle(scene == layout_->id,
+                       index >= 0 && index < static_cast<int>(layout_->constraints.size()), "constraint",
+                       *layout_);
   return layout_->constraints[static_cast<std::size_t>(index)];
 }
 
 template <int D>
-Vec<D> Sample<D>::position(Particle<D> particle) const {
-  require_known(particle.scene == layout_->id,
-                particle.index >= 0 && particle.index < static_cast<int>(layout_->particles.size()),
-                "particle", *layout_);
-  return particle.gather(flat_.q);
+void Sample<D>::require_coordinate(std::uint64_t scene, int coordinate) const {
+  require_known_handle(scene == layout_->id, coordinate >= 0 && coordinate < static_cast<int>(flat_.q.size()),
+                       "particle or rotor", *layout_);
 }
 
 template <int D>
-Vec<D> Sample<D>::velocity(Particle<D> particle) const {
-  (void)position(particle);
-  return particle.gather(flat_.v);
+double Sample<D>::angle(Rotor rotor) const {
+  require_known(rotor);
+  return rotor.gather(flat_.q)[0];
+}
+
+template <int D>
+double Sample<D>::angular_velocity(Rotor rotor) const {
+  require_known(rotor);
+  return rotor.gather(flat_.v)[0];
+}
+
+template <int D>
+double Sample<D>::force_at(const Layout::Constraint& constraint, int coordinate) const {
+  double Z = 0.0;
+  for (int slot = constraint.first_slot; slot < constraint.first_slot + constraint.width; ++slot) {
+    const auto s = static_cast<std::size_t>(slot);
+    if (layout_->slot_coordinate[s] == coordinate) Z += flat_.forces[s];
+  }
+  return Z;
 }
 
 template <int D>
 Vec<D> Sample<D>::force_of(const Layout::Constraint& constraint, Particle<D> particle) const {
-  (void)position(particle);
-  Vec<D> Z = Vec<D>::Zero();
-  for (int slot = constraint.first_slot; slot < constraint.first_slot + constraint.width; ++slot) {
-    const int component = layout_->slot_coordinate[static_cast<std::size_t>(slot)] - particle.coordinate;
-    if (component >= 0 && component < D) Z[component] += flat_.forces[static_cast<std::size_t>(slot)];
-  }
+  require_known(particle);
+  Vec<D> Z;
+  for (int k = 0; k < D; ++k) Z[k] = force_at(constraint, particle.coordinate + k);
   return Z;
 }
 

@@ -29,8 +29,20 @@ class Sample {
 
   [[nodiscard]] double time() const { return flat_.time; }
   [[nodiscard]] double energy() const { return flat_.energy; }
-  [[nodiscard]] Vec<D> position(Particle<D> particle) const;  ///< [length]
-  [[nodiscard]] Vec<D> velocity(Particle<D> particle) const;  ///< [length / time]
+
+  /// Of a particle or a point of a body [length], [length / time].
+  template <Point P>
+  [[nodiscard]] Vec<D> position(const P& point) const {
+    require_known(point);
+    return point.gather(flat_.q);
+  }
+  template <Point P>
+  [[nodiscard]] Vec<D> velocity(const P& point) const {
+    require_known(point);
+    return point.gather(flat_.v);
+  }
+  [[nodiscard]] double angle(Rotor rotor) const;             ///< [rad]
+  [[nodiscard]] double angular_velocity(Rotor rotor) const;  ///< [rad / time]
 
   /// lambda, the multiplier: a force where the constraint's gradient has unit length, as in all of
   /// the library's own; see the constraint for its direction.
@@ -50,6 +62,12 @@ class Sample {
   [[nodiscard]] Vec<D> constraint_force(Constraint<Rows> constraint, Particle<D> particle) const {
     return force_of(info(constraint.index, constraint.scene), particle);
   }
+  /// The torque that one constraint exerts on one rotor [force length].
+  template <int Rows>
+  [[nodiscard]] double constraint_torque(Constraint<Rows> constraint, Rotor rotor) const {
+    require_known(rotor);
+    return force_at(info(constraint.index, constraint.scene), rotor.coordinate);
+  }
   /// The force of all constraints together on one particle [force].
   [[nodiscard]] Vec<D> constraint_force(Particle<D> particle) const;
 
@@ -57,7 +75,17 @@ class Sample {
 
  private:
   [[nodiscard]] const Layout::Constraint& info(int index, std::uint64_t scene) const;
+  template <Point P>
+  void require_known(const P& point) const {
+    if constexpr (requires { point.particles; }) {
+      for (const auto& particle : point.particles) require_known(particle);
+    } else {
+      require_coordinate(point.scene, point.coordinate);
+    }
+  }
+  void require_coordinate(std::uint64_t scene, int coordinate) const;
   [[nodiscard]] Vec<D> force_of(const Layout::Constraint& constraint, Particle<D> particle) const;
+  [[nodiscard]] double force_at(const Layout::Constraint& constraint, int coordinate) const;
 
   const Layout* layout_;
   FlatSample flat_;

@@ -62,8 +62,29 @@ Particle<D> Scene<D>::add_particle(const ParticleState<D>& state, const std::str
   layout_.particles.push_back({own, particle.coordinate, state.mass});
   q_.insert(q_.end(), state.position.begin(), state.position.end());
   v_.insert(v_.end(), state.velocity.begin(), state.velocity.end());
+  masses_.insert(masses_.end(), D, state.mass);
   extent_.extend(state.position);
   return particle;
+}
+
+template <int D>
+Rotor Scene<D>::add_rotor(const RotorState& state, const std::string& name) {
+  const std::string own = unique_name("rotor", name, layout_.rotors.size());
+  const std::string label = "Rotor \"" + own + "\": ";
+  const auto require = [&label](bool good, const char* what, double value, const char* rule) {
+    std::ostringstream text;
+    text << label << what << " = " << value << ", must be finite" << rule;
+    if (!good) throw InvalidScene(text.str());
+  };
+  require(std::isfinite(state.inertia) && state.inertia > 0.0, "inertia", state.inertia, " and > 0");
+  require(std::isfinite(state.angle), "angle", state.angle, "");
+  require(std::isfinite(state.angular_velocity), "angular_velocity", state.angular_velocity, "");
+  const Rotor rotor{static_cast<int>(layout_.rotors.size()), static_cast<int>(q_.size()), layout_.id};
+  layout_.rotors.push_back({own, rotor.coordinate, state.inertia});
+  q_.push_back(state.angle);
+  v_.push_back(state.angular_velocity);
+  masses_.push_back(state.inertia);
+  return rotor;
 }
 
 template <int D>
@@ -76,14 +97,11 @@ void Scene<D>::add(const UniformGravity<D>& gravity) {
 }
 
 template <int D>
-void Scene<D>::require_own(const Particle<D>& particle, const std::string& label) const {
-  if (particle.scene == layout_.id && particle.index >= 0 &&
-      particle.index < static_cast<int>(layout_.particles.size())) {
-    return;
-  }
-  throw InvalidScene(label + ": a particle it acts on " +
-                     (particle.scene == 0 ? "was never added" : "belongs to another scene") +
-                     "; use the handle that add_particle of scene \"" + layout_.scene + "\" returned");
+void Scene<D>::require_own(std::uint64_t scene, int coordinate, const std::string& label) const {
+  if (scene == layout_.id && coordinate >= 0 && coordinate < static_cast<int>(q_.size())) return;
+  throw InvalidScene(label + ": a particle or rotor it acts on " +
+                     (scene == 0 ? "was never added" : "belongs to another scene") +
+                     "; use the handle that scene \"" + layout_.scene + "\" returned for it");
 }
 
 template <int D>
@@ -94,15 +112,19 @@ void Scene<D>::require_finite(const Vec<D>& fixed, const std::string& label) {
 }
 
 template <int D>
+double Scene<D>::extent() const {
+  return extent_.isEmpty() ? 0.0 : extent_.diagonal().norm();
+}
+
+template <int D>
 System Scene<D>::system() const {
-  if (layout_.particles.empty()) {
+  if (q_.empty()) {
     throw InvalidScene("Scene \"" + layout_.scene + "\" is empty: add at least one particle");
   }
-  SystemParts parts{layout_, {}, {}, {}, {}, {}, {}, extent_.diagonal().norm()};
+  SystemParts parts{layout_, masses_, std::vector<double>(q_.size(), 0.0), {}, {}, {}, {}, extent()};
   for (const auto& particle : layout_.particles) {
     for (int k = 0; k < D; ++k) {
-      parts.masses.push_back(particle.mass);
-      parts.constant_force.push_back(particle.mass * gravity_[k]);
+      parts.constant_force[static_cast<std::size_t>(particle.coordinate + k)] = particle.mass * gravity_[k];
     }
   }
   for (const auto& group : constraints_) {

@@ -25,6 +25,13 @@ struct ParticleState {
   Vec<D> velocity = Vec<D>::Zero();
 };
 
+/// A rotor as its user states it.
+struct RotorState {
+  double inertia = 0.0;           ///< about its axis, finite and > 0; there is no default
+  double angle = 0.0;             ///< [rad]
+  double angular_velocity = 0.0;  ///< [rad / time]
+};
+
 /// What the user says: particles, forces, and constraints, each as its equation. D is 2 or 3.
 ///
 /// Everything is checked as it is added; the initial state against the constraints when a run
@@ -39,6 +46,9 @@ class Scene {
 
   /// Throws InvalidScene unless mass, position and velocity are finite and the mass is positive.
   Particle<D> add_particle(const ParticleState<D>& state, const std::string& name = {});
+
+  /// Throws InvalidScene unless all is finite and the inertia positive.
+  Rotor add_rotor(const RotorState& state, const std::string& name = {});
 
   /// Gravity for every particle, added before or after it.
   void add(const UniformGravity<D>& gravity);
@@ -71,7 +81,7 @@ class Scene {
   }
 
   [[nodiscard]] const std::string& name() const { return layout_.scene; }
-  /// Initial coordinates and velocities, all particles in the order of adding.
+  /// Initial coordinates and velocities, of particles and rotors in the order of adding.
   [[nodiscard]] std::span<const double> initial_positions() const { return q_; }
   [[nodiscard]] std::span<const double> initial_velocities() const { return v_; }
 
@@ -106,19 +116,22 @@ class Scene {
   }
   template <Point P>
   void admit_point(const P& point, const std::string& label) {
-    static_assert(P::dimension == D,
+    static_assert(P::dimension == D || std::is_same_v<P, Rotor>,
                   "a point of this constraint or force has another dimension than the scene");
-    if constexpr (std::is_same_v<P, Particle<D>>) {
-      require_own(point, label);
+    if constexpr (requires { point.particles; }) {
+      for (const auto& particle : point.particles) admit_point(particle, label);
+    } else if constexpr (P::coordinates > 0) {
+      require_own(point.scene, point.coordinate, label);
     } else if constexpr (P::driven) {
       extent_.extend(Vec<D>(point.path(0.0).template cast<double>()));
-    } else if constexpr (P::inputs == 0) {
+    } else {
       require_finite(point.position, label);
       extent_.extend(point.position);
     }
   }
-  void require_own(const Particle<D>& particle, const std::string& label) const;
+  void require_own(std::uint64_t scene, int coordinate, const std::string& label) const;
   static void require_finite(const Vec<D>& fixed, const std::string& label);
+  [[nodiscard]] double extent() const;
 
   template <class Batch, int rows, class C>
   Constraint<rows> place(C constraint, const std::string& name) {
@@ -159,7 +172,7 @@ class Scene {
   }
 
   Layout layout_;
-  std::vector<double> q_, v_;
+  std::vector<double> q_, v_, masses_;
   Vec<D> gravity_ = Vec<D>::Zero();
   std::vector<ConstraintGroup> constraints_;
   std::vector<ForceGroup> forces_;

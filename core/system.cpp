@@ -90,6 +90,12 @@ void System::place_forces() {
   }
 }
 
+std::vector<double> System::coordinate_scales(double length) const {
+  std::vector<double> scales(parts_.masses.size(), length);
+  for (const auto& rotor : layout_->rotors) scales[static_cast<std::size_t>(rotor.coordinate)] = 1.0;
+  return scales;
+}
+
 bool System::rheonomic() const {
   return std::ranges::any_of(parts_.constraints, [](const auto& batch) { return batch->shape().timed; });
 }

@@ -13,7 +13,7 @@ namespace dalembert {
 /// The parts a System is made of; Scene::system() fills them in.
 struct SystemParts {
   Layout layout;                       ///< rows and slots are filled in by System
-  std::vector<double> masses;          ///< one per coordinate
+  std::vector<double> masses;          ///< one per coordinate; a rotor's inertia
   std::vector<double> constant_force;  ///< one per coordinate
   std::vector<std::unique_ptr<ConstraintBatch>> constraints;
   std::vector<std::vector<int>> constraint_numbers;  ///< per batch: the scene's number of each element
@@ -57,6 +57,8 @@ class System {
   /// Whether any constraint depends on time explicitly.
   [[nodiscard]] bool rheonomic() const;
   [[nodiscard]] std::span<const double> masses() const { return parts_.masses; }
+  /// What one unit of each coordinate means: `length` for a length, 1 for an angle.
+  [[nodiscard]] std::vector<double> coordinate_scales(double length) const;
   [[nodiscard]] double extent() const { return parts_.extent; }
   [[nodiscard]] const std::shared_ptr<const Layout>& layout() const { return layout_; }
 

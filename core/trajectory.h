@@ -26,6 +26,14 @@ struct Record {
   void append(const FlatSample& sample);
   [[nodiscard]] FlatSample sample(std::size_t i) const;
 
+  /// The whole run as comma-separated values, all digits, behind lines that start with '#' and say
+  /// what it is: scene, stepper, tolerance, versions, sign convention, statistics. Columns: t;
+  /// position and velocity of each particle, angle and rate of each rotor; multipliers of each
+  /// constraint and its force on each particle it acts on; energy.
+  void write_csv(std::ostream& out) const;
+  /// The same into a file; throws Error if it cannot be written.
+  void write_csv(const std::string& path) const;
+
   std::size_t coordinates = 0, rows = 0;  ///< n and m
 };
 
@@ -48,11 +56,21 @@ class Trajectory {
   [[nodiscard]] const Statistics& statistics() const { return record_->statistics; }
 
   /// See Sample for the meaning of these.
-  [[nodiscard]] Vec<D> position(Particle<D> particle, std::size_t i) const {
-    return sample(i).position(particle);
+  template <Point P>
+  [[nodiscard]] Vec<D> position(const P& point, std::size_t i) const {
+    return sample(i).position(point);
   }
-  [[nodiscard]] Vec<D> velocity(Particle<D> particle, std::size_t i) const {
-    return sample(i).velocity(particle);
+  template <Point P>
+  [[nodiscard]] Vec<D> velocity(const P& point, std::size_t i) const {
+    return sample(i).velocity(point);
+  }
+  [[nodiscard]] double angle(Rotor rotor, std::size_t i) const { return sample(i).angle(rotor); }
+  [[nodiscard]] double angular_velocity(Rotor rotor, std::size_t i) const {
+    return sample(i).angular_velocity(rotor);
+  }
+  template <int Rows>
+  [[nodiscard]] double constraint_torque(Constraint<Rows> constraint, Rotor rotor, std::size_t i) const {
+    return sample(i).constraint_torque(constraint, rotor);
   }
   template <int Rows>
   [[nodiscard]] Multiplier<Rows> multiplier(Constraint<Rows> constraint, std::size_t i) const {
@@ -68,13 +86,9 @@ class Trajectory {
   }
   [[nodiscard]] double energy(std::size_t i) const { return sample(i).energy(); }
 
-  /// The whole run as comma-separated values, all digits, behind lines that start with '#' and say
-  /// what it is: scene, stepper, tolerance, versions, sign convention, statistics. Columns: t;
-  /// position and velocity of each particle; multipliers of each constraint and its force on each
-  /// particle it acts on; energy.
-  void write_csv(std::ostream& out) const;
-  /// The same into a file; throws Error if it cannot be written.
-  void write_csv(const std::string& path) const;
+  /// See Record.
+  void write_csv(std::ostream& out) const { record_->write_csv(out); }
+  void write_csv(const std::string& path) const { record_->write_csv(path); }
 
  private:
   std::shared_ptr<const Record> record_;

@@ -14,7 +14,7 @@ namespace dalembert::models {
 template <int D>
 struct Observation {
   std::vector<Vec<D>> positions;  ///< of the points that the derivation speaks of
-  std::vector<double> forces;     ///< of constraint, in the derivation's own terms (a tension, a normal force)
+  std::vector<double> forces;  ///< of constraint, in the derivation's own terms (a tension, a normal force)
 };
 
 /// A scene and how to read the observed quantities from a run of it.

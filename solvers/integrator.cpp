@@ -37,7 +37,8 @@ struct Integrator::State {
         times(sample_times(o)),
         system(std::move(s)),
         start(consistent_start(system, q0, v0, o)),
-        manifold(system, start.rows),
+        lever(start.scales.lever()),
+        manifold(system, start.rows, lever),
         stepper(system, start, o),
         t(o.t_start),
         q(start.q),
@@ -71,9 +72,9 @@ struct Integrator::State {
     energy = system.kinetic_energy(v) + system.potential_energy({t, q, v});
     auto& s = record.statistics;
     s.residual_position = std::max(s.residual_position, left.size);
-    s.residual_velocity = std::max(s.residual_velocity, velocity_violation(system, equations).size);
+    s.residual_velocity = std::max(s.residual_velocity, velocity_violation(system, equations, lever).size);
     for (std::size_t i = 0; i < q.size(); ++i)
-      s.correction = std::max(s.correction, std::abs(q[i] - given[i]));
+      s.correction = std::max(s.correction, std::abs(q[i] - given[i]) * lever[i]);
   }
 
   [[nodiscard]] FlatSample sample() const { return {t, q, v, lambda, forces, energy}; }
@@ -124,6 +125,7 @@ struct Integrator::State {
   std::vector<double> times;
   System system;
   Start start;
+  std::vector<double> lever;  // see Scales
   Manifold manifold;
   IdaStepper stepper;
   long steps = 0;

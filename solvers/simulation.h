@@ -24,8 +24,16 @@ class Simulation {
   [[nodiscard]] Sample<D> sample() const { return {*integrator_.system().layout(), integrator_.sample()}; }
   [[nodiscard]] double time() const { return sample().time(); }
   [[nodiscard]] double energy() const { return sample().energy(); }
-  [[nodiscard]] Vec<D> position(Particle<D> particle) const { return sample().position(particle); }
-  [[nodiscard]] Vec<D> velocity(Particle<D> particle) const { return sample().velocity(particle); }
+  template <Point P>
+  [[nodiscard]] Vec<D> position(const P& point) const {
+    return sample().position(point);
+  }
+  template <Point P>
+  [[nodiscard]] Vec<D> velocity(const P& point) const {
+    return sample().velocity(point);
+  }
+  [[nodiscard]] double angle(Rotor rotor) const { return sample().angle(rotor); }
+  [[nodiscard]] double angular_velocity(Rotor rotor) const { return sample().angular_velocity(rotor); }
   template <int Rows>
   [[nodiscard]] Multiplier<Rows> multiplier(Constraint<Rows> constraint) const {
     return sample().multiplier(constraint);

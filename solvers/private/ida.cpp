@@ -270,8 +270,10 @@ void IdaStepper::State::weigh_multipliers() {
     double square = 0.0, mobility = 0.0;
     for (auto k = static_cast<std::size_t>(system->row_start()[row]);
          k < static_cast<std::size_t>(system->row_start()[row + 1]); ++k) {
-      square += e.w[k] * e.w[k];
-      mobility += e.w[k] * e.w[k] / system->masses()[static_cast<std::size_t>(system->w_columns()[k])];
+      const auto i = static_cast<std::size_t>(system->w_columns()[k]);
+      const double slope = e.w[k] * scales.coordinate[i] / scales.length;
+      square += slope * slope;
+      mobility += e.w[k] * e.w[k] / system->masses()[i];
     }
     impulse_row[r] = scales.speed() * std::sqrt(square) / mobility;
   }
@@ -284,8 +286,9 @@ void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
   const auto value = entries(x);
   const auto w = entries(weight);
   for (std::size_t i = 0; i < n(); ++i) {
-    w[i] = 1.0 / (tolerance * (scales.length + std::abs(value[i])));
-    w[n() + i] = 1.0 / (tolerance * (scales.speed() + std::abs(value[n() + i])));
+    const double scale = scales.coordinate[i];
+    w[i] = 1.0 / (tolerance * (scale + std::abs(value[i])));
+    w[n() + i] = 1.0 / (tolerance * (scale / scales.time + std::abs(value[n() + i])));
   }
   for (std::size_t r = 0; r < m(); ++r) {
     w[2 * n() + r] = h / (tolerance * impulse_row[r]);

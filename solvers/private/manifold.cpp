@@ -7,13 +7,15 @@ namespace dalembert {
 
 namespace {
 
-Violation largest(const System& system, std::span<const double> residual, std::span<const double> w) {
+Violation largest(const System& system, std::span<const double> residual, std::span<const double> w,
+                  std::span<const double> lever) {
   Violation worst;
   for (std::size_t r = 0; r < residual.size(); ++r) {
     double square = 0.0;
     for (auto k = static_cast<std::size_t>(system.row_start()[r]);
          k < static_cast<std::size_t>(system.row_start()[r + 1]); ++k) {
-      square += w[k] * w[k];
+      const double slope = w[k] / lever[static_cast<std::size_t>(system.w_columns()[k])];
+      square += slope * slope;
     }
     const double size = std::abs(residual[r]) / std::sqrt(square);
     if (!(size <= worst.size)) worst = {size, static_cast<int>(r)};
@@ -23,17 +25,20 @@ Violation largest(const System& system, std::span<const double> residual, std::s
 
 }  // namespace
 
-Violation position_violation(const System& system, const System::Evaluation& e) {
-  return largest(system, e.g, e.w);
+Violation position_violation(const System& system, const System::Evaluation& e,
+                             std::span<const double> lever) {
+  return largest(system, e.g, e.w, lever);
 }
 
-Violation velocity_violation(const System& system, const System::Evaluation& e) {
-  return largest(system, e.psi, e.w);
+Violation velocity_violation(const System& system, const System::Evaluation& e,
+                             std::span<const double> lever) {
+  return largest(system, e.psi, e.w, lever);
 }
 
-Manifold::Manifold(const System& system, const ActiveRows& rows)
+Manifold::Manifold(const System& system, const ActiveRows& rows, std::vector<double> lever)
     : system_(&system),
       rows_(rows),
+      lever_(std::move(lever)),
       e_(system.evaluation()),
       gamma_(static_cast<std::size_t>(system.rows())),
       kkt_(system, rows, KktMatrix::Forces::none) {
@@ -60,7 +65,7 @@ Violation Manifold::project_positions(double t, std::span<double> q, std::span<c
   constexpr int most_iterations = 100;
   constexpr int most_halvings = 30;
   evaluate({t, q, v});
-  Violation left = position_violation(*system_, e_);
+  Violation left = position_violation(*system_, e_, lever_);
   bool matrix_serves = false;
   for (int i = 0; i < most_iterations && left.size > tolerance; ++i) {
     if (!matrix_serves && !kkt_.factorise(e_.w)) break;
@@ -71,7 +76,7 @@ Violation Manifold::project_positions(double t, std::span<double> q, std::span<c
     for (int halving = 0; halving < most_halvings; ++halving, fraction *= 0.5) {
       for (std::size_t k = 0; k < q.size(); ++k) q[k] = q_before_[k] + fraction * x_[k];
       evaluate({t, q, v});
-      left = position_violation(*system_, e_);
+      left = position_violation(*system_, e_, lever_);
       if (left.size < before.size) break;
     }
     if (!(left.size < before.size)) {

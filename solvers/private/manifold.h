@@ -7,13 +7,16 @@
 namespace dalembert {
 
 /// The largest violation of the constraints at a state, and which row has it. A row's residual is
-/// divided by the length of its gradient: |g|/|G| is the distance to the constraint, |psi|/|W| a speed.
+/// divided by the length of its gradient: |g|/|G| is the distance to the constraint, |psi|/|W| a
+/// speed. `lever` turns each coordinate into a length: 1, or the scene's length for an angle.
 struct Violation {
   double size = 0.0;
   int row = -1;
 };
-[[nodiscard]] Violation position_violation(const System& system, const System::Evaluation& e);
-[[nodiscard]] Violation velocity_violation(const System& system, const System::Evaluation& e);
+[[nodiscard]] Violation position_violation(const System& system, const System::Evaluation& e,
+                                           std::span<const double> lever);
+[[nodiscard]] Violation velocity_violation(const System& system, const System::Evaluation& e,
+                                           std::span<const double> lever);
 
 /// The set of states that obey the constraints: puts a state onto it, and finds the accelerations
 /// and multipliers there.
@@ -30,7 +33,7 @@ struct Violation {
 ///   [ W   0   ] [ lambda ] = [ -gamma ].                                              (3)
 class Manifold {
  public:
-  Manifold(const System& system, const ActiveRows& rows);
+  Manifold(const System& system, const ActiveRows& rows, std::vector<double> lever);
 
   /// (1), with steps halved until they bring the state closer, until the distance is at most
   /// `tolerance` or no longer shrinks. Returns what is left. Throws EquationFault.
@@ -51,6 +54,7 @@ class Manifold {
 
   const System* system_;
   ActiveRows rows_;
+  std::vector<double> lever_;
   System::Evaluation e_;
   std::vector<double> gamma_, x_, q_before_;
   KktMatrix kkt_;

@@ -24,9 +24,19 @@ double largest_entry(std::span<const double> x) {
                          [](double m, double y) { return std::max(m, std::abs(y)); });
 }
 
-double largest_acceleration(std::span<const double> force, std::span<const double> masses) {
-  double a = 0.0;
-  for (std::size_t i = 0; i < masses.size(); ++i) a = std::max(a, std::abs(force[i]) / masses[i]);
+/// Largest |x_i| in units of each coordinate's scale; coordinates of scale 0 do not count.
+double largest_scaled(std::span<const double> x, std::span<const double> scale) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (scale[i] > 0.0) largest = std::max(largest, std::abs(x[i]) / scale[i]);
+  }
+  return largest;
+}
+
+/// F/m, as if there were no constraints.
+std::vector<double> forced_acceleration(const System& system, const System::Evaluation& e) {
+  std::vector<double> a(e.force);
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] /= system.masses()[i];
   return a;
 }
 
@@ -40,6 +50,13 @@ void require_gradients(const System& system, const System::Evaluation& e, double
          << " has no gradient: " << system.singular_hint(static_cast<int>(r)) << " (t = " << t << ')';
     throw InconsistentStart(what.str());
   }
+}
+
+/// 1 for every coordinate that is a length, 0 for an angle.
+std::vector<double> lengths_only(const System& system) {
+  auto scales = system.coordinate_scales(0.0);
+  for (double& s : scales) s = 1.0 - s;
+  return scales;
 }
 
 /// Smallest radius of curvature of the holonomic constraints, from their second derivatives at
@@ -59,7 +76,11 @@ double smallest_radius(const System& system, const Instant& at, const System::Ev
   std::ranges::fill(unit, 0.0);
   system.linearise(at, unit, without);
   double curvature = 0.0;
+  const auto length = lengths_only(system);
   for (std::size_t k = 0; k < with.stiffness.size(); ++k) {
+    const auto [row, column] = system.stiffness_pattern()[k];
+    if (length[static_cast<std::size_t>(row)] == 0.0 || length[static_cast<std::size_t>(column)] == 0.0)
+      continue;
     curvature = std::max(curvature, std::abs(with.stiffness[k] - without.stiffness[k]));
   }
   return 1.0 / curvature;
@@ -71,21 +92,24 @@ double length_scale(const System& system, const Instant& at, const System::Evalu
   if (system.extent() > 0.0) return system.extent();
   const double radius = smallest_radius(system, at, e);
   if (std::isfinite(radius)) return radius;
-  const double v = largest_entry(at.v);
-  const double a = largest_acceleration(e.force, system.masses());
+  const auto lengths = lengths_only(system);
+  const double v = largest_scaled(at.v, lengths);
+  const double a = largest_scaled(forced_acceleration(system, e), lengths);
   if (v > 0.0 && a > 0.0) return v * v / a;
   const double distance = v * duration + a * duration * duration;
   return distance > 0.0 ? distance : 1.0;  // nothing moves: any length will do
 }
 
-/// The shortest time in which the scene's speeds, forces or accelerations move it by its length.
-double time_scale(const System& system, const System::Evaluation& e, const Start& start, double length,
-                  double duration) {
-  const double v = largest_entry(start.v);
-  const double a = std::max(largest_entry(start.a), largest_acceleration(e.force, system.masses()));
+/// The shortest time in which the scene's speeds, forces or accelerations move a coordinate by its
+/// scale.
+double time_scale(const System& system, const System::Evaluation& e, const Start& start, double duration) {
+  const auto& scale = start.scales.coordinate;
+  const double v = largest_scaled(start.v, scale);
+  const double a =
+      std::max(largest_scaled(start.a, scale), largest_scaled(forced_acceleration(system, e), scale));
   double time = duration;
-  if (v > 0.0) time = std::min(time, length / v);
-  if (a > 0.0) time = std::min(time, std::sqrt(length / a));
+  if (v > 0.0) time = std::min(time, 1.0 / v);
+  if (a > 0.0) time = std::min(time, 1.0 / std::sqrt(a));
   return time;
 }
 
@@ -106,7 +130,7 @@ ActiveRows all_rows(const System& system) {
 void start_positions(const System& system, Manifold& manifold, Start& start, const System::Evaluation& e,
                      const Options& options) {
   const double L = start.scales.length;
-  const Violation given = position_violation(system, e);
+  const Violation given = position_violation(system, e, start.scales.lever());
   if (given.size > rounding_of_the_user * L && !options.assemble) {
     refuse(system, given, options.t_start, "is violated by the initial positions: distance",
            "correct the positions, or set the option assemble to have them moved");
@@ -121,16 +145,23 @@ void start_positions(const System& system, Manifold& manifold, Start& start, con
 
 void start_velocities(const System& system, const Start& start, const System::Evaluation& e,
                       const Options& options) {
-  const double forced = std::sqrt(largest_acceleration(e.force, system.masses()) * start.scales.length);
-  const double speed = std::max(largest_entry(start.v), forced);
-  const Violation given = velocity_violation(system, e);
-  if (given.size > rounding_of_the_user * speed && !options.assemble) {
+  const auto& scale = start.scales.coordinate;
+  const double forced = std::sqrt(largest_scaled(forced_acceleration(system, e), scale));
+  const double rate = std::max(largest_scaled(start.v, scale), forced);
+  const Violation given = velocity_violation(system, e, start.scales.lever());
+  if (given.size > rounding_of_the_user * rate * start.scales.length && !options.assemble) {
     refuse(system, given, options.t_start, "is violated by the initial velocities: speed",
            "correct the velocities, or set the option assemble to have them changed");
   }
 }
 
 }  // namespace
+
+std::vector<double> Scales::lever() const {
+  auto lever = coordinate;
+  for (double& s : lever) s = length / s;
+  return lever;
+}
 
 Start consistent_start(const System& system, std::span<const double> q, std::span<const double> v,
                        const Options& options) {
@@ -147,15 +178,16 @@ Start consistent_start(const System& system, std::span<const double> q, std::spa
     system.evaluate({t, q, v}, e);
     require_gradients(system, e, t);
     start.scales.length = length_scale(system, {t, q, v}, e, duration);
+    start.scales.coordinate = system.coordinate_scales(start.scales.length);
 
-    Manifold manifold(system, start.rows);
+    Manifold manifold(system, start.rows, start.scales.lever());
     start_positions(system, manifold, start, e, options);
     system.evaluate({t, start.q, start.v}, e);
     start_velocities(system, start, e, options);
     if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda)) {
       throw InconsistentStart("The constraints of this scene depend on each other at the start");
     }
-    start.scales.time = time_scale(system, manifold.equations(), start, start.scales.length, duration);
+    start.scales.time = time_scale(system, manifold.equations(), start, duration);
   } catch (const EquationFault& fault) {
     throw InconsistentStart(std::string(fault.what()) +
                             ": correct the equation, or start where it is defined");

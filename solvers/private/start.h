@@ -13,8 +13,11 @@ namespace dalembert {
 struct Scales {
   double length;
   double time;
+  std::vector<double> coordinate;  ///< of each coordinate: `length`, or 1 for an angle
 
   [[nodiscard]] double speed() const { return length / time; }
+  /// What turns each coordinate into a length: 1, or `length` for an angle.
+  [[nodiscard]] std::vector<double> lever() const;
 };
 
 /// A state that obeys the constraints at position, velocity and acceleration level.
