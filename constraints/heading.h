@@ -1,0 +1,37 @@
+#pragma once
+
+#include <dalembert/core/constraint.h>
+
+namespace dalembert {
+
+/// A point moves only along the direction from one point to another, forwards or backwards, in the
+/// plane: a knife edge or a sleigh's blade along two points of its body
+/// (`Heading{blade, rear, front}`). For a pursuer use Pursuit.
+///
+///   e = (r_to - r_from)/|r_to - r_from|,   n = e turned left
+///   a = n . v      [speed]
+///
+/// lambda is the sideways force on the point, towards n. It does no work.
+template <Point P, Point From, Point To>
+struct Heading {
+  static_assert(P::dimension == 2, "Heading is planar");
+  static constexpr std::string_view kind = "Heading";
+  static constexpr std::string_view singular = "the two points of its direction coincide";
+  static constexpr bool velocity_level = true;
+  P point;
+  From from;
+  To to;
+
+  auto points() const { return std::tie(point, from, to); }
+  auto operator()(const auto& /*r*/, const auto& r_from, const auto& r_to, const auto& v,
+                  const auto& /*v_from*/, const auto& /*v_to*/) const {
+    const auto e = (r_to - r_from).normalized().eval();
+    return e.x() * v.y() - e.y() * v.x();
+  }
+};
+template <class P, class From, class To>
+Heading(P, From, To) -> Heading<P, From, To>;
+
+static_assert(NonholonomicConstraint<Heading<Particle<2>, Particle<2>, Fixed<2>>>);
+
+}  // namespace dalembert

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <dalembert/core/constraint.h>
+
+#include <Eigen/Geometry>
+
+namespace dalembert {
+
+/// A directed axis in space and where angles about it are counted from.
+struct Axis {
+  Vec<3> point = Vec<3>::Zero();
+  Vec<3> direction = Vec<3>::UnitZ();  ///< need not have unit length
+  Vec<3> zero = Vec<3>::UnitX();       ///< angle 0; its part along the axis does not matter
+};
+
+/// Keeps a point in a plane that contains an axis and turns about it by a prescribed angle: a hoop
+/// turning about its diameter (notes, mex39), the arms of a governor (mex23).
+///
+///   n(t) = the direction of growing angle, a right angle ahead of the plane
+///   g = n(t) . (r - axis.point)      [length]
+///
+/// lambda is the force that carries the point round, positive ahead.
+template <Point P, class Angle>
+struct InPlane {
+  static_assert(P::dimension == 3, "InPlane is spatial; in the plane a turning line is a LineOffset");
+  static constexpr std::string_view kind = "InPlane";
+  P point;
+  Axis axis;
+  Angle angle;  ///< of time [rad]: `[](auto t) { return 2.0 * t; }`
+
+  auto points() const { return std::tie(point); }
+  auto operator()(const auto& t, const auto& r) const {
+    using std::cos;
+    using std::sin;
+    const Vec<3> e = axis.direction.normalized();
+    const Vec<3> ahead = e.cross(axis.zero).normalized();
+    const Vec<3> zero = ahead.cross(e);
+    const auto phi = angle(t);
+    const auto d = (r - axis.point).eval();
+    return cos(phi) * ahead.dot(d) - sin(phi) * zero.dot(d);
+  }
+  [[nodiscard]] std::string fault() const {
+    const bool good = axis.point.allFinite() && axis.direction.cross(axis.zero).norm() > 0.0;
+    return good ? "" : "axis: direction and zero must be finite and not parallel";
+  }
+};
+template <class P, class Angle>
+InPlane(P, Axis, Angle) -> InPlane<P, Angle>;
+
+}  // namespace dalembert

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <dalembert/core/constraint.h>
+
+namespace dalembert {
+
+/// Keeps a point at a fixed signed distance from the straight line through two points, in the plane:
+/// a bead on a straight wire (offset 0), the centre of a disk on a track (offset its radius). The
+/// line may be fixed, driven or carried by a body.
+///
+///   e = (r_b - r_a)/|r_b - r_a|,   n = e turned left by a right angle
+///   g = n . (r - r_a) - offset      [length]
+///
+/// The gradient with respect to r is n: lambda > 0 pushes the point away to the left of the line,
+/// and the line's two points get the opposite force between them. Singular where a meets b.
+template <Point P, Point A, Point B>
+struct LineOffset {
+  static_assert(P::dimension == 2, "LineOffset is planar; in space use OnSurface with a Plane");
+  static constexpr std::string_view kind = "LineOffset";
+  static constexpr std::string_view singular = "the two points of its line coincide";
+  P point;
+  A a;
+  B b;
+  double offset = 0.0;  ///< [length], finite
+
+  auto points() const { return std::tie(point, a, b); }
+  auto operator()(const auto& r, const auto& r_a, const auto& r_b) const {
+    const auto e = (r_b - r_a).normalized().eval();
+    const auto d = (r - r_a).eval();
+    return e.x() * d.y() - e.y() * d.x() - offset;
+  }
+  [[nodiscard]] std::string fault() const {
+    return std::isfinite(offset) ? "" : "offset = " + std::to_string(offset) + ", must be finite";
+  }
+};
+template <class P, class A, class B>
+LineOffset(P, A, B, double) -> LineOffset<P, A, B>;
+
+static_assert(HolonomicConstraint<LineOffset<Particle<2>, Fixed<2>, Fixed<2>>>);
+
+}  // namespace dalembert

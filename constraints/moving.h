@@ -1,0 +1,83 @@
+#pragma once
+
+#include <dalembert/constraints/in_plane.h>
+#include <dalembert/core/vec.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <string>
+#include <type_traits>
+
+/// Curves and surfaces carried by a prescribed motion, for OnCurve and OnSurface: whatever g(r) they
+/// are at rest, they are g(t, r) = g(r as seen from the moving frame). The multiplier keeps its
+/// meaning; its force does work.
+namespace dalembert {
+
+namespace detail {
+template <class Surface>
+[[nodiscard]] std::string fault_of(const Surface& surface) {
+  if constexpr (requires { surface.fault(); }) return surface.fault();
+  return {};
+}
+}  // namespace detail
+
+/// Shifted by path(t): `Translating{Sphere<2>{}, [](auto t) { return vec(0.1 * sin(t), 0.0); }}`.
+template <class Surface, class Path>
+struct Translating {
+  static constexpr std::string_view kind = "Translating";
+  Surface surface;
+  Path path;
+
+  auto operator()(const auto& t, const auto& r) const { return surface((r - path(t)).eval()); }
+  [[nodiscard]] std::string fault() const { return detail::fault_of(surface); }
+};
+template <class Surface, class Path>
+Translating(Surface, Path) -> Translating<Surface, Path>;
+
+/// A plane curve turned by angle(t) about a centre, counter-clockwise.
+template <class Curve, class Angle>
+struct Rotating {
+  static constexpr std::string_view kind = "Rotating";
+  Curve curve;
+  Vec<2> centre;
+  Angle angle;  ///< of time [rad]
+
+  auto operator()(const auto& t, const auto& r) const {
+    using std::cos;
+    using std::sin;
+    const auto phi = angle(t);
+    const auto c = cos(phi);
+    const auto s = sin(phi);
+    const auto d = (r - centre).eval();
+    return curve((centre + vec(c * d.x() + s * d.y(), c * d.y() - s * d.x())).eval());
+  }
+  [[nodiscard]] std::string fault() const { return detail::fault_of(curve); }
+};
+template <class Curve, class Angle>
+Rotating(Curve, Vec<2>, Angle) -> Rotating<Curve, Angle>;
+
+/// A surface turned by angle(t) about an axis, right-handed.
+template <class Surface, class Angle>
+struct RotatingAbout {
+  static constexpr std::string_view kind = "RotatingAbout";
+  Surface surface;
+  Axis axis;
+  Angle angle;  ///< of time [rad]
+
+  auto operator()(const auto& t, const auto& r) const {
+    using std::cos;
+    using std::sin;
+    const Vec<3> e = axis.direction.normalized();
+    const auto phi = angle(t);
+    const auto d = (r - axis.point).eval();
+    // Rodrigues' rotation by -phi.
+    const auto turned = (cos(phi) * d - sin(phi) * e.cross(d) + (1.0 - cos(phi)) * e.dot(d) * e).eval();
+    return surface((axis.point + turned).eval());
+  }
+  [[nodiscard]] std::string fault() const { return detail::fault_of(surface); }
+};
+template <class Surface, class Angle>
+RotatingAbout(Surface, Axis, Angle) -> RotatingAbout<Surface, Angle>;
+
+}  // namespace dalembert

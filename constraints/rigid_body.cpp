@@ -1,0 +1,127 @@
+#include "dalembert/constraints/rigid_body.h"
+
+#include <dalembert/core/errors.h>
+
+#include <Eigen/LU>
+
+#include <cmath>
+#include <sstream>
+
+namespace dalembert {
+
+namespace {
+
+void require(bool good, const std::string& name, const char* what) {
+  if (!good) throw InvalidScene("Body \"" + name + "\": " + what);
+}
+
+/// Body coordinates of the particles, in units of the arms; columns.
+template <int D>
+Eigen::Matrix<double, D, BodyPoint<D>::count> corners() {
+  Eigen::Matrix<double, D, BodyPoint<D>::count> c;
+  if constexpr (D == 2) {
+    c << -1.0, 1.0,  //
+        0.0, 0.0;
+  } else {
+    c << 1.0, 1.0, -1.0, -1.0,  //
+        1.0, -1.0, 1.0, -1.0,   //
+        1.0, -1.0, -1.0, 1.0;
+  }
+  return c;
+}
+
+Vec<2> arms_of(const BodyState<2>& s, const std::string& name) {
+  require(std::isfinite(s.inertia) && s.inertia > 0.0, name,
+          "inertia must be finite and > 0; a body without inertia is a particle");
+  return Vec<2>::Constant(std::sqrt(s.inertia / s.mass));
+}
+
+Vec<3> arms_of(const BodyState<3>& s, const std::string& name) {
+  const Vec<3> second_moments = Vec<3>::Constant(s.inertia.sum() / 2.0) - s.inertia;
+  require(
+      s.inertia.allFinite() && second_moments.minCoeff() > 0.0, name,
+      "each principal moment of inertia must be finite and less than the sum of the other two; a lamina is "
+      "three particles held by Distances, a thin rod two");
+  return (second_moments / s.mass).cwiseSqrt();
+}
+
+Eigen::Matrix2d axes_of(const BodyState<2>& s) {
+  Eigen::Matrix2d axes;
+  axes << std::cos(s.angle), -std::sin(s.angle), std::sin(s.angle), std::cos(s.angle);
+  return axes;
+}
+Eigen::Matrix3d axes_of(const BodyState<3>& s) { return s.axes; }
+
+Vec<2> turning(const BodyState<2>& s, const Vec<2>& arm) {
+  return s.angular_velocity * Vec<2>(-arm.y(), arm.x());
+}
+Vec<3> turning(const BodyState<3>& s, const Vec<3>& arm) { return s.angular_velocity.cross(arm); }
+
+}  // namespace
+
+template <int D>
+BodyPoint<D> RigidBody<D>::point(const Vec<D>& local) const {
+  BodyPoint<D> p{particles, {}};
+  if constexpr (D == 2) {
+    // centre + x e + y (e turned left), e = (p_2 - p_1)/(2 rho)
+    Eigen::Matrix2d turned_left;
+    turned_left << 0.0, -1.0, 1.0, 0.0;
+    const Eigen::Matrix2d e_part =
+        (local.x() * Eigen::Matrix2d::Identity() + local.y() * turned_left) / (2.0 * arms.x());
+    p.L << 0.5 * Eigen::Matrix2d::Identity() - e_part, 0.5 * Eigen::Matrix2d::Identity() + e_part;
+  } else {
+    // sum of w_i p_i with sum of w_i = 1; the corners are orthogonal, so w_i = (1 + corner_i . local/arms)/4.
+    const Vec<3> relative = local.cwiseQuotient(arms);
+    const auto c = corners<3>();
+    for (int i = 0; i < 4; ++i) {
+      p.L.template middleCols<3>(3 * i) = 0.25 * (1.0 + c.col(i).dot(relative)) * Eigen::Matrix3d::Identity();
+    }
+  }
+  return p;
+}
+
+template <int D>
+Eigen::Matrix<double, D, D> RigidBody<D>::axes(const Sample<D>& sample) const {
+  Eigen::Matrix<double, D, D> axes;
+  const Vec<D> origin = sample.position(centre());
+  // Points an arm away from the centre keep round-off small whatever the size of the body.
+  for (int k = 0; k < D; ++k) {
+    axes.col(k) = (sample.position(point(arms[k] * Vec<D>::Unit(k))) - origin) / arms[k];
+  }
+  return axes;
+}
+
+template <int D>
+RigidBody<D> add_body(Scene<D>& scene, const BodyState<D>& state, const std::string& name) {
+  require(std::isfinite(state.mass) && state.mass > 0.0, name, "mass must be finite and > 0");
+  const Eigen::Matrix<double, D, D> axes = axes_of(state);
+  require((axes.transpose() * axes - Eigen::Matrix<double, D, D>::Identity()).norm() < 1e-8 &&
+              axes.determinant() > 0.0,
+          name, "axes must be right-handed and of unit length");
+  RigidBody<D> body;
+  body.arms = arms_of(state, name);
+  const auto c = corners<D>();
+  for (int i = 0; i < RigidBody<D>::particle_count; ++i) {
+    const Vec<D> arm = axes * c.col(i).cwiseProduct(body.arms);
+    body.particles[static_cast<std::size_t>(i)] = scene.add_particle(
+        {state.mass / RigidBody<D>::particle_count, state.centre + arm, state.velocity + turning(state, arm)},
+        name + ".p" + std::to_string(i + 1));
+  }
+  std::size_t rod = 0;
+  for (int i = 0; i < RigidBody<D>::particle_count; ++i) {
+    for (int j = i + 1; j < RigidBody<D>::particle_count; ++j) {
+      const double length = (c.col(j) - c.col(i)).cwiseProduct(body.arms).norm();
+      body.rods[rod++] = scene.add(Distance{body.particles[static_cast<std::size_t>(i)],
+                                            body.particles[static_cast<std::size_t>(j)], length},
+                                   name + ".rod" + std::to_string(i + 1) + std::to_string(j + 1));
+    }
+  }
+  return body;
+}
+
+template struct RigidBody<2>;
+template struct RigidBody<3>;
+template RigidBody<2> add_body(Scene<2>&, const BodyState<2>&, const std::string&);
+template RigidBody<3> add_body(Scene<3>&, const BodyState<3>&, const std::string&);
+
+}  // namespace dalembert

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <dalembert/constraints/distance.h>
+#include <dalembert/core/body_point.h>
+#include <dalembert/core/sample.h>
+#include <dalembert/core/scene.h>
+
+#include <array>
+#include <string>
+
+namespace dalembert {
+
+/// A rigid body as its user states it.
+template <int D>
+struct BodyState;
+
+template <>
+struct BodyState<2> {
+  double mass = 0.0;     ///< finite and > 0
+  double inertia = 0.0;  ///< about the centre of mass [mass length^2], finite and > 0
+  Vec<2> centre = Vec<2>::Zero();
+  double angle = 0.0;  ///< of the body's first axis, counter-clockwise [rad]
+  Vec<2> velocity = Vec<2>::Zero();
+  double angular_velocity = 0.0;  ///< [rad / time]
+};
+
+template <>
+struct BodyState<3> {
+  double mass = 0.0;                ///< finite and > 0
+  Vec<3> inertia = Vec<3>::Zero();  ///< principal moments about the centre of mass [mass length^2]
+  Vec<3> centre = Vec<3>::Zero();
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: the principal axes, right-handed
+  Vec<3> velocity = Vec<3>::Zero();
+  Vec<3> angular_velocity = Vec<3>::Zero();  ///< components along the axes of space [rad / time]
+};
+
+/// A rigid body: an equimomental set of particles held by Distances (notes, mln36), with exactly the
+/// body's mass, centre of mass and inertia. Any point fixed in the body is a constant linear map of
+/// its particles, to be used in constraints and forces like any other point. No rotation parameters,
+/// no singular attitudes, and the mass matrix stays diagonal.
+///
+/// In the plane, two particles of half the mass at centre -+ rho e, rho^2 = inertia/mass, e the
+/// body's first axis. In space, four of a quarter each at (a, b, c), (a, -b, -c), (-a, b, -c),
+/// (-a, -b, c) along the principal axes, m a^2 = (I_2 + I_3 - I_1)/2 and so on.
+template <int D>
+struct RigidBody {
+  static constexpr int particle_count = BodyPoint<D>::count;
+  static constexpr int rod_count = D == 2 ? 1 : 6;
+
+  std::array<Particle<D>, static_cast<std::size_t>(particle_count)> particles;
+  std::array<Constraint<1>, static_cast<std::size_t>(rod_count)> rods;
+  Vec<D> arms;  ///< (rho, rho) or (a, b, c): where the particles sit along the body's axes
+
+  /// The point at coordinates `local` from the centre of mass along the body's axes.
+  [[nodiscard]] BodyPoint<D> point(const Vec<D>& local) const;
+  [[nodiscard]] BodyPoint<D> centre() const { return point(Vec<D>::Zero()); }
+
+  /// Columns: the body's axes. In the plane the first is (cos angle, sin angle).
+  [[nodiscard]] Eigen::Matrix<double, D, D> axes(const Sample<D>& sample) const;
+};
+
+/// Adds a rigid body to a scene; its particles and rods are named after it. Throws InvalidScene if
+/// mass or inertia is not that of a body with extent in every direction (a thin rod in space is two
+/// particles and a Distance; a lamina three).
+template <int D>
+RigidBody<D> add_body(Scene<D>& scene, const BodyState<D>& state, const std::string& name);
+
+extern template struct RigidBody<2>;
+extern template struct RigidBody<3>;
+
+}  // namespace dalembert
