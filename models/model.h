@@ -14,7 +14,7 @@ namespace dalembert::models {
 template <int D>
 struct Observation {
   std::vector<Vec<D>> positions;  ///< of the points that the derivation speaks of
-  std::vector<double> forces;     ///< of constraint, in the derivation's own terms (a tension, a normal force)
+  std::vector<double> forces;  ///< of constraint, in the derivation's own terms (a tension, a normal force)
 };
 
 /// A scene and how to read the observed quantities from a run of it.
@@ -41,5 +41,14 @@ struct Model {
 };
 
 using AnyModel = std::variant<Model<2>, Model<3>>;
+
+/// The observations of a system whose reference is a closed form, so that no time needs the one before.
+template <int D, class System>
+[[nodiscard]] std::vector<Observation<D>> at_each(const System& system, std::span<const double> times) {
+  std::vector<Observation<D>> observations;
+  observations.reserve(times.size());
+  for (const double t : times) observations.push_back(system.reference(t));
+  return observations;
+}
 
 }  // namespace dalembert::models
