@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iomanip>
 #include <limits>
 #include <ostream>
 
@@ -28,6 +27,14 @@ std::vector<Particle<D>> acted_on(const Layout& layout, const Layout::Constraint
   return result;
 }
 
+/// A column's name, in quotes where it needs them (RFC 4180).
+std::string column(const std::string& name) {
+  if (name.find_first_of(",\"\n\r") == std::string::npos) return name;
+  std::string quoted = "\"";
+  for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
 void write_preamble(std::ostream& out, const Record& record) {
   out << "# dalembert " << DALEMBERT_VERSION << ", scene \"" << record.layout->scene << "\", stepper "
       << record.stepper << ", tolerance " << record.tolerance << '\n'
@@ -40,18 +47,18 @@ void write_header(std::ostream& out, const Layout& layout) {
   out << 't';
   for (const auto& p : layout.particles) {
     for (const char* quantity : {".", ".v"}) {
-      for (int k = 0; k < D; ++k) out << ',' << p.name << quantity << axis[k];
+      for (int k = 0; k < D; ++k) out << ',' << column(p.name + quantity + axis[k]);
     }
   }
   for (const auto& c : layout.constraints) {
     for (int k = 0; k < c.rows; ++k) {
-      out << ',' << c.name << ".lambda";
-      if (c.rows > 1) out << k + 1;
+      out << ',' << column(c.name + ".lambda" + (c.rows > 1 ? std::to_string(k + 1) : ""));
     }
     for (const auto& p : acted_on<D>(layout, c)) {
       for (int k = 0; k < D; ++k) {
-        out << ',' << c.name << ".on." << layout.particles[static_cast<std::size_t>(p.index)].name << ".Z"
-            << axis[k];
+        out << ','
+            << column(c.name + ".on." + layout.particles[static_cast<std::size_t>(p.index)].name + ".Z" +
+                      axis[k]);
       }
     }
   }
@@ -63,8 +70,8 @@ void write_header(std::ostream& out, const Layout& layout) {
 template <int D>
 void Trajectory<D>::write_csv(std::ostream& out) const {
   const Layout& layout = *record_->layout;
-  out << std::setprecision(std::numeric_limits<double>::max_digits10);
   write_preamble(out, *record_);
+  const auto digits = out.precision(std::numeric_limits<double>::max_digits10);
   write_header<D>(out, layout);
   std::vector<std::vector<Particle<D>>> on;
   for (const auto& c : layout.constraints) on.push_back(acted_on<D>(layout, c));
@@ -88,6 +95,7 @@ void Trajectory<D>::write_csv(std::ostream& out) const {
     }
     out << ',' << now.energy() << '\n';
   }
+  out.precision(digits);
 }
 
 template <int D>
