@@ -24,6 +24,7 @@ struct Record {
   /// Makes room, so that `append` allocates nothing for this many samples.
   void reserve(std::size_t samples, const FlatSample& like);
   void append(const FlatSample& sample);
+  void clear();
   [[nodiscard]] FlatSample sample(std::size_t i) const;
 
   std::size_t coordinates = 0, rows = 0;  ///< n and m
