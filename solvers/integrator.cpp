@@ -125,8 +125,8 @@ struct Integrator::State {
   /// Runs `f`; whatever stops it becomes an IntegrationFailure with the samples so far.
   template <class F>
   void guarded(const F& f) {
-    const Stopwatch stopwatch(record.statistics.run_time);
     try {
+      const Stopwatch stopwatch(record.statistics.run_time);
       f();
     } catch (const StepFailure& failure) {
       fail(failure.what, failure.time);
@@ -136,11 +136,12 @@ struct Integrator::State {
   }
 
   [[noreturn]] void fail(const std::string& why, double time) {
-    record.statistics = statistics();
+    auto kept = std::make_shared<Record>(record);
+    kept->statistics = statistics();
     std::ostringstream what;
     what.precision(10);
     what << "Scene \"" << record.layout->scene << "\" stopped at t = " << time << ": " << why;
-    throw IntegrationFailure(what.str(), time, std::make_shared<const Record>(record));
+    throw IntegrationFailure(what.str(), time, std::move(kept));
   }
 
   [[nodiscard]] Statistics statistics() const {
@@ -216,6 +217,7 @@ void Integrator::run(const std::function<void(const FlatSample&)>& observe) {
 
 std::shared_ptr<const Record> Integrator::run() {
   State& s = *state_;
+  s.record.clear();
   s.record.reserve(s.times.size(), s.sample());
   run([&s](const FlatSample& sample) { s.record.append(sample); });
   auto record = std::make_shared<Record>(s.record);
