@@ -115,7 +115,8 @@ class Scene {
     if constexpr (std::is_same_v<P, Particle<D>>) {
       require_own(point, label);
     } else if constexpr (P::driven) {
-      extent.extend(Vec<D>(point.path(0.0).template cast<double>()));
+      const Vec<D> r = point.path(0.0).template cast<double>();
+      if (r.allFinite()) extent.extend(r);  // a path may begin later than t = 0
     } else if constexpr (P::inputs == 0) {
       require_finite(point.position, label);
       extent.extend(point.position);
