@@ -22,7 +22,7 @@ struct Options {
   long max_steps = 10'000'000;  ///< give up after so many steps
 
   /// False: an initial state that violates a constraint is an error. True: it is moved onto the
-  /// constraints by the least mass-weighted change.
+  /// constraints, in Newton steps of which each is the least mass-weighted one.
   bool assemble = false;
 };
 
