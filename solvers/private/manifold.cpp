@@ -36,7 +36,7 @@ Manifold::Manifold(const System& system, const ActiveRows& rows)
       rows_(rows),
       e_(system.evaluation()),
       gamma_(static_cast<std::size_t>(system.rows())),
-      kkt_(system, rows, KktMatrix::Forces::none) {
+      kkt_(system, rows) {
   x_.resize(static_cast<std::size_t>(kkt_.size()));
   q_before_.resize(static_cast<std::size_t>(system.coordinates()));
 }

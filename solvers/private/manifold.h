@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/solvers/private/kkt.h>
+#include <dalembert/solvers/private/saddle.h>
 
 #include <vector>
 
@@ -53,7 +53,7 @@ class Manifold {
   ActiveRows rows_;
   System::Evaluation e_;
   std::vector<double> gamma_, x_, q_before_;
-  KktMatrix kkt_;
+  SaddleMatrix kkt_;
   long evaluations_ = 0;
 };
 

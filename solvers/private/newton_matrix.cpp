@@ -19,7 +19,7 @@ NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows)
       linear_(system.linearisation()),
       lower_(at_.w.size()),
       k1_(system, rows, KktMatrix::Forces::linearised),
-      k2_(system, holonomic_only(rows), KktMatrix::Forces::none),
+      k2_(system, holonomic_only(rows)),
       x1_(static_cast<std::size_t>(k1_.size())),
       x2_(static_cast<std::size_t>(k2_.size())),
       p_(static_cast<std::size_t>(system.coordinates())) {}

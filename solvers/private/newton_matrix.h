@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/solvers/private/kkt.h>
+#include <dalembert/solvers/private/saddle.h>
 
 #include <vector>
 
@@ -54,7 +54,8 @@ class NewtonMatrix {
   System::Evaluation at_;
   System::Linearisation linear_;
   std::vector<double> lower_;
-  KktMatrix k1_, k2_;
+  KktMatrix k1_;
+  SaddleMatrix k2_;
   std::vector<double> x1_, x2_, p_;
 };
 
