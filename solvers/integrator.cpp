@@ -1,6 +1,7 @@
 #include "dalembert/solvers/integrator.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/private/erk.h>
 #include <dalembert/solvers/private/ida.h>
 #include <dalembert/solvers/private/manifold.h>
 #include <dalembert/solvers/private/start.h>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <sstream>
+#include <variant>
 
 namespace dalembert {
 
@@ -29,6 +31,15 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+using AnyStepper = std::variant<IdaStepper, ErkStepper>;
+
+AnyStepper make_stepper(const System& system, const Start& start, const Options& options) {
+  if (options.stepper == Stepper::erk) {
+    return AnyStepper(std::in_place_type<ErkStepper>, system, start, options);
+  }
+  return AnyStepper(std::in_place_type<IdaStepper>, system, start, options);
+}
+
 }  // namespace
 
 struct Integrator::State {
@@ -38,7 +49,7 @@ struct Integrator::State {
         system(std::move(s)),
         start(consistent_start(system, q0, v0, o)),
         manifold(system, start.rows),
-        stepper(system, start, o),
+        stepper(make_stepper(system, start, o)),
         t(o.t_start),
         q(start.q),
         v(start.v),
@@ -47,7 +58,7 @@ struct Integrator::State {
         forces(system.layout()->slot_coordinate.size()),
         given(q.size()) {
     record.layout = system.layout();
-    record.stepper = "ida";
+    record.stepper = name(o.stepper);
     record.tolerance = o.tolerance;
     recover();
   }
@@ -55,8 +66,12 @@ struct Integrator::State {
   /// The state at a time that the stepper has passed, put onto the constraints, with its forces.
   void visit(double time) {
     t = time;
-    stepper.interpolate(t, q, v);
+    std::visit([this](auto& s) { s.interpolate(t, q, v); }, stepper);
     recover();
+  }
+
+  [[nodiscard]] double stepper_time() const {
+    return std::visit([](const auto& s) { return s.time(); }, stepper);
   }
 
   void recover() {
@@ -82,13 +97,13 @@ struct Integrator::State {
     if (++steps > options.max_steps) {
       throw StepFailure{"max_steps = " + std::to_string(options.max_steps) +
                             " is used up; raise it, or ask for a looser tolerance",
-                        stepper.time()};
+                        stepper_time()};
     }
-    stepper.step();
+    std::visit([](auto& s) { s.step(); }, stepper);
   }
 
   void step_past(double time) {
-    while (stepper.time() < time) step_once();
+    while (stepper_time() < time) step_once();
   }
 
   /// Runs `f`; whatever stops it becomes an IntegrationFailure with the samples so far.
@@ -114,7 +129,7 @@ struct Integrator::State {
 
   [[nodiscard]] Statistics statistics() const {
     Statistics s = record.statistics;
-    stepper.count(s);
+    std::visit([&s](const auto& stepping) { stepping.count(s); }, stepper);
     s.evaluations += manifold.evaluations();
     s.factorisations += manifold.factorisations();
     return s;
@@ -125,7 +140,7 @@ struct Integrator::State {
   System system;
   Start start;
   Manifold manifold;
-  IdaStepper stepper;
+  AnyStepper stepper;
   long steps = 0;
 
   // The current instant.
@@ -150,9 +165,9 @@ Statistics Integrator::statistics() const { return state_->statistics(); }
 void Integrator::step() {
   State& s = *state_;
   s.guarded([&s] {
-    if (s.stepper.time() >= s.options.t_end) throw StepFailure{"t_end is reached; choose a later one", s.t};
+    if (s.stepper_time() >= s.options.t_end) throw StepFailure{"t_end is reached; choose a later one", s.t};
     s.step_once();
-    s.visit(s.stepper.time());
+    s.visit(s.stepper_time());
   });
 }
 

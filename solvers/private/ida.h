@@ -3,17 +3,12 @@
 #include <dalembert/core/statistics.h>
 #include <dalembert/core/system.h>
 #include <dalembert/solvers/private/start.h>
+#include <dalembert/solvers/private/step_failure.h>
 
 #include <memory>
 #include <span>
 
 namespace dalembert {
-
-/// Thrown when a step cannot be taken; the integrator adds the trajectory so far.
-struct StepFailure {
-  std::string what;
-  double time;
-};
 
 /// Steps the stabilised index-2 equations (see NewtonMatrix) by SUNDIALS' IDA: variable-order,
 /// variable-step BDF.
