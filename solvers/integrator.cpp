@@ -93,17 +93,17 @@ struct Integrator::State {
 
   [[nodiscard]] FlatSample sample() const { return {t, q, v, lambda, forces, energy}; }
 
-  void step_once() {
+  void step_once(double wanted) {
     if (++steps > options.max_steps) {
       throw StepFailure{"max_steps = " + std::to_string(options.max_steps) +
                             " is used up; raise it, or ask for a looser tolerance",
                         stepper_time()};
     }
-    std::visit([](auto& s) { s.step(); }, stepper);
+    std::visit([wanted](auto& s) { s.step(wanted); }, stepper);
   }
 
   void step_past(double time) {
-    while (stepper_time() < time) step_once();
+    while (stepper_time() < time) step_once(time);
   }
 
   /// Runs `f`; whatever stops it becomes an IntegrationFailure with the samples so far.
@@ -166,7 +166,7 @@ void Integrator::step() {
   State& s = *state_;
   s.guarded([&s] {
     if (s.stepper_time() >= s.options.t_end) throw StepFailure{"t_end is reached; choose a later one", s.t};
-    s.step_once();
+    s.step_once(s.options.t_end);
     s.visit(s.stepper_time());
   });
 }

@@ -62,13 +62,14 @@ struct ErkStepper::State {
     return {std::span(x).first(n), std::span(x).subspan(n)};
   }
   static void require(bool regular);
-  void run_stages(const Node& from, double step, std::size_t last);
-  void finish(const Node& from, double step, Node& to) const;
-  [[nodiscard]] double error(const Node& to, double step);
+  void run_stages(const Node& start, double step, std::size_t last);
+  void finish(const Node& start, double step, Node& end) const;
+  [[nodiscard]] double error(const Node& end, double step);
   [[nodiscard]] double attempt(double step);
   void watch_stability(double step);
   [[nodiscard]] double shorter(double step, double factor) const;
-  [[nodiscard]] bool interpolate(double t, std::span<double> q, std::span<double> v) const;
+  [[nodiscard]] double step_towards(double wanted) const;
+  void find_middle();
 
   std::size_t n;
   Scales scales;
@@ -76,8 +77,10 @@ struct ErkStepper::State {
   Manifold manifold;
   std::vector<Combination<stages>> a = rows_of_table();
   Combination<stages> b{pair.b}, d{pair.d}, last_difference{difference_of_last_rows()};
-  std::array<Node, 3> nodes;  // the last three instants, the current one last
-  Node next;                  // where a step goes until it is accepted
+  Node from, to;  // the last step; before the first, both are the start
+  Node middle;    // of that step, if `has_middle`
+  bool has_middle = false;
+  Node next;  // where a step goes until it is accepted
   std::array<std::vector<double>, stages> stage;
   std::array<const double*, stages> k{};
   std::vector<double> stage_q;
@@ -96,7 +99,7 @@ ErkStepper::State::State(const System& system, const Start& start, const Options
       // A third of the step that an error constant of 1 allows.
       h(std::min(0.3 * std::pow(options.tolerance, 1.0 / pair.order) * start.scales.time,
                  options.t_end - options.t_start)) {
-  for (Node* node : {&nodes[0], &nodes[1], &nodes[2], &next}) {
+  for (Node* node : {&from, &to, &middle, &next}) {
     node->t = options.t_start;
     node->q = start.q;
     node->va = start.v;
@@ -117,24 +120,24 @@ void ErkStepper::State::require(bool regular) {
 }
 
 /// Stages 2 to `last`: a stage's velocity is written where its derivative is kept.
-void ErkStepper::State::run_stages(const Node& from, double step, std::size_t last) {
-  k[0] = from.va.data();
+void ErkStepper::State::run_stages(const Node& start, double step, std::size_t last) {
+  k[0] = start.va.data();
   for (std::size_t i = 1; i <= last; ++i) {
-    a[i].apply(step, k, 0, from.q.data(), stage_q.data(), n);
-    a[i].apply(step, k, n, from.va.data(), stage[i].data(), n);
+    a[i].apply(step, k, 0, start.q.data(), stage_q.data(), n);
+    a[i].apply(step, k, n, start.va.data(), stage[i].data(), n);
     const auto [v, v_dot] = halves(stage[i]);
-    require(manifold.accelerate({from.t + pair.c[i] * step, stage_q, v}, v_dot));
+    require(manifold.accelerate({start.t + pair.c[i] * step, stage_q, v}, v_dot));
   }
 }
 
-void ErkStepper::State::finish(const Node& from, double step, Node& to) const {
-  to.t = from.t + step;
-  b.apply(step, k, 0, from.q.data(), to.q.data(), n);
-  b.apply(step, k, n, from.va.data(), to.va.data(), n);
+void ErkStepper::State::finish(const Node& start, double step, Node& end) const {
+  end.t = start.t + step;
+  b.apply(step, k, 0, start.q.data(), end.q.data(), n);
+  b.apply(step, k, n, start.va.data(), end.va.data(), n);
 }
 
 /// Root mean square of the estimated error over what the tolerance allows.
-double ErkStepper::State::error(const Node& to, double step) {
+double ErkStepper::State::error(const Node& end, double step) {
   const auto squares = [&](std::size_t offset, std::span<const double> x, double unit) {
     d.apply(step, k, offset, nullptr, stage_q.data(), n);
     double sum = 0.0;
@@ -144,17 +147,17 @@ double ErkStepper::State::error(const Node& to, double step) {
     }
     return sum;
   };
-  const double sum = squares(0, to.q, scales.length) + squares(n, std::span(to.va).first(n), scales.speed());
+  const double sum =
+      squares(0, end.q, scales.length) + squares(n, std::span(end.va).first(n), scales.speed());
   return std::sqrt(sum / (2.0 * static_cast<double>(n))) / tolerance;
 }
 
 /// Tries a step into `next`. Returns its error over the tolerance; infinite, with the reason in
 /// `fault`, if the equations cannot be evaluated on its way.
 double ErkStepper::State::attempt(double step) {
-  const Node& from = nodes.back();
   try {
-    run_stages(from, step, stages - 1);
-    finish(from, step, next);
+    run_stages(to, step, stages - 1);
+    finish(to, step, next);
     const double e = error(next, step);
     if (e <= 1.0) {
       if (steps % stability_check_interval == 0) watch_stability(step);
@@ -187,28 +190,34 @@ void ErkStepper::State::watch_stability(double step) {
 }
 
 double ErkStepper::State::shorter(double step, double factor) const {
-  const double t = nodes.back().t;
-  const double shortest = 16.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), scales.time);
+  const double shortest =
+      16.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(to.t), scales.time);
   if (step * factor > shortest) return step * factor;
   throw StepFailure{fault.empty() ? "the error tolerance cannot be met with any step that double precision "
                                     "resolves; ask for a looser tolerance, or look for a discontinuous or "
                                     "very stiff force"
                                   : fault,
-                    t};
+                    to.t};
 }
 
-void ErkStepper::step() {
+/// The step to try: h, or an equal part of the way to where output is wanted or the run ends, unless
+/// several outputs fall into one step.
+double ErkStepper::State::step_towards(double wanted) const {
+  constexpr double stretch = 0.05;  // what `safety` leaves room for
+  const double gap = std::min(wanted, t_end) - to.t;
+  if (gap < 0.5 * h && wanted < t_end) return std::min(h, t_end - to.t);
+  return gap / std::max(1.0, std::ceil(gap / h - stretch));
+}
+
+void ErkStepper::step(double wanted) {
   State& s = *state_;
   s.fault.clear();
   double growth = most_growth;
   for (;;) {
-    const double left = s.t_end - s.nodes.back().t;
-    const bool last = left <= s.h * (1.0 + 1e-3);  // no sliver of a step at the end
-    const double step = last ? left : s.h;
+    const double step = s.step_towards(wanted);
     const double error = s.attempt(step);
     const double factor = std::isfinite(error) ? safety * std::pow(error, -1.0 / pair.order) : after_fault;
     if (error <= 1.0) {
-      if (last) s.next.t = s.t_end;
       s.h = step * std::min(factor, growth);
       break;
     }
@@ -216,47 +225,44 @@ void ErkStepper::step() {
     growth = 1.0;
     s.h = s.shorter(step, std::max(factor, most_shrinking));
   }
+  // Round-off in the sum must not let the last part of the way fall short of its goal.
+  const double goal = std::min(wanted, s.t_end);
+  if (std::abs(s.next.t - goal) <= 1e-14 * std::max(std::abs(goal), s.scales.time)) s.next.t = goal;
   ++s.steps;
-  std::swap(s.nodes[0], s.nodes[1]);
-  std::swap(s.nodes[1], s.nodes[2]);
-  std::swap(s.nodes[2], s.next);
+  s.has_middle = false;
+  std::swap(s.from, s.to);
+  std::swap(s.to, s.next);
 }
 
-double ErkStepper::time() const { return state_->nodes.back().t; }
+double ErkStepper::time() const { return state_->to.t; }
 
-/// False if the polynomial is not as good as the tolerance.
-bool ErkStepper::State::interpolate(double t, std::span<double> q, std::span<double> v) const {
-  if (!(nodes[0].t < nodes[1].t && nodes[1].t < nodes[2].t)) return false;
-  const Hermite9 polynomial({nodes[0].t, nodes[1].t, nodes[2].t}, t);
-  const auto at = [&](std::size_t i) {
-    return polynomial({nodes[0].q[i], nodes[1].q[i], nodes[2].q[i]},
-                      {nodes[0].va[i], nodes[1].va[i], nodes[2].va[i]},
-                      {nodes[0].va[n + i], nodes[1].va[n + i], nodes[2].va[n + i]});
-  };
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto x = at(i);
-    q[i] = x.value;
-    v[i] = x.derivative;
-    if (!(std::abs(x.last_value) <= tolerance * (scales.length + std::abs(x.value)) &&
-          std::abs(x.last_derivative) <= tolerance * (scales.speed() + std::abs(x.derivative)))) {
-      return false;
-    }
-  }
-  return true;
+/// Half a step of the method itself from where the last step began.
+void ErkStepper::State::find_middle() {
+  if (has_middle) return;
+  const double half = 0.5 * (to.t - from.t);
+  run_stages(from, half, last_stage_of_step);
+  finish(from, half, middle);
+  const auto [v, v_dot] = halves(middle.va);
+  require(manifold.accelerate({middle.t, middle.q, v}, v_dot));
+  has_middle = true;
 }
 
 void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v) {
   State& s = *state_;
-  const auto copy = [&](const State::Node& node) {
-    std::ranges::copy(node.q, q.begin());
-    std::copy_n(node.va.begin(), s.n, v.begin());
-  };
-  if (t == s.nodes[2].t) return copy(s.nodes[2]);
-  if (s.interpolate(t, q, v)) return;
-  const State::Node& from = s.nodes[1];
-  s.run_stages(from, t - from.t, last_stage_of_step);
-  s.finish(from, t - from.t, s.next);
-  copy(s.next);
+  if (t == s.to.t) {
+    std::ranges::copy(s.to.q, q.begin());
+    std::copy_n(s.to.va.begin(), s.n, v.begin());
+    return;
+  }
+  s.find_middle();
+  const Hermite<3> polynomial({s.from.t, s.middle.t, s.to.t}, t);
+  for (std::size_t i = 0; i < s.n; ++i) {
+    const auto x =
+        polynomial({s.from.q[i], s.middle.q[i], s.to.q[i]}, {s.from.va[i], s.middle.va[i], s.to.va[i]},
+                   {s.from.va[s.n + i], s.middle.va[s.n + i], s.to.va[s.n + i]});
+    q[i] = x.value;
+    v[i] = x.derivative;
+  }
 }
 
 void ErkStepper::count(Statistics& statistics) const {

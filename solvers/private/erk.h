@@ -21,21 +21,21 @@ namespace dalembert {
 /// drifts. No Jacobian, no nonlinear solve: for scenes that are not stiff a small part of the cost
 /// of IdaStepper.
 ///
-/// Between steps the polynomial of degree 8 through q, q', q'' at the last three instants serves;
-/// its last term estimates its error, and where that exceeds the tolerance (and in the first step)
-/// a step of the method itself goes to the very time asked for.
+/// Steps are cut so that they end where output is wanted. Where several outputs fall into one step,
+/// half a step more gives its middle, and the polynomial of degree 8 through q, q', q'' at both
+/// ends and the middle serves for all of them; its error has the order 9 of the step's own.
 ///
 /// Why not ARKODE: on scenes of a few coordinates its own work per stage, 0.2 us, is more than
-/// twice that of the equations of motion here, and its Hermite interpolation (order 5) is less accurate
-/// than the steps.
+/// twice that of the equations of motion here, and its Hermite interpolation (order 5) is less
+/// accurate than the steps.
 class ErkStepper {
  public:
   /// The system must outlive the stepper.
   ErkStepper(const System& system, const Start& start, const Options& options);
   ~ErkStepper();
 
-  /// One accepted step, not beyond t_end. Throws StepFailure.
-  void step();
+  /// One accepted step, not beyond t_end; `wanted` is the next time of output. Throws StepFailure.
+  void step(double wanted);
   [[nodiscard]] double time() const;
   /// The state at a time inside the last step (or at the start, before the first). Throws
   /// EquationFault.

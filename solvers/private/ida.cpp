@@ -315,7 +315,7 @@ std::string IdaStepper::State::explain(int code) const {
   }
 }
 
-void IdaStepper::step() {
+void IdaStepper::step(double /*wanted*/) {
   State& s = *state_;
   s.fault.clear();
   const int code = IDASolve(s.ida.get(), s.t_end, &s.t, s.y.get(), s.yp.get(), IDA_ONE_STEP);
