@@ -117,6 +117,11 @@ std::size_t SparseLdl::fill() const { return state_->l_row.size(); }
 
 bool SparseLdl::factorise() {
   State& s = *state_;
+  if (s.size == 1) {  // a lone rod or surface: LDL would spend ten times as long on being called
+    s.pivot[0] = s.value[0];
+    s.smallest_pivot = s.value[0] > 0.0 ? 1.0 : 0.0;
+    return s.value[0] > 0.0;
+  }
   s.smallest_pivot = 0.0;
   const int factored =
       ldl_numeric(s.size, s.column_start.data(), s.row.data(), s.value.data(), s.l_start.data(),
@@ -137,6 +142,10 @@ bool SparseLdl::factorise() {
 
 void SparseLdl::solve(std::span<double> x) {
   State& s = *state_;
+  if (s.size == 1) {
+    x[0] /= s.pivot[0];
+    return;
+  }
   const std::span<double> y = s.position.empty() ? x : std::span(s.work);
   for (std::size_t i = 0; i < s.position.size(); ++i) y[static_cast<std::size_t>(s.position[i])] = x[i];
   ldl_lsolve(s.size, y.data(), s.l_start.data(), s.l_row.data(), s.l_value.data());
