@@ -83,6 +83,9 @@ struct IdaStepper::State {
   // What the Jacobian callback records for the factorisation.
   double matrix_t = 0.0, matrix_c = 0.0;
   N_Vector matrix_y = nullptr;
+  // Where `e` holds.
+  double evaluated_at = 0.0;
+  N_Vector evaluated = nullptr;
 
   [[nodiscard]] std::size_t n() const { return static_cast<std::size_t>(system->coordinates()); }
   [[nodiscard]] std::size_t m() const { return static_cast<std::size_t>(rows.size()); }
@@ -209,7 +212,10 @@ void IdaStepper::State::make_linear_solver() {
     State& s = *static_cast<State*>(self->content);
     return guarded(s.fault, [&s] {
       s.spread_multipliers(s.matrix_y);
-      const bool regular = s.newton.factorise(s.instant(s.matrix_t, s.matrix_y), s.lambda, s.matrix_c);
+      const Instant at = s.instant(s.matrix_t, s.matrix_y);
+      const bool known = s.evaluated_at == at.t && s.evaluated == s.matrix_y;  // by the residual just before
+      if (!known) s.system->evaluate(at, s.e);
+      const bool regular = s.newton.factorise(at, s.e, s.lambda, s.matrix_c);
       if (!regular) s.fault = "the constraints became dependent on each other";
       return regular ? 0 : 1;
     });
@@ -235,6 +241,8 @@ void IdaStepper::State::residual(double at, N_Vector x, N_Vector xp, N_Vector r)
   ++evaluations;
   const Instant now = instant(at, x);
   system->evaluate(now, e);
+  evaluated_at = at;
+  evaluated = x;
   const auto qp = entries(xp).subspan(0, n());
   const auto vp = entries(xp).subspan(n(), n());
   const auto active = entries(x).subspan(2 * n(), m());
