@@ -84,7 +84,7 @@ struct IdaStepper::State {
   double matrix_t = 0.0, matrix_c = 0.0;
   N_Vector matrix_y = nullptr;
   // Where `e` holds.
-  double evaluated_at = 0.0;
+  double evaluated_at = 0.0, factored_at = 0.0;
   N_Vector evaluated = nullptr;
 
   [[nodiscard]] std::size_t n() const { return static_cast<std::size_t>(system->coordinates()); }
@@ -216,6 +216,7 @@ void IdaStepper::State::make_linear_solver() {
       const bool known = s.evaluated_at == at.t && s.evaluated == s.matrix_y;  // by the residual just before
       if (!known) s.system->evaluate(at, s.e);
       const bool regular = s.newton.factorise(at, s.e, s.lambda, s.matrix_c);
+      s.factored_at = at.t;
       if (!regular) s.fault = "the constraints became dependent on each other";
       return regular ? 0 : 1;
     });
@@ -225,8 +226,15 @@ void IdaStepper::State::make_linear_solver() {
     double c = 0.0;
     IDAGetCurrentCj(s.ida.get(), &c);
     if (x != b) N_VScale(1.0, b, x);
-    s.newton.solve(c, s.entries(x));
-    return 0;
+    return guarded(s.fault, [&] {
+      // IDA keeps a matrix as long as Newton converges; fresh soft factors cost less than that saves.
+      if (s.evaluated_at != s.factored_at) {
+        s.factored_at = s.evaluated_at;
+        if (!s.newton.refresh(s.e)) return 1;
+      }
+      s.newton.solve(c, s.entries(x));
+      return 0;
+    });
   };
   solver->ops->free = [](SUNLinearSolver) { return 0; };  // owned by `solver`
 }

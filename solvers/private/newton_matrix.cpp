@@ -62,6 +62,12 @@ bool NewtonMatrix::factorise(const Instant& at, const System::Evaluation& e, std
   return k1_->factorise(w_, lower_, linear_, 1.0 / (c * c), 1.0 / c);
 }
 
+bool NewtonMatrix::refresh(const System::Evaluation& e) {
+  if (!soft_) return true;
+  std::ranges::copy(e.w, w_.begin());
+  return k2_.factorise(w_);
+}
+
 double NewtonMatrix::along(std::size_t row, std::span<const double> values, std::span<const double> x) const {
   double sum = 0.0;
   for (auto k = static_cast<std::size_t>(system_->row_start()[row]);

@@ -53,6 +53,9 @@ class NewtonMatrix {
   [[nodiscard]] long factorisations() const {
     return k2_.factorisations() + (k1_ ? k1_->factorisations() : 0);
   }
+  /// Brings soft factors up to date with W, which costs them little; others stay as they are.
+  /// False if singular.
+  [[nodiscard]] bool refresh(const System::Evaluation& e);
   /// Whether the last factors leave the forces' derivatives out.
   [[nodiscard]] bool soft() const { return soft_; }
 
