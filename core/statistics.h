@@ -13,6 +13,9 @@ struct Statistics {
   long factorisations = 0;         ///< of a KKT matrix
   long error_test_failures = 0;    ///< steps repeated because their error was too large
   long convergence_failures = 0;   ///< steps repeated because Newton's iteration did not converge
+  /// Steps of the explicit stepper held down by stability, not accuracy (counted by samples). If
+  /// these are most of the steps the scene is stiff: Stepper::ida will be faster.
+  long stability_limited = 0;
   double residual_position = 0.0;  ///< largest |g|/|grad g| at any sample [length]
   double residual_velocity = 0.0;  ///< largest |psi|/|W row| at any sample [speed]
   double correction = 0.0;         ///< largest move that put a sample onto its constraints [length]

@@ -1,6 +1,7 @@
 #include "dalembert/solvers/integrator.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/private/erk.h>
 #include <dalembert/solvers/private/ida.h>
 #include <dalembert/solvers/private/manifold.h>
 #include <dalembert/solvers/private/start.h>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <sstream>
+#include <variant>
 
 namespace dalembert {
 
@@ -32,6 +34,15 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+using AnyStepper = std::variant<IdaStepper, ErkStepper>;
+
+AnyStepper make_stepper(const System& system, const Start& start, const Options& options) {
+  if (options.stepper == Stepper::erk) {
+    return AnyStepper(std::in_place_type<ErkStepper>, system, start, options);
+  }
+  return AnyStepper(std::in_place_type<IdaStepper>, system, start, options);
+}
+
 }  // namespace
 
 struct Integrator::State {
@@ -42,12 +53,12 @@ struct Integrator::State {
         start(consistent_start(system, q0, v0, o)),
         lever(start.scales.lever()),
         manifold(system, start.rows, lever),
-        stepper(system, start, o),
+        stepper(make_stepper(system, start, o)),
         now(system, start),
         next(now),
         given(start.q.size()) {
     record.layout = system.layout();
-    record.stepper = "ida";
+    record.stepper = name(o.stepper);
     record.tolerance = o.tolerance;
     record.statistics.degrees_of_freedom = system.coordinates() - start.rows.size();
     record.statistics.redundant_equations = system.rows() - start.rows.size();
@@ -74,9 +85,13 @@ struct Integrator::State {
   /// anything fails the current moment stays as it is.
   void visit(double time) {
     next.t = time;
-    stepper.interpolate(time, next.q, next.v);
+    std::visit([&](auto& s) { s.interpolate(time, next.q, next.v); }, stepper);
     recover(next);
     std::swap(now, next);
+  }
+
+  [[nodiscard]] double stepper_time() const {
+    return std::visit([](const auto& s) { return s.time(); }, stepper);
   }
 
   void recover(Moment& m) {
@@ -109,17 +124,17 @@ struct Integrator::State {
     return {now.t, now.q, now.v, now.lambda, now.forces, now.energy, now.unique};
   }
 
-  void step_once() {
+  void step_once(double wanted) {
     if (++steps > options.max_steps) {
       throw StepFailure{"max_steps = " + std::to_string(options.max_steps) +
                             " is used up; raise it, or ask for a looser tolerance",
-                        stepper.time()};
+                        stepper_time()};
     }
-    stepper.step();
+    std::visit([wanted](auto& s) { s.step(wanted); }, stepper);
   }
 
   void step_past(double time) {
-    while (stepper.time() < time) step_once();
+    while (stepper_time() < time) step_once(time);
   }
 
   /// Runs `f`; whatever stops it becomes an IntegrationFailure with the samples so far.
@@ -131,7 +146,7 @@ struct Integrator::State {
     } catch (const StepFailure& failure) {
       fail(failure.what, failure.time);
     } catch (const EquationFault& fault) {
-      fail(fault.what(), stepper.time());
+      fail(fault.what(), stepper_time());
     }
   }
 
@@ -146,7 +161,7 @@ struct Integrator::State {
 
   [[nodiscard]] Statistics statistics() const {
     Statistics s = record.statistics;
-    stepper.count(s);
+    std::visit([&s](const auto& stepping) { stepping.count(s); }, stepper);
     s.evaluations += manifold.evaluations();
     s.factorisations += manifold.factorisations();
     return s;
@@ -158,7 +173,7 @@ struct Integrator::State {
   Start start;
   std::vector<double> lever;  // see Scales
   Manifold manifold;
-  IdaStepper stepper;
+  AnyStepper stepper;
   long steps = 0;
 
   Moment now, next;
@@ -180,10 +195,10 @@ Statistics Integrator::statistics() const { return state_->statistics(); }
 void Integrator::step() {
   State& s = *state_;
   s.guarded([&s] {
-    if (s.stepper.time() >= s.options.t_end)
+    if (s.stepper_time() >= s.options.t_end)
       throw StepFailure{"t_end is reached; choose a later one", s.now.t};
-    s.step_once();
-    s.visit(s.stepper.time());
+    s.step_once(s.options.t_end);
+    s.visit(s.stepper_time());
   });
 }
 

@@ -85,6 +85,9 @@ struct IdaStepper::State {
   // What the Jacobian callback records for the factorisation.
   double matrix_t = 0.0, matrix_c = 0.0;
   N_Vector matrix_y = nullptr;
+  // Where `e` holds.
+  double evaluated_at = 0.0, factored_at = 0.0;
+  N_Vector evaluated = nullptr;
 
   [[nodiscard]] std::size_t n() const { return static_cast<std::size_t>(system->coordinates()); }
   [[nodiscard]] std::size_t m() const { return static_cast<std::size_t>(rows.size()); }
@@ -218,7 +221,11 @@ void IdaStepper::State::make_linear_solver() {
     State& s = *static_cast<State*>(self->content);
     return guarded(s, s.matrix_t, [&s] {
       s.spread_multipliers(s.matrix_y);
-      const bool regular = s.newton.factorise(s.instant(s.matrix_t, s.matrix_y), s.lambda, s.matrix_c);
+      const Instant at = s.instant(s.matrix_t, s.matrix_y);
+      const bool known = s.evaluated_at == at.t && s.evaluated == s.matrix_y;  // by the residual just before
+      if (!known) s.system->evaluate(at, s.e);
+      const bool regular = s.newton.factorise(at, s.e, s.lambda, s.matrix_c);
+      s.factored_at = at.t;
       if (!regular) s.blame(s.matrix_t, "the constraints became dependent on each other");
       return regular ? 0 : 1;
     });
@@ -228,8 +235,15 @@ void IdaStepper::State::make_linear_solver() {
     double c = 0.0;
     IDAGetCurrentCj(s.ida.get(), &c);
     if (x != b) N_VScale(1.0, b, x);
-    s.newton.solve(c, s.entries(x));
-    return 0;
+    return guarded(s, s.evaluated_at, [&] {
+      // IDA keeps a matrix as long as Newton converges; fresh soft factors cost less than that saves.
+      if (s.evaluated_at != s.factored_at) {
+        s.factored_at = s.evaluated_at;
+        if (!s.newton.refresh(s.e)) return 1;
+      }
+      s.newton.solve(c, s.entries(x));
+      return 0;
+    });
   };
   solver->ops->free = [](SUNLinearSolver) { return 0; };  // owned by `solver`
 }
@@ -244,6 +258,8 @@ void IdaStepper::State::residual(double at, N_Vector x, N_Vector xp, N_Vector r)
   ++evaluations;
   const Instant now = instant(at, x);
   system->evaluate(now, e);
+  evaluated_at = at;
+  evaluated = x;
   const auto qp = entries(xp).subspan(0, n());
   const auto vp = entries(xp).subspan(n(), n());
   const auto active = entries(x).subspan(2 * n(), m());
@@ -325,7 +341,7 @@ std::string IdaStepper::State::explain(int code) const {
   }
 }
 
-void IdaStepper::step() {
+void IdaStepper::step(double /*wanted*/) {
   State& s = *state_;
   const double before = s.t;
   const int code = IDASolve(s.ida.get(), s.t_end, &s.t, s.y.get(), s.yp.get(), IDA_ONE_STEP);
