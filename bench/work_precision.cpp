@@ -49,7 +49,7 @@ std::vector<std::string> row(const std::string& model, const std::string& steppe
   const Statistics& s = m.statistics;
   return {model,
           stepper,
-          shortest(tolerance),
+          shortest_power(tolerance),
           std::to_string(s.steps),
           std::to_string(s.evaluations),
           std::to_string(s.factorisations),
@@ -72,7 +72,7 @@ class Ladder {
     const auto reference = model.observations(sample_times({.t_end = model.t_end}));
     for (const std::string& stepper : options_.steppers) {
       for (const double tolerance : options_.tolerances) {
-        progress_.next(model.name + ", " + stepper + ", tolerance " + shortest(tolerance));
+        progress_.next(model.name + ", " + stepper + ", tolerance " + shortest_power(tolerance));
         const Options run{.t_end = model.t_end, .tolerance = tolerance};
         table_.rows.push_back(row(model.name, stepper, tolerance, repeated<D>(model, run, reference)));
       }
@@ -94,7 +94,8 @@ class Ladder {
     return m;
   } catch (const IntegrationFailure& failed) {
     ++failures_;
-    std::cerr << model.name << " at tolerance " << shortest(run.tolerance) << ": " << failed.what() << '\n';
+    std::cerr << model.name << " at tolerance " << shortest_power(run.tolerance) << ": " << failed.what()
+              << '\n';
     return failure(failed.trajectory<D>().statistics());
   }
 
