@@ -19,6 +19,9 @@ namespace dalembert {
 
 namespace {
 
+/// The error allowed to one step, of the tolerance asked for: errors of hundreds of steps add up in
+/// the result.
+constexpr double share_of_a_step = 0.1;
 /// Newton stops at this fraction of the error tolerance. IDA's 0.33 lets the multipliers' error
 /// into the step control: it doubles the number of steps.
 constexpr double newton_tolerance = 0.01;
@@ -135,7 +138,7 @@ IdaStepper::State::State(const System& s, const Start& start, const Options& opt
     : system(&s),
       rows(start.rows),
       scales(start.scales),
-      tolerance(options.tolerance),
+      tolerance(share_of_a_step * options.tolerance),
       t_end(options.t_end),
       // IDA's own first step is so short that round-off in the multipliers fails Newton's iteration.
       first_step(
