@@ -366,6 +366,7 @@ void IdaStepper::count(Statistics& statistics) const {
   statistics.steps += s.steps;
   statistics.evaluations += s.evaluations;
   statistics.factorisations += s.newton.factorisations();
+  statistics.linear_algebra = s.newton.method();
   statistics.error_test_failures += error_tests;
   statistics.convergence_failures += convergence;
 }
