@@ -38,14 +38,14 @@ struct DrivenPivot {
   double amplitude_x = 0.0;  ///< A [length]
   double amplitude_y = 0.0;  ///< B [length]
   double phase = 0.0;        ///< of the vertical motion ahead of the horizontal one [rad]
-  double frequency = 5.0;    ///< omega [rad/time]
+  double frequency = 10.0;   ///< omega [rad/time]
   double angle = 1.0;        ///< phi at t = 0 [rad]
 
-  [[nodiscard]] static DrivenPivot horizontal(double amplitude = 0.2) { return {.amplitude_x = amplitude}; }
-  [[nodiscard]] static DrivenPivot vertical(double amplitude = 0.2) {
+  [[nodiscard]] static DrivenPivot horizontal(double amplitude = 0.1) { return {.amplitude_x = amplitude}; }
+  [[nodiscard]] static DrivenPivot vertical(double amplitude = 0.1) {
     return {.amplitude_y = amplitude, .phase = std::numbers::pi};
   }
-  [[nodiscard]] static DrivenPivot circular(double amplitude = 0.2) {
+  [[nodiscard]] static DrivenPivot circular(double amplitude = 0.1) {
     return {.amplitude_x = amplitude, .amplitude_y = amplitude, .phase = -std::numbers::pi / 2};
   }
 

@@ -23,7 +23,7 @@ struct ElasticStringLine {
   double stiffness = 30.0;      ///< k [force/length]
   double relaxed_length = 1.0;  ///< l0
   double stretch = 1.5;         ///< d/l0, > 1
-  double amplitude = 2.0;       ///< x at t = 0, at rest [length]
+  double amplitude = 1.0;       ///< x at t = 0, at rest [length]
 
   [[nodiscard]] BeadOnCurve scene() const;
   [[nodiscard]] std::vector<Observation<2>> reference(std::span<const double> times) const;

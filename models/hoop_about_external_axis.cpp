@@ -31,8 +31,10 @@ BeadOnCurve HoopAboutExternalAxis::scene() const {
 
 Observation<2> HoopAboutExternalAxis::reference(double t) const {
   const Real omega0 = frequency(*this), k = modulus(*this), Omega = spin;
-  Real cn, dn;
-  const Real sn = boost::math::jacobi_elliptic(k, boost::math::ellint_1(k) - omega0 * t, &cn, &dn);
+  Real cn;
+  const Real sn =
+      boost::math::jacobi_elliptic<Real, Real, Real>(k, boost::math::ellint_1(k) - omega0 * t, &cn, nullptr);
+  const Real dn = std::hypot(cn, std::cos(Real(amplitude) / 2) * sn);  // Boost's own is 0/0 where cn = 0
   const Real rate = -2 * k * omega0 * cn, sine = 2 * k * sn * dn, cosine = 1 - 2 * k * k * sn * sn;
   const Real s = std::sin(Omega * t), c = std::cos(Omega * t);
   const Real along = offset + radius * cosine, across = radius * sine;  // as seen from the hoop

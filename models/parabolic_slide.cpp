@@ -50,7 +50,7 @@ Model<2> ParabolicSlide::model() const {
   return {.name = "parabolic-slide",
           .notes = "mex131",
           .reference = "equation of motion of x in extended precision, force by Newton's law",
-          .t_end = 10.0,
+          .t_end = 5.0,
           .length = amplitude,
           .force = mass * gravity,
           .energy = mass * gravity * curvature * amplitude * amplitude,

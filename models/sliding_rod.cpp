@@ -72,7 +72,7 @@ Model<2> SlidingRod::model() const {
   return {.name = "sliding-rod",
           .notes = "mex115",
           .reference = "equation of motion of the angle in extended precision, force by Newton's law",
-          .t_end = 5.0,
+          .t_end = 2.0,
           .length = length,
           .force = mass * gravity,
           .energy = mass * gravity * length,

@@ -32,7 +32,7 @@ struct SlidingRod {
   double mass = 1.0;
   double length = 1.0;
   double gravity = 9.81;
-  double angle = 0.5;  ///< theta at t = 0, at rest [rad]
+  double angle = 1.0;  ///< theta at t = 0, at rest [rad]
   double drift = 0.3;  ///< beta_x/m, the constant velocity of the centre along x [length/time]
 
   [[nodiscard]] RodOnTrack scene() const;
