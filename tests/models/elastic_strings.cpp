@@ -82,7 +82,7 @@ TEST(ElasticStringLine, AtRestTheLineHoldsHalfOfStiffnessTimesRelaxedLength) {
 }
 
 TEST(ElasticStringCircle, AtRestTheCircleHoldsInwardsIfPIsOutsideAndOutwardsIfInside) {
-  for (const auto [tied, force] : {std::pair{Tied::outside, -15.0}, std::pair{Tied::inside, 15.0}}) {
+  for (const auto& [tied, force] : {std::pair{Tied::outside, -15.0}, std::pair{Tied::inside, 15.0}}) {
     const ElasticStringCircle string{.stiffness = 30.0, .relaxed_length = 1.0, .tied = tied, .angle = 0.0};
     EXPECT_NEAR(string.reference(1.0).forces[0], force, 10 * epsilon * 30);
     const BeadOnCurve built = string.scene();

@@ -33,7 +33,9 @@ void expect_accurate(const Model<D>& model) {
   const Measurement m = measure(model, {.t_end = model.t_end, .tolerance = tolerance});
   EXPECT_LE(m.error_position, 1e-5);
   EXPECT_LE(m.error_force, 1e-4);
-  if (model.scene().conserved) EXPECT_LE(m.energy_drift, static_cast<double>(m.statistics.steps) * tolerance);
+  if (model.scene().conserved) {
+    EXPECT_LE(m.energy_drift, static_cast<double>(m.statistics.steps) * tolerance);
+  }
 }
 
 TEST(SystemsOfTheNotes, AreAllInTheCatalogueAndAsAccurateAsRequired) {
