@@ -42,4 +42,13 @@ struct Model {
 
 using AnyModel = std::variant<Model<2>, Model<3>>;
 
+/// The observations of a system whose reference is a closed form, so that no time needs the one before.
+template <int D, class System>
+[[nodiscard]] std::vector<Observation<D>> at_each(const System& system, std::span<const double> times) {
+  std::vector<Observation<D>> observations;
+  observations.reserve(times.size());
+  for (const double t : times) observations.push_back(system.reference(t));
+  return observations;
+}
+
 }  // namespace dalembert::models

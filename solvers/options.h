@@ -13,7 +13,7 @@ struct Options {
   /// Number of samples, equally spaced, with one at either end; >= 2. Unless one of the next two is given.
   int samples = 101;
   double sample_interval = 0.0;  ///< or a sample every so often, from t_start [time]
-  std::vector<double> times;     ///< or samples at these very times, increasing, within the run
+  std::vector<double> times{};   ///< or samples at these very times, increasing, within the run
 
   /// Relative error of one step: positions are kept to tolerance times the scene's own length,
   /// velocities to tolerance times its length over its time. Between 1e-13 and 1e-1. The error of

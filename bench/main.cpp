@@ -1,0 +1,82 @@
+#include <dalembert/bench/scaling.h>
+#include <dalembert/bench/table.h>
+#include <dalembert/bench/work_precision.h>
+#include <dalembert/models/catalogue.h>
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+
+namespace {
+
+using namespace dalembert;
+
+void list() {
+  bench::Table table{.columns = {"model", "notes", "reference"}, .rows = {}};
+  for (const models::AnyModel& any : models::catalogue())
+    std::visit([&](const auto& m) { table.rows.push_back({m.name, m.notes, m.reference}); }, any);
+  table.print(std::cout);
+}
+
+void add_report_options(CLI::App& command, bench::ReportOptions& options) {
+  command.add_option("--csv", options.csv,
+                     "Also write the table to this file, and the same for readers beside it as .txt");
+  command.add_option("--note", options.note, "A line for the heading, such as the commit");
+}
+
+void add_steppers(CLI::App& command, std::vector<std::string>& steppers) {
+  command.add_option("--stepper", steppers, "ida")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"ida"}))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  CLI::App app{"Benchmarks of dalembert"};
+  app.require_subcommand(1);
+
+  CLI::App* listing = app.add_subcommand("list", "Name, lecture notes' number and reference of every model");
+
+  bench::WorkPrecision ladder;
+  CLI::App* work_precision = app.add_subcommand(
+      "work-precision",
+      "Errors of motion and of forces of constraint against run time, over a ladder of tolerances");
+  work_precision->add_option("--model", ladder.models, "all, or names as in `list`")
+      ->delimiter(',')
+      ->capture_default_str();
+  add_steppers(*work_precision, ladder.steppers);
+  work_precision->add_option("--tolerance", ladder.tolerances, "Between 1e-13 and 0.1")
+      ->delimiter(',')
+      ->capture_default_str();
+  work_precision->add_option("--repeat", ladder.repeats, "Runs of which the median time counts")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  add_report_options(*work_precision, ladder.report);
+
+  bench::Scaling sizes;
+  CLI::App* scaling = app.add_subcommand("scaling", "Run time and peak memory against the size of a scene");
+  scaling->add_option("--model", sizes.model, "chain")->capture_default_str();
+  scaling
+      ->add_option("--size", sizes.sizes,
+                   "Beads; up to " + std::to_string(bench::largest_compared) +
+                       " the error is that of the last positions, above it is nan")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  add_steppers(*scaling, sizes.steppers);
+  scaling->add_option("--tolerance", sizes.tolerance, "Between 1e-13 and 0.1")->capture_default_str();
+  scaling->add_option("--t-end", sizes.t_end, "Length of the run [s]")->capture_default_str();
+  add_report_options(*scaling, sizes.report);
+
+  CLI11_PARSE(app, argc, argv);
+  int failures = 0;
+  if (*listing) list();
+  if (*work_precision) failures = bench::work_precision(ladder);
+  if (*scaling) failures = bench::scaling(sizes);
+  return failures == 0 ? 0 : 1;
+} catch (const std::exception& error) {
+  std::cerr << "dalembert-bench: " << error.what() << '\n';
+  return 2;
+}

@@ -1,0 +1,110 @@
+#include "dalembert/bench/scaling.h"
+
+#include <dalembert/bench/progress.h>
+#include <dalembert/models/chain.h>
+#include <dalembert/models/error.h>
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <limits>
+
+namespace dalembert::bench {
+
+namespace {
+
+const std::vector<std::string> columns = {"model",      "stepper",        "size",        "tolerance",
+                                          "t_end",      "steps",          "evaluations", "error_position",
+                                          "run_time_s", "peak_memory_mib"};
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double peak_memory_mib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts in KiB
+}
+
+/// What one size gave.
+struct Outcome {
+  Statistics statistics;
+  double error = nan;
+  double memory = nan;
+};
+
+/// Error of the last positions. The reference needs to be good beside the run, not to round-off:
+/// its steps are 1000 times as accurate as those of the run.
+double last_error(const models::Chain& chain, const Scaling& options, const models::Observation<2>& last) {
+  if (chain.beads > largest_compared) return nan;
+  const models::Real tolerance = std::max(1e-3L * options.tolerance, models::reference_tolerance);
+  const auto reference = chain.reference(std::array{options.t_end}, tolerance);
+  return position_error(last, reference.front()) / chain.length;
+}
+
+Outcome run(const models::Chain& chain, const Scaling& options) {
+  Outcome outcome;
+  models::Observation<2> last;
+  {
+    const models::Observed<2> observed = models::observed(chain.scene());
+    const Trajectory<2> trajectory =
+        simulate(observed.scene, {.t_end = options.t_end, .samples = 2, .tolerance = options.tolerance});
+    last = observed.observe(trajectory.sample(trajectory.size() - 1));
+    outcome.statistics = trajectory.statistics();
+    outcome.memory = peak_memory_mib();
+  }
+  outcome.error = last_error(chain, options, last);
+  return outcome;
+}
+
+std::vector<std::string> row(const Scaling& options, const std::string& stepper, int size,
+                             const Outcome& outcome) {
+  const Statistics& s = outcome.statistics;
+  return {options.model,
+          stepper,
+          std::to_string(size),
+          shortest(options.tolerance),
+          shortest(options.t_end),
+          std::to_string(s.steps),
+          std::to_string(s.evaluations),
+          scientific(outcome.error),
+          scientific(s.run_time),
+          scientific(outcome.memory)};
+}
+
+}  // namespace
+
+int scaling(const Scaling& options) {
+  validate({.t_end = options.t_end, .tolerance = options.tolerance});
+  if (options.model != "chain")
+    throw Error("no model \"" + options.model + "\" of any size; there is: chain");
+  require_writable(options.report);
+  std::vector<int> sizes = options.sizes;
+  std::sort(sizes.begin(), sizes.end());
+
+  Table table{.columns = columns, .rows = {}};
+  int failures = 0;
+  {
+    Progress progress(sizes.size() * options.steppers.size());
+    for (const std::string& stepper : options.steppers) {
+      for (const int size : sizes) {
+        progress.next(options.model + ", " + stepper + ", size " + std::to_string(size));
+        Outcome outcome;
+        try {
+          outcome = run(models::Chain{.beads = size}, options);
+        } catch (const IntegrationFailure& failed) {
+          ++failures;
+          std::cerr << options.model << " of " << size << ": " << failed.what() << '\n';
+          outcome.statistics = failed.trajectory<2>().statistics();
+        }
+        table.rows.push_back(row(options, stepper, size, outcome));
+      }
+    }
+  }
+  report("Run time and memory against size: one run each, error of the last positions", table,
+         options.report);
+  return failures;
+}
+
+}  // namespace dalembert::bench

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace dalembert::bench {
+
+/// Rows of text under named columns, for a reader or for another program.
+struct Table {
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+
+  /// Columns aligned with spaces, words to the left and numbers to the right.
+  void print(std::ostream& out) const;
+  /// Comma-separated values, the names of the columns first.
+  void write_csv(std::ostream& out) const;
+};
+
+/// A number in scientific notation with so many significant digits; "nan" if there is none.
+[[nodiscard]] std::string scientific(double value, int digits = 4);
+/// A number as short as it can be without loss: 1e-08, 0.5.
+[[nodiscard]] std::string shortest(double value);
+
+}  // namespace dalembert::bench

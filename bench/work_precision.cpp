@@ -1,0 +1,143 @@
+#include "dalembert/bench/work_precision.h"
+
+#include <dalembert/bench/progress.h>
+#include <dalembert/models/catalogue.h>
+#include <dalembert/models/error.h>
+
+#include <algorithm>
+#include <iostream>
+#include <limits>
+
+namespace dalembert::bench {
+
+namespace {
+
+using models::AnyModel;
+using models::Measurement;
+using models::Model;
+
+const std::vector<std::string> columns = {"model",
+                                          "stepper",
+                                          "tolerance",
+                                          "steps",
+                                          "evaluations",
+                                          "factorisations",
+                                          "error_position",
+                                          "error_force",
+                                          "residual_position",
+                                          "residual_velocity",
+                                          "energy_drift",
+                                          "run_time_s"};
+
+const std::string& name_of(const AnyModel& model) {
+  return std::visit([](const auto& m) -> const std::string& { return m.name; }, model);
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+Measurement failure(const Statistics& so_far) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  return {.error_position = nan, .error_force = nan, .energy_drift = nan, .statistics = so_far};
+}
+
+std::vector<std::string> row(const std::string& model, const std::string& stepper, double tolerance,
+                             const Measurement& m) {
+  const Statistics& s = m.statistics;
+  return {model,
+          stepper,
+          shortest(tolerance),
+          std::to_string(s.steps),
+          std::to_string(s.evaluations),
+          std::to_string(s.factorisations),
+          scientific(m.error_position),
+          scientific(m.error_force),
+          scientific(s.residual_position),
+          scientific(s.residual_velocity),
+          scientific(m.energy_drift),
+          scientific(s.run_time)};
+}
+
+/// The ladder of one model, added to the table; the reference is computed once.
+class Ladder {
+ public:
+  Ladder(const WorkPrecision& options, Table& table, Progress& progress)
+      : options_(options), table_(table), progress_(progress) {}
+
+  template <int D>
+  void operator()(const Model<D>& model) {
+    const auto reference = model.observations(sample_times({.t_end = model.t_end}));
+    for (const std::string& stepper : options_.steppers) {
+      for (const double tolerance : options_.tolerances) {
+        progress_.next(model.name + ", " + stepper + ", tolerance " + shortest(tolerance));
+        const Options run{.t_end = model.t_end, .tolerance = tolerance};
+        table_.rows.push_back(row(model.name, stepper, tolerance, repeated<D>(model, run, reference)));
+      }
+    }
+  }
+  [[nodiscard]] int failures() const { return failures_; }
+
+ private:
+  template <int D>
+  Measurement repeated(const Model<D>& model, const Options& run,
+                       std::span<const models::Observation<D>> reference) try {
+    Measurement m;
+    std::vector<double> times;
+    for (int i = 0; i < options_.repeats; ++i) {
+      m = measure<D>(model, run, reference);
+      times.push_back(m.statistics.run_time);
+    }
+    m.statistics.run_time = median(std::move(times));
+    return m;
+  } catch (const IntegrationFailure& failed) {
+    ++failures_;
+    std::cerr << model.name << " at tolerance " << shortest(run.tolerance) << ": " << failed.what() << '\n';
+    return failure(failed.trajectory<D>().statistics());
+  }
+
+  const WorkPrecision& options_;
+  Table& table_;
+  Progress& progress_;
+  int failures_ = 0;
+};
+
+}  // namespace
+
+std::vector<AnyModel> select_models(const std::vector<std::string>& names) {
+  std::vector<AnyModel> all = models::catalogue();
+  if (std::find(names.begin(), names.end(), "all") != names.end()) return all;
+  for (const std::string& name : names) {
+    if (std::any_of(all.begin(), all.end(), [&](const AnyModel& m) { return name_of(m) == name; })) continue;
+    std::string known;
+    for (const AnyModel& m : all) known += ' ' + name_of(m);
+    throw Error("no model \"" + name + "\"; there are: all" + known);
+  }
+  std::erase_if(all, [&](const AnyModel& m) {
+    return std::find(names.begin(), names.end(), name_of(m)) == names.end();
+  });
+  return all;
+}
+
+int work_precision(const WorkPrecision& options) {
+  const std::vector<AnyModel> selected = select_models(options.models);
+  for (const double tolerance : options.tolerances) validate({.t_end = 1.0, .tolerance = tolerance});
+  require_writable(options.report);
+
+  Table table{.columns = columns, .rows = {}};
+  int failures = 0;
+  {
+    Progress progress(selected.size() * options.steppers.size() * options.tolerances.size());
+    Ladder ladder(options, table, progress);
+    for (const AnyModel& model : selected) std::visit(ladder, model);
+    failures = ladder.failures();
+  }
+  report("Error against run time: largest errors of 101 samples, run time the median of " +
+             std::to_string(options.repeats),
+         table, options.report);
+  return failures;
+}
+
+}  // namespace dalembert::bench

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <dalembert/bench/report.h>
+#include <dalembert/models/model.h>
+
+#include <string>
+#include <vector>
+
+namespace dalembert::bench {
+
+struct WorkPrecision {
+  std::vector<std::string> models = {"all"};  ///< names of the catalogue, or "all"
+  std::vector<std::string> steppers = {"ida"};
+  std::vector<double> tolerances = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
+  int repeats = 3;  ///< the run time reported is the median of so many runs
+  ReportOptions report;
+};
+
+/// How much run time does an error cost? Runs models over a ladder of tolerances and compares each
+/// with its hand derivation. Returns the number of runs that failed; their errors are nan.
+/// Throws Error for a name or a tolerance that makes no sense, before anything is run.
+int work_precision(const WorkPrecision& options);
+
+/// The models of these names, in the order of the catalogue; throws Error, listing the names, for one
+/// that does not exist.
+[[nodiscard]] std::vector<models::AnyModel> select_models(const std::vector<std::string>& names);
+
+}  // namespace dalembert::bench
