@@ -81,6 +81,7 @@ class Writer {
       for (int k = 0; k < info.rows; ++k) {
         out_ << ',' << info.name << ".lambda" << (info.rows > 1 ? std::to_string(k + 1) : "");
       }
+      if (!record_.unique.empty()) out_ << ',' << info.name << ".unique";
       for (const auto& column : forces_[c]) {
         out_ << ',' << info.name << ".on." << names[static_cast<std::size_t>(column.coordinate)].force;
       }
@@ -101,6 +102,11 @@ class Writer {
       const auto& info = layout_.constraints[c];
       write(
           now.lambda.subspan(static_cast<std::size_t>(info.first_row), static_cast<std::size_t>(info.rows)));
+      if (!now.unique.empty()) {
+        const auto own =
+            now.unique.subspan(static_cast<std::size_t>(info.first_row), static_cast<std::size_t>(info.rows));
+        out_ << ',' << (std::ranges::find(own, 0) == own.end() ? 1 : 0);
+      }
       for (const auto& column : forces_[c]) {
         double Z = 0.0;
         for (const std::size_t slot : column.slots) Z += now.forces[slot];

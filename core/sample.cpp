@@ -2,6 +2,8 @@
 
 #include <dalembert/core/errors.h>
 
+#include <algorithm>
+
 namespace dalembert {
 
 namespace {
@@ -40,6 +42,14 @@ template <int D>
 double Sample<D>::angular_velocity(Rotor rotor) const {
   require_known(rotor);
   return rotor.gather(flat_.v)[0];
+}
+
+template <int D>
+bool Sample<D>::all_unique(const Layout::Constraint& constraint) const {
+  if (flat_.unique.empty()) return true;
+  const auto own = flat_.unique.subspan(static_cast<std::size_t>(constraint.first_row),
+                                        static_cast<std::size_t>(constraint.rows));
+  return std::ranges::all_of(own, [](char unique) { return unique != 0; });
 }
 
 template <int D>

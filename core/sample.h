@@ -16,6 +16,7 @@ struct FlatSample {
   std::span<const double> lambda;  ///< m
   std::span<const double> forces;  ///< the slots of constraint forces
   double energy = 0.0;             ///< kinetic plus all potential energies
+  std::span<const char> unique;    ///< m: is this multiplier determined? empty if all are
 };
 
 /// One instant of a run, read by handle. A view: valid while the Trajectory or Simulation it comes
@@ -56,6 +57,14 @@ class Sample {
     }
   }
 
+  /// Whether the motion determines this constraint's multipliers. Where constraints repeat each
+  /// other it may not: then theirs are the smallest that give the motion, and only their sum has a
+  /// physical meaning.
+  template <int Rows>
+  [[nodiscard]] bool is_unique(Constraint<Rows> constraint) const {
+    return all_unique(info(constraint.index, constraint.scene));
+  }
+
   /// Z = +W^T lambda: the force that one constraint exerts on one particle [force]; zero if it does
   /// not act on it.
   template <int Rows>
@@ -85,6 +94,7 @@ class Sample {
   }
   void require_coordinate(std::uint64_t scene, int coordinate) const;
   [[nodiscard]] Vec<D> force_of(const Layout::Constraint& constraint, Particle<D> particle) const;
+  [[nodiscard]] bool all_unique(const Layout::Constraint& constraint) const;
   [[nodiscard]] double force_at(const Layout::Constraint& constraint, int coordinate) const;
 
   const Layout* layout_;

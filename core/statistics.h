@@ -6,6 +6,8 @@ namespace dalembert {
 
 /// What a run cost, and how well it kept its constraints.
 struct Statistics {
+  int degrees_of_freedom = 0;      ///< of velocity: coordinates less independent constraint equations
+  int redundant_equations = 0;     ///< constraint equations that follow from others, and were left out
   long steps = 0;                  ///< accepted steps
   long evaluations = 0;            ///< of the equations of motion
   long factorisations = 0;         ///< of a KKT matrix

@@ -6,6 +6,7 @@ namespace dalembert {
 
 void Record::reserve(std::size_t samples, const FlatSample& like) {
   times.reserve(samples);
+  unique.reserve(samples * like.unique.size());
   values.reserve(samples * (2 * like.q.size() + like.lambda.size() + like.forces.size() + 1));
 }
 
@@ -15,6 +16,7 @@ void Record::append(const FlatSample& sample) {
   for (const auto& part : {sample.q, sample.v, sample.lambda, sample.forces}) {
     values.insert(values.end(), part.begin(), part.end());
   }
+  unique.insert(unique.end(), sample.unique.begin(), sample.unique.end());
   values.push_back(sample.energy);
   times.push_back(sample.time);
 }
@@ -27,7 +29,8 @@ FlatSample Record::sample(std::size_t i) const {
           one.subspan(coordinates, coordinates),
           one.subspan(2 * coordinates, rows),
           one.subspan(2 * coordinates + rows, slots),
-          one[2 * coordinates + rows + slots]};
+          one[2 * coordinates + rows + slots],
+          unique.empty() ? std::span<const char>{} : std::span(unique).subspan(i * rows, rows)};
 }
 
 template <int D>

@@ -19,6 +19,7 @@ struct Record {
   double tolerance = 0.0;
   std::vector<double> times;
   std::vector<double> values;  ///< per sample: q, v, lambda, constraint forces, energy
+  std::vector<char> unique;    ///< per sample and row, see FlatSample; empty if all are
   Statistics statistics;
 
   /// Makes room, so that `append` allocates nothing for this many samples.

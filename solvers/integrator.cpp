@@ -16,6 +16,9 @@ namespace {
 /// Output is put onto the constraints to this fraction of the scene's length: a few units of
 /// round-off.
 constexpr double output_distance = 1e-15;
+/// Constraints that were left out because they followed from others at the start must still do so:
+/// to this fraction of the scene's length.
+constexpr double tolerated_contradiction = 1e-8;
 
 class Stopwatch {
  public:
@@ -40,44 +43,71 @@ struct Integrator::State {
         lever(start.scales.lever()),
         manifold(system, start.rows, lever),
         stepper(system, start, o),
-        t(o.t_start),
-        q(start.q),
-        v(start.v),
-        a(start.a),
-        lambda(start.lambda),
-        forces(system.layout()->slot_coordinate.size()),
-        given(q.size()) {
+        now(system, start),
+        next(now),
+        given(start.q.size()) {
     record.layout = system.layout();
     record.stepper = "ida";
     record.tolerance = o.tolerance;
-    recover();
+    record.statistics.degrees_of_freedom = system.coordinates() - start.rows.size();
+    record.statistics.redundant_equations = system.rows() - start.rows.size();
+    visit(o.t_start);
   }
 
-  /// The state at a time that the stepper has passed, put onto the constraints, with its forces.
+  /// Everything that can be read at one instant.
+  struct Moment {
+    Moment(const System& system, const Start& start)
+        : q(start.q),
+          v(start.v),
+          a(start.a),
+          lambda(start.lambda),
+          forces(system.layout()->slot_coordinate.size()) {
+      if (start.rows.size() < system.rows()) unique.resize(lambda.size());
+    }
+    double t = 0.0;
+    std::vector<double> q, v, a, lambda, forces;
+    double energy = 0.0;
+    std::vector<char> unique;  // empty if all multipliers are
+  };
+
+  /// The state at a time that the stepper has passed, put onto the constraints, with its forces. If
+  /// anything fails the current moment stays as it is.
   void visit(double time) {
-    t = time;
-    stepper.interpolate(t, q, v);
-    recover();
+    next.t = time;
+    stepper.interpolate(time, next.q, next.v);
+    recover(next);
+    std::swap(now, next);
   }
 
-  void recover() {
-    std::ranges::copy(q, given.begin());
-    const Violation left = manifold.project_positions(t, q, v, output_distance * start.scales.length);
-    if (!manifold.solve_motion(t, q, v, a, lambda)) {
-      throw StepFailure{"the constraints depend on each other here: forces of constraint are not determined",
-                        t};
+  void recover(Moment& m) {
+    std::ranges::copy(m.q, given.begin());
+    const double L = start.scales.length;
+    const Violation left = manifold.project_positions(m.t, m.q, m.v, output_distance * L);
+    if (!manifold.solve_motion(m.t, m.q, m.v, m.a, m.lambda)) {
+      throw StepFailure{"the constraints became dependent on each other: their forces are not determined",
+                        m.t};
+    }
+    if (left.size > tolerated_contradiction * L) {
+      throw StepFailure{system.row_label(left.row) +
+                            " contradicts the other constraints: it is violated by " +
+                            std::to_string(left.size),
+                        m.t};
     }
     const auto& equations = manifold.equations();
-    system.constraint_forces(equations.w, lambda, forces);
-    energy = system.kinetic_energy(v) + system.potential_energy({t, q, v});
+    if (!m.unique.empty()) std::ranges::copy(manifold.unique(), m.unique.begin());
+    system.constraint_forces(equations.w, m.lambda, m.forces);
+    m.energy = system.kinetic_energy(m.v) + system.potential_energy({m.t, m.q, m.v});
     auto& s = record.statistics;
     s.residual_position = std::max(s.residual_position, left.size);
     s.residual_velocity = std::max(s.residual_velocity, velocity_violation(system, equations, lever).size);
-    for (std::size_t i = 0; i < q.size(); ++i)
-      s.correction = std::max(s.correction, std::abs(q[i] - given[i]) * lever[i]);
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      s.correction = std::max(s.correction, std::abs(m.q[i] - given[i]) * lever[i]);
+    }
   }
 
-  [[nodiscard]] FlatSample sample() const { return {t, q, v, lambda, forces, energy}; }
+  [[nodiscard]] FlatSample sample() const {
+    return {now.t, now.q, now.v, now.lambda, now.forces, now.energy, now.unique};
+  }
 
   void step_once() {
     if (++steps > options.max_steps) {
@@ -101,7 +131,7 @@ struct Integrator::State {
     } catch (const StepFailure& failure) {
       fail(failure.what, failure.time);
     } catch (const EquationFault& fault) {
-      fail(fault.what(), t);
+      fail(fault.what(), stepper.time());
     }
   }
 
@@ -110,7 +140,7 @@ struct Integrator::State {
     std::ostringstream what;
     what.precision(10);
     what << "Scene \"" << record.layout->scene << "\" stopped at t = " << time << ": " << why;
-    throw IntegrationFailure(what.str(), time, std::make_shared<const Record>(std::move(record)));
+    throw IntegrationFailure(what.str(), time, std::make_shared<const Record>(record));
   }
 
   [[nodiscard]] Statistics statistics() const {
@@ -130,10 +160,7 @@ struct Integrator::State {
   IdaStepper stepper;
   long steps = 0;
 
-  // The current instant.
-  double t;
-  std::vector<double> q, v, a, lambda, forces;
-  double energy = 0.0;
+  Moment now, next;
   std::vector<double> given;  // q before projection
 
   Record record;
@@ -152,7 +179,8 @@ Statistics Integrator::statistics() const { return state_->statistics(); }
 void Integrator::step() {
   State& s = *state_;
   s.guarded([&s] {
-    if (s.stepper.time() >= s.options.t_end) throw StepFailure{"t_end is reached; choose a later one", s.t};
+    if (s.stepper.time() >= s.options.t_end)
+      throw StepFailure{"t_end is reached; choose a later one", s.now.t};
     s.step_once();
     s.visit(s.stepper.time());
   });
@@ -160,7 +188,7 @@ void Integrator::step() {
 
 void Integrator::advance_to(double t) {
   State& s = *state_;
-  if (!(t >= s.t && t <= s.options.t_end)) {
+  if (!(t >= s.now.t && t <= s.options.t_end)) {
     std::ostringstream what;
     what << "advance_to(" << t << "): must lie between the current time " << s.t
          << " and t_end = " << s.options.t_end;
@@ -176,8 +204,8 @@ void Integrator::run(const std::function<void(const FlatSample&)>& observe) {
   State& s = *state_;
   s.guarded([&] {
     for (const double t : s.times) {
-      if (t < s.t) continue;
-      if (t > s.t) {
+      if (t < s.now.t) continue;
+      if (t > s.now.t) {
         s.step_past(t);
         s.visit(t);
       }

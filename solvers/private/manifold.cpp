@@ -41,7 +41,8 @@ Manifold::Manifold(const System& system, const ActiveRows& rows, std::vector<dou
       lever_(std::move(lever)),
       e_(system.evaluation()),
       gamma_(static_cast<std::size_t>(system.rows())),
-      kkt_(system, rows, KktMatrix::Forces::none) {
+      kkt_(system, rows, KktMatrix::Forces::none),
+      minimum_norm_(system, rows, lever_) {
   x_.resize(static_cast<std::size_t>(kkt_.size()));
   q_before_.resize(static_cast<std::size_t>(system.coordinates()));
 }
@@ -112,7 +113,11 @@ bool Manifold::solve_motion(double t, std::span<const double> q, std::span<doubl
   std::ranges::fill(lambda, 0.0);
   for (std::size_t r = 0; r < rows_.rows.size(); ++r)
     lambda[static_cast<std::size_t>(rows_.rows[r])] = x_[n + r];
-  return std::ranges::all_of(x_, [](double x) { return std::isfinite(x); });
+  const bool finite = std::ranges::all_of(x_, [](double x) { return std::isfinite(x); });
+  if (finite && minimum_norm_.needed()) {
+    minimum_norm_.spread([this](std::span<double> x) { kkt_.solve(x); }, e_.w, lambda);
+  }
+  return finite;
 }
 
 }  // namespace dalembert

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/solvers/private/kkt.h>
+#include <dalembert/solvers/private/minimum_norm.h>
 
 #include <vector>
 
@@ -39,9 +40,13 @@ class Manifold {
   /// `tolerance` or no longer shrinks. Returns what is left. Throws EquationFault.
   Violation project_positions(double t, std::span<double> q, std::span<const double> v, double tolerance);
   /// (2) and (3) at positions that obey the constraints. False if the matrix is singular there.
-  /// `lambda` has one number per row of the system, zero for rows that are not active.
+  /// `lambda` has one number per row of the system; where rows depend on each other the forces are
+  /// the smallest that do (see MinimumNorm).
   [[nodiscard]] bool solve_motion(double t, std::span<const double> q, std::span<double> v,
                                   std::span<double> a, std::span<double> lambda);
+
+  /// Per row of the system, whether its last multiplier is determined by the motion.
+  [[nodiscard]] std::span<const char> unique() const { return minimum_norm_.unique(); }
 
   /// The equations at the state last visited.
   [[nodiscard]] const System::Evaluation& equations() const { return e_; }
@@ -58,6 +63,7 @@ class Manifold {
   System::Evaluation e_;
   std::vector<double> gamma_, x_, q_before_;
   KktMatrix kkt_;
+  MinimumNorm minimum_norm_;
   long evaluations_ = 0;
 };
 

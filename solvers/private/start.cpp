@@ -1,6 +1,7 @@
 #include "dalembert/solvers/private/start.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/private/independent_rows.h>
 #include <dalembert/solvers/private/manifold.h>
 
 #include <algorithm>
@@ -121,35 +122,68 @@ double time_scale(const System& system, const System::Evaluation& e, const Start
   throw InconsistentStart(what.str());
 }
 
-ActiveRows all_rows(const System& system) {
-  ActiveRows rows{std::vector<int>(static_cast<std::size_t>(system.rows())), system.holonomic_rows()};
-  std::iota(rows.rows.begin(), rows.rows.end(), 0);
-  return rows;
+/// Dropped rows follow from the others in position and velocity once they hold at the start. In
+/// acceleration they must agree too: two drives of one point may meet and yet contradict each other.
+void require_consistent_accelerations(const System& system, const Manifold& manifold, const Start& start,
+                                      double t) {
+  std::vector<double> residual(static_cast<std::size_t>(system.rows()));
+  system.bias({t, start.q, start.v}, residual);
+  const auto& w = manifold.equations().w;
+  double scale = 0.0;
+  for (std::size_t r = 0; r < residual.size(); ++r) {
+    for (auto k = static_cast<std::size_t>(system.row_start()[r]);
+         k < static_cast<std::size_t>(system.row_start()[r + 1]); ++k) {
+      const double term = w[k] * start.a[static_cast<std::size_t>(system.w_columns()[k])];
+      scale = std::max({scale, std::abs(term), std::abs(residual[r])});
+      residual[r] += term;
+    }
+  }
+  for (std::size_t r = 0; r < residual.size(); ++r) {
+    if (std::abs(residual[r]) <= 1e-6 * scale) continue;
+    throw InconsistentStart(
+        system.row_label(static_cast<int>(r)) +
+        " contradicts the other constraints: no accelerations satisfy all of them; remove or "
+        "correct one of those that act on the same particles");
+  }
 }
 
-void start_positions(const System& system, Manifold& manifold, Start& start, const System::Evaluation& e,
+/// The speed that the scene has, or that its forces give it over its own length.
+double speed_of(const System& system, const System::Evaluation& e, const Start& start) {
+  const auto& scale = start.scales.coordinate;
+  const double forced = std::sqrt(largest_scaled(forced_acceleration(system, e), scale));
+  return std::max(largest_scaled(start.v, scale), forced) * start.scales.length;
+}
+
+/// After projection: what is left is a contradiction.
+void require_met(const System& system, const Violation& left, double bound, double t, const char* what) {
+  if (left.size <= bound) return;
+  const std::string quantity =
+      std::string("cannot be met together with the other constraints: remaining ") + what;
+  refuse(system, left, t, quantity.c_str(),
+         "check lengths and fixed points, or start closer to the intended configuration");
+}
+
+void start_positions(const System& system, Start& start, const System::Evaluation& e,
                      const Options& options) {
   const double L = start.scales.length;
-  const Violation given = position_violation(system, e, start.scales.lever());
+  const auto lever = start.scales.lever();
+  const Violation given = position_violation(system, e, lever);
   if (given.size > rounding_of_the_user * L && !options.assemble) {
     refuse(system, given, options.t_start, "is violated by the initial positions: distance",
            "correct the positions, or set the option assemble to have them moved");
   }
-  const Violation left = manifold.project_positions(options.t_start, start.q, start.v, converged * L);
-  if (left.size > rounding_of_the_user * L) {
-    refuse(system, left, options.t_start,
-           "cannot be met together with the other constraints: remaining distance",
-           "check lengths and fixed points, or start closer to the intended configuration");
-  }
+  // Rows are told apart only as well as the given state is known: rows that depend on each other on
+  // the constraints do so only roughly nearby, and must not be solved against each other.
+  const double known = std::max(rank_threshold, std::min(10.0 * given.size / L, 1e-3));
+  Manifold manifold(system, independent_rows(system, e.w, known), lever);
+  require_met(system, manifold.project_positions(options.t_start, start.q, start.v, converged * L),
+              rounding_of_the_user * L, options.t_start, "distance");
 }
 
 void start_velocities(const System& system, const Start& start, const System::Evaluation& e,
                       const Options& options) {
-  const auto& scale = start.scales.coordinate;
-  const double forced = std::sqrt(largest_scaled(forced_acceleration(system, e), scale));
-  const double rate = std::max(largest_scaled(start.v, scale), forced);
   const Violation given = velocity_violation(system, e, start.scales.lever());
-  if (given.size > rounding_of_the_user * rate * start.scales.length && !options.assemble) {
+  if (given.size > rounding_of_the_user * speed_of(system, e, start) && !options.assemble) {
     refuse(system, given, options.t_start, "is violated by the initial velocities: speed",
            "correct the velocities, or set the option assemble to have them changed");
   }
@@ -171,7 +205,7 @@ Start consistent_start(const System& system, std::span<const double> q, std::spa
               {v.begin(), v.end()},
               std::vector<double>(q.size()),
               std::vector<double>(static_cast<std::size_t>(system.rows())),
-              all_rows(system),
+              {},
               {}};
   try {
     auto e = system.evaluation();
@@ -180,13 +214,19 @@ Start consistent_start(const System& system, std::span<const double> q, std::spa
     start.scales.length = length_scale(system, {t, q, v}, e, duration);
     start.scales.coordinate = system.coordinate_scales(start.scales.length);
 
-    Manifold manifold(system, start.rows, start.scales.lever());
-    start_positions(system, manifold, start, e, options);
+    start_positions(system, start, e, options);
     system.evaluate({t, start.q, start.v}, e);
     start_velocities(system, start, e, options);
+
+    start.rows = independent_rows(system, e.w, rank_threshold);
+    Manifold manifold(system, start.rows, start.scales.lever());
     if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda)) {
-      throw InconsistentStart("The constraints of this scene depend on each other at the start");
+      throw InconsistentStart(
+          "The constraints of this scene are singular at the start, though none repeats another");
     }
+    require_met(system, velocity_violation(system, manifold.equations(), start.scales.lever()),
+                rounding_of_the_user * speed_of(system, manifold.equations(), start), t, "speed");
+    require_consistent_accelerations(system, manifold, start, t);
     start.scales.time = time_scale(system, manifold.equations(), start, duration);
   } catch (const EquationFault& fault) {
     throw InconsistentStart(std::string(fault.what()) +

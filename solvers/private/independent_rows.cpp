@@ -1,0 +1,64 @@
+#include "dalembert/solvers/private/independent_rows.h"
+
+#include <Eigen/QR>
+#include <Eigen/SparseCore>
+#include <Eigen/SparseQR>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace dalembert {
+
+namespace {
+
+/// Up to this many entries a dense QR with column pivoting is affordable, and it chooses better.
+constexpr std::size_t dense_entries = 100'000;
+
+using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor>;
+
+/// The rows of W M^(-1/2), each of unit length, as columns.
+SparseColumns scaled_rows(const System& system, std::span<const double> w) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int r = 0; r < system.rows(); ++r) {
+    const auto first = static_cast<std::size_t>(system.row_start()[static_cast<std::size_t>(r)]);
+    const auto last = static_cast<std::size_t>(system.row_start()[static_cast<std::size_t>(r) + 1]);
+    for (std::size_t k = first; k < last; ++k) {
+      const int i = system.w_columns()[k];
+      entries.emplace_back(i, r, w[k] / std::sqrt(system.masses()[static_cast<std::size_t>(i)]));
+    }
+  }
+  SparseColumns rows(system.coordinates(), system.rows());
+  rows.setFromTriplets(entries.begin(), entries.end());
+  for (int r = 0; r < system.rows(); ++r) rows.col(r) /= rows.col(r).norm();
+  return rows;
+}
+
+template <class Permutation>
+ActiveRows first_of(const Permutation& permutation, Eigen::Index rank, const System& system) {
+  ActiveRows active;
+  for (Eigen::Index k = 0; k < rank; ++k) active.rows.push_back(static_cast<int>(permutation.indices()[k]));
+  std::ranges::sort(active.rows);
+  active.holonomic = static_cast<int>(
+      std::ranges::count_if(active.rows, [&](int r) { return r < system.holonomic_rows(); }));
+  return active;
+}
+
+}  // namespace
+
+ActiveRows independent_rows(const System& system, std::span<const double> w, double threshold) {
+  const SparseColumns rows = scaled_rows(system, w);
+  if (rows.cols() == 0) return {};
+  if (static_cast<std::size_t>(rows.rows()) * static_cast<std::size_t>(rows.cols()) <= dense_entries) {
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.rows(), rows.cols());
+    qr.setThreshold(threshold);
+    qr.compute(Eigen::MatrixXd(rows));
+    return first_of(qr.colsPermutation(), qr.rank(), system);
+  }
+  Eigen::SparseQR<SparseColumns, Eigen::COLAMDOrdering<int>> qr;
+  qr.setPivotThreshold(threshold);
+  qr.compute(rows);
+  return first_of(qr.colsPermutation(), qr.rank(), system);
+}
+
+}  // namespace dalembert
