@@ -1,11 +1,21 @@
 #include "dalembert/models/catalogue.h"
 
+#include <dalembert/models/andrews.h>
+#include <dalembert/models/bricard.h>
 #include <dalembert/models/chain.h>
+#include <dalembert/models/chaplygin_sleigh.h>
 #include <dalembert/models/cone.h>
 #include <dalembert/models/double_pendulum.h>
+#include <dalembert/models/four_bar.h>
 #include <dalembert/models/pendulum_rotation.h>
 #include <dalembert/models/pendulum_separatrix.h>
 #include <dalembert/models/plane_pendulum.h>
+#include <dalembert/models/pursuit.h>
+#include <dalembert/models/rigid_atoms.h>
+#include <dalembert/models/rolling_disk.h>
+#include <dalembert/models/rolling_disk_on_slope.h>
+#include <dalembert/models/slider_crank.h>
+#include <dalembert/models/spinning_disk.h>
 
 namespace dalembert::models {
 
@@ -17,6 +27,16 @@ std::vector<AnyModel> catalogue() {
       ConeSlide{}.model(),
       DoublePendulum{}.model(),
       Chain{}.model(),
+      RollingDisk{}.model(),
+      RollingDiskOnSlope{}.model(),
+      PursuitCurve{}.model(),
+      RigidAtoms{}.model(),
+      FourBar{}.model(),
+      Andrews{}.model(),
+      Bricard{}.model(),
+      SliderCrank{}.model(),
+      ChaplyginSleigh{}.model(),
+      SpinningDisk{}.model(),
   };
 }
 
