@@ -30,7 +30,7 @@ struct Distance {
 
   [[nodiscard]] std::string fault() const {
     if (std::isfinite(length) && length > 0.0) return {};
-    return "length = " + std::to_string(length) +
+    return "length = " + detail::text(length) +
            ", must be finite and > 0; to hold two points together use Coincident";
   }
 };

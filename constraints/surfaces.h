@@ -1,8 +1,9 @@
 #pragma once
 
-#include <dalembert/core/vec.h>
+#include <dalembert/core/constraint.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <string>
 
 /// Surfaces for OnSurface, each as its signed distance: a function of position whose gradient has
@@ -16,9 +17,22 @@ template <class V>
   if (direction.allFinite() && direction.norm() > 0.0) return {};
   return std::string(name) + " must be finite and not zero";
 }
+template <class V>
+[[nodiscard]] std::string place_fault(const V& place, const char* name) {
+  if (place.allFinite()) return {};
+  return std::string(name) + " must be finite";
+}
 [[nodiscard]] inline std::string positive_fault(double value, const char* name) {
   if (std::isfinite(value) && value > 0.0) return {};
-  return std::string(name) + " = " + std::to_string(value) + ", must be finite and > 0";
+  return std::string(name) + " = " + text(value) + ", must be finite and > 0";
+}
+
+/// The first of several faults that is one.
+[[nodiscard]] inline std::string first_fault(std::initializer_list<std::string> faults) {
+  for (const std::string& fault : faults) {
+    if (!fault.empty()) return fault;
+  }
+  return {};
 }
 
 }  // namespace detail
@@ -32,7 +46,10 @@ struct Plane {
   Vec<D> normal = Vec<D>::Unit(D - 1);
 
   auto operator()(const auto& r) const { return normal.normalized().dot(r - point); }
-  [[nodiscard]] std::string fault() const { return detail::direction_fault(normal, "normal"); }
+  [[nodiscard]] std::string fault() const {
+    return detail::first_fault(
+        {detail::place_fault(point, "point"), detail::direction_fault(normal, "normal")});
+  }
 };
 
 /// The sphere (in two dimensions the circle): g = |r - centre| - radius, positive outside.
@@ -43,7 +60,10 @@ struct Sphere {
   double radius = 1.0;
 
   auto operator()(const auto& r) const { return (r - centre).norm() - radius; }
-  [[nodiscard]] std::string fault() const { return detail::positive_fault(radius, "radius"); }
+  [[nodiscard]] std::string fault() const {
+    return detail::first_fault(
+        {detail::place_fault(centre, "centre"), detail::positive_fault(radius, "radius")});
+  }
 };
 
 /// The circular cylinder about an axis: g = (distance from the axis) - radius, positive outside.
@@ -55,8 +75,8 @@ struct Cylinder {
 
   auto operator()(const auto& r) const { return axis.normalized().cross(r - point).norm() - radius; }
   [[nodiscard]] std::string fault() const {
-    const std::string axis_fault = detail::direction_fault(axis, "axis");
-    return axis_fault.empty() ? detail::positive_fault(radius, "radius") : axis_fault;
+    return detail::first_fault({detail::place_fault(point, "point"), detail::direction_fault(axis, "axis"),
+                                detail::positive_fault(radius, "radius")});
   }
 };
 
@@ -80,9 +100,9 @@ struct Cone {
   }
   [[nodiscard]] std::string fault() const {
     if (!(half_angle > 0.0 && half_angle < 1.5707963267948966)) {
-      return "half_angle = " + std::to_string(half_angle) + " rad, must lie between 0 and pi/2";
+      return "half_angle = " + detail::text(half_angle) + " rad, must lie between 0 and pi/2";
     }
-    return detail::direction_fault(axis, "axis");
+    return detail::first_fault({detail::place_fault(apex, "apex"), detail::direction_fault(axis, "axis")});
   }
 };
 

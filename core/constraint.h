@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <sstream>
 
 namespace dalembert {
 
@@ -63,6 +64,13 @@ template <class C>
   } else {
     return "its equation does not determine a direction there";
   }
+}
+
+/// A value for an error message, with its leading digits whatever its size.
+[[nodiscard]] inline std::string text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
 }
 
 inline void require_finite(bool finite, std::size_t element, const char* what) {

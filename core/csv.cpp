@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iomanip>
 #include <limits>
 #include <ostream>
 
@@ -28,6 +27,14 @@ std::vector<CoordinateNames> coordinate_names(const Layout& layout, std::size_t 
     names[static_cast<std::size_t>(r.coordinate)] = {r.name + ".angle", r.name + ".rate", r.name + ".torque"};
   }
   return names;
+}
+
+/// A column's name, in quotes where it needs them (RFC 4180).
+std::string quoted(const std::string& name) {
+  if (name.find_first_of(",\"\n\r") == std::string::npos) return name;
+  std::string text = "\"";
+  for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return text + '"';
 }
 
 /// A column of a constraint's force: the slots that act on one coordinate.
@@ -73,17 +80,17 @@ class Writer {
     out_ << 't';
     for_each_body(layout_, [&](std::size_t first, int count) {
       const auto own = std::span(names).subspan(first, static_cast<std::size_t>(count));
-      for (const auto& name : own) out_ << ',' << name.position;
-      for (const auto& name : own) out_ << ',' << name.velocity;
+      for (const auto& name : own) out_ << ',' << quoted(name.position);
+      for (const auto& name : own) out_ << ',' << quoted(name.velocity);
     });
     for (std::size_t c = 0; c < layout_.constraints.size(); ++c) {
       const auto& info = layout_.constraints[c];
       for (int k = 0; k < info.rows; ++k) {
-        out_ << ',' << info.name << ".lambda" << (info.rows > 1 ? std::to_string(k + 1) : "");
+        out_ << ',' << quoted(info.name + ".lambda" + (info.rows > 1 ? std::to_string(k + 1) : ""));
       }
-      if (!record_.unique.empty()) out_ << ',' << info.name << ".unique";
+      if (!record_.unique.empty()) out_ << ',' << quoted(info.name + ".unique");
       for (const auto& column : forces_[c]) {
-        out_ << ',' << info.name << ".on." << names[static_cast<std::size_t>(column.coordinate)].force;
+        out_ << ',' << quoted(info.name + ".on." + names[static_cast<std::size_t>(column.coordinate)].force);
       }
     }
     out_ << ",energy\n";
@@ -126,9 +133,9 @@ class Writer {
 }  // namespace
 
 void Record::write_csv(std::ostream& out) const {
-  const auto digits = out.precision(std::numeric_limits<double>::max_digits10);
   Writer writer(out, *this);
   writer.preamble();
+  const auto digits = out.precision(std::numeric_limits<double>::max_digits10);
   writer.header();
   for (std::size_t i = 0; i < times.size(); ++i) writer.line(sample(i));
   out.precision(digits);

@@ -33,10 +33,10 @@ struct Spring {
   }
   [[nodiscard]] std::string fault() const {
     if (!(std::isfinite(stiffness) && stiffness >= 0.0)) {
-      return "stiffness = " + std::to_string(stiffness) + ", must be finite and >= 0";
+      return "stiffness = " + detail::text(stiffness) + ", must be finite and >= 0";
     }
     if (!(std::isfinite(relaxed_length) && relaxed_length >= 0.0)) {
-      return "relaxed_length = " + std::to_string(relaxed_length) + ", must be finite and >= 0";
+      return "relaxed_length = " + detail::text(relaxed_length) + ", must be finite and >= 0";
     }
     return {};
   }
@@ -64,7 +64,7 @@ struct Damper {
   }
   [[nodiscard]] std::string fault() const {
     if (!(std::isfinite(coefficient) && coefficient >= 0.0)) {
-      return "coefficient = " + std::to_string(coefficient) + ", must be finite and >= 0";
+      return "coefficient = " + detail::text(coefficient) + ", must be finite and >= 0";
     }
     return {};
   }

@@ -16,7 +16,7 @@ struct FlatSample {
   std::span<const double> lambda;  ///< m
   std::span<const double> forces;  ///< the slots of constraint forces
   double energy = 0.0;             ///< kinetic plus all potential energies
-  std::span<const char> unique;    ///< m: is this multiplier determined? empty if all are
+  std::span<const char> unique{};  ///< m: is this multiplier determined? empty if all are
 };
 
 /// One instant of a run, read by handle. A view: valid while the Trajectory or Simulation it comes

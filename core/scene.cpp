@@ -32,13 +32,17 @@ Scene<D>::Scene(std::string name) {
 }
 
 template <int D>
-std::string Scene<D>::unique_name(std::string_view kind, const std::string& name, std::size_t number) {
-  std::string own = name.empty() ? std::string(kind) + std::to_string(number) : name;
-  if (!names_.insert(own).second) {
-    throw InvalidScene(std::string(kind) + " \"" + own + "\": this name is taken in scene \"" +
+std::string Scene<D>::unique_name(std::string_view kind, const std::string& name, std::size_t number) const {
+  if (name.empty()) {
+    std::string own = std::string(kind) + std::to_string(number);
+    while (names_.contains(own)) own = std::string(kind) + std::to_string(++number);
+    return own;
+  }
+  if (names_.contains(name)) {
+    throw InvalidScene(std::string(kind) + " \"" + name + "\": this name is taken in scene \"" +
                        layout_.scene + "\"; names must differ");
   }
-  return own;
+  return name;
 }
 
 template <int D>
@@ -58,6 +62,7 @@ Particle<D> Scene<D>::add_particle(const ParticleState<D>& state, const std::str
   if (!state.velocity.allFinite()) {
     throw InvalidScene(label + "velocity = " + text<D>(state.velocity) + ", must be finite");
   }
+  names_.insert(own);
   const Particle<D> particle{static_cast<int>(number), static_cast<int>(q_.size()), layout_.id};
   layout_.particles.push_back({own, particle.coordinate, state.mass});
   q_.insert(q_.end(), state.position.begin(), state.position.end());

@@ -98,10 +98,11 @@ class Scene {
     std::vector<std::string> names;
   };
 
-  /// `name`, or `kind` and a number if it is empty; throws InvalidScene if it is taken.
-  std::string unique_name(std::string_view kind, const std::string& name, std::size_t number);
+  /// `name`, or if it is empty `kind` and the next free number; throws InvalidScene if it is taken.
+  [[nodiscard]] std::string unique_name(std::string_view kind, const std::string& name,
+                                        std::size_t number) const;
 
-  /// Checks an element's parameters and points and returns its name.
+  /// Checks an element's parameters and points and returns its name. What is refused leaves no trace.
   template <class Element>
   std::string admit(const Element& element, std::string_view kind, const std::string& name,
                     std::size_t number) {
@@ -111,22 +112,25 @@ class Scene {
       const std::string fault = element.fault();
       if (!fault.empty()) throw InvalidScene(label + ": " + fault);
     }
-    std::apply([&](const auto&... point) { (admit_point(point, label), ...); }, element.points());
+    auto extent = extent_;
+    std::apply([&](const auto&... point) { (admit_point(point, label, extent), ...); }, element.points());
+    extent_ = extent;
+    names_.insert(own);
     return own;
   }
   template <Point P>
-  void admit_point(const P& point, const std::string& label) {
+  void admit_point(const P& point, const std::string& label, Eigen::AlignedBox<double, D>& extent) const {
     static_assert(P::dimension == D || std::is_same_v<P, Rotor>,
                   "a point of this constraint or force has another dimension than the scene");
     if constexpr (requires { point.particles; }) {
-      for (const auto& particle : point.particles) admit_point(particle, label);
+      for (const auto& particle : point.particles) admit_point(particle, label, extent);
     } else if constexpr (P::coordinates > 0) {
       require_own(point.scene, point.coordinate, label);
     } else if constexpr (P::driven) {
-      extent_.extend(Vec<D>(point.path(0.0).template cast<double>()));
+      extent.extend(Vec<D>(point.path(0.0).template cast<double>()));
     } else {
       require_finite(point.position, label);
-      extent_.extend(point.position);
+      extent.extend(point.position);
     }
   }
   void require_own(std::uint64_t scene, int coordinate, const std::string& label) const;

@@ -190,7 +190,7 @@ void Integrator::advance_to(double t) {
   State& s = *state_;
   if (!(t >= s.now.t && t <= s.options.t_end)) {
     std::ostringstream what;
-    what << "advance_to(" << t << "): must lie between the current time " << s.t
+    what << "advance_to(" << t << "): must lie between the current time " << s.now.t
          << " and t_end = " << s.options.t_end;
     throw InvalidScene(what.str());
   }

@@ -1,0 +1,209 @@
+#include "dalembert/core/dual.h"
+
+#include "../finite_differences.h"
+#include <dalembert/core/vec.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <vector>
+
+namespace dalembert {
+namespace {
+
+using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cos, std::cosh, std::exp, std::hypot,
+    std::log, std::pow, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
+
+/// A function of k variables as the library sees it.
+template <int k>
+struct Function {
+  using S = Dual<k, 2>;
+  using First = Dual<k, 1>;
+  template <class T>
+  using Arguments = VecOf<T, k>;
+
+  std::string name;
+  Arguments<double> x;
+  double (*number)(const Arguments<double>&);
+  S (*dual)(const Arguments<S>&);
+  First (*first)(const Arguments<First>&);
+
+  template <class F>
+  Function(std::string n, const Arguments<double>& at, F f)
+      : name(std::move(n)), x(at), number(f), dual(f), first(f) {}
+};
+
+template <class S, int k>
+VecOf<S, k> inputs(const VecOf<double, k>& x) {
+  VecOf<S, k> r;
+  for (int i = 0; i < k; ++i) r[i] = S::input(x[i], i);
+  return r;
+}
+
+/// Value against the same formula in numbers, gradient against differences of the value, Hessian
+/// against differences of the gradient.
+template <int k>
+void expect_derivatives(const Function<k>& f) {
+  using S = typename Function<k>::S;
+  const S y = f.dual(inputs<S, k>(f.x));
+  EXPECT_DOUBLE_EQ(y.value, f.number(f.x)) << f.name;
+  const auto first = f.first(inputs<Dual<k, 1>, k>(f.x));
+  EXPECT_EQ(first.value, y.value) << f.name;
+  EXPECT_EQ(first.gradient, y.gradient) << f.name;
+  for (int j = 0; j < k; ++j) {
+    const auto at = [&](double s) {
+      VecOf<double, k> x = f.x;
+      x[j] += s;
+      return x;
+    };
+    expect_slope(slope([&](double s) { return Eigen::VectorXd::Constant(1, f.number(at(s))); }),
+                 Eigen::VectorXd::Constant(1, y.gradient[j]), f.name + ": gradient");
+    expect_slope(slope([&](double s) { return Eigen::VectorXd(f.dual(inputs<S, k>(at(s))).gradient); }),
+                 y.hessian.col(j), f.name + ": Hessian");
+  }
+}
+
+/// u(x, y) with all first and second derivatives: f(u) then shows both terms of the chain rule.
+auto inner(const auto& r) { return r[0] * r[1] + 0.1 * r[0] * r[0]; }
+
+/// Where inner() is u.
+Vec<2> where(double u) { return {1.0, u - 0.1}; }
+
+TEST(Dual, EveryFunctionOfOneArgumentHasItsDerivatives) {
+  const std::vector<Function<2>> functions{
+      {"sqrt", where(0.7), [](const auto& r) { return sqrt(inner(r)); }},
+      {"exp", where(0.7), [](const auto& r) { return exp(inner(r)); }},
+      {"log", where(0.7), [](const auto& r) { return log(inner(r)); }},
+      {"sin", where(0.7), [](const auto& r) { return sin(inner(r)); }},
+      {"cos", where(0.7), [](const auto& r) { return cos(inner(r)); }},
+      {"tan", where(0.7), [](const auto& r) { return tan(inner(r)); }},
+      {"asin", where(-0.4), [](const auto& r) { return asin(inner(r)); }},
+      {"acos", where(-0.4), [](const auto& r) { return acos(inner(r)); }},
+      {"atan", where(-0.4), [](const auto& r) { return atan(inner(r)); }},
+      {"sinh", where(0.7), [](const auto& r) { return sinh(inner(r)); }},
+      {"cosh", where(0.7), [](const auto& r) { return cosh(inner(r)); }},
+      {"tanh", where(0.7), [](const auto& r) { return tanh(inner(r)); }},
+      {"abs of a negative", where(-0.7), [](const auto& r) { return abs(inner(r)); }},
+      {"abs of a positive", where(0.7), [](const auto& r) { return abs(inner(r)); }},
+      {"minus", where(0.7), [](const auto& r) { return -sin(inner(r)); }},
+      {"pow -1.5", where(0.7), [](const auto& r) { return pow(inner(r), -1.5); }},
+      {"pow 0", where(0.7), [](const auto& r) { return pow(inner(r), 0.0); }},
+      {"pow 0.5", where(0.7), [](const auto& r) { return pow(inner(r), 0.5); }},
+      {"pow 1", where(-0.7), [](const auto& r) { return pow(inner(r), 1.0); }},
+      {"pow 2", where(-0.7), [](const auto& r) { return pow(inner(r), 2.0); }},
+      {"pow 3", where(-0.7), [](const auto& r) { return pow(inner(r), 3.0); }},
+      {"pow of an integer", where(-0.7), [](const auto& r) { return pow(inner(r), 2); }},
+      {"number plus and minus", where(0.7), [](const auto& r) { return 2.0 - (inner(r) + 1.0 - 3.0); }},
+      {"number times and over", where(0.7), [](const auto& r) { return 2.0 / (3.0 * inner(r) / 5.0); }},
+  };
+  for (const auto& f : functions) expect_derivatives(f);
+}
+
+TEST(Dual, EveryFunctionOfTwoArgumentsHasItsDerivatives) {
+  const Vec<2> at{0.7, 0.4};
+  const std::vector<Function<2>> functions{
+      {"sum", at, [](const auto& r) { return sin(r[0]) + sin(r[1]); }},
+      {"difference", at, [](const auto& r) { return sin(r[0]) - exp(r[1]); }},
+      {"product", at, [](const auto& r) { return sin(r[0]) * exp(r[1]); }},
+      {"quotient", at, [](const auto& r) { return sin(r[0]) / exp(r[0] * r[1]); }},
+      {"pow", at, [](const auto& r) { return pow(r[0], r[1]); }},
+      {"pow of a number", at, [](const auto& r) { return pow(2.0, r[1] * r[0]); }},
+      {"hypot", at, [](const auto& r) { return hypot(r[0], r[0] * r[1]); }},
+      {"atan2, first quadrant", at, [](const auto& r) { return atan2(r[0], r[1]); }},
+      {"atan2, second quadrant", {0.7, -0.4}, [](const auto& r) { return atan2(r[0], r[1]); }},
+      {"atan2, third quadrant", {-0.7, -0.4}, [](const auto& r) { return atan2(r[0], r[1]); }},
+      {"atan2, fourth quadrant", {-0.7, 0.4}, [](const auto& r) { return atan2(r[0], r[1]); }},
+      {"atan2 of a curve", at, [](const auto& r) { return atan2(r[0] * r[1], r[1] * r[1]); }},
+      {"assignments", at,
+       [](const auto& r) {
+         auto x = r[0];
+         x += r[1];
+         x *= r[0];
+         x -= 0.5 * r[1];
+         x /= r[1];
+         return x;
+       }},
+  };
+  for (const auto& f : functions) expect_derivatives(f);
+}
+
+TEST(Dual, VectorAlgebraOfEigenHasItsDerivatives) {
+  using Six = VecOf<double, 6>;
+  const Six at{0.3, -0.7, 1.1, 0.9, 0.2, -0.5};
+  const std::vector<Function<6>> functions{
+      {"norm", at, [](const auto& r) { return (r.template head<3>() - r.template tail<3>()).norm(); }},
+      {"squared norm", at, [](const auto& r) { return r.squaredNorm(); }},
+      {"dot", at, [](const auto& r) { return r.template head<3>().dot(r.template tail<3>()); }},
+      {"cross", at, [](const auto& r) { return r.template head<3>().cross(r.template tail<3>()).norm(); }},
+      {"normalized", at,
+       [](const auto& r) { return r.template head<3>().normalized().dot(r.template tail<3>()); }},
+      {"dot with numbers", at,
+       [](const auto& r) {
+         return Vec<3>{1.0, 2.0, 3.0}.normalized().dot(r.template head<3>());
+       }},
+      {"cross with numbers", at,
+       [](const auto& r) {
+         return Vec<3>{1.0, 2.0, 3.0}.cross(r.template head<3>()).norm();
+       }},
+      {"numbers subtracted and scaled", at,
+       [](const auto& r) {
+         return (2.0 * (r.template head<3>() - Vec<3>{1.0, 2.0, 3.0}) / 3.0).norm();
+       }},
+      {"sum of components", at, [](const auto& r) { return r.sum() * r.x() / r[1]; }},
+  };
+  for (const auto& f : functions) expect_derivatives(f);
+}
+
+TEST(Dual, AutoTypedPartsOfAFormulaOutliveTheirExpression) {
+  using S = Dual<2, 2>;
+  const S x = S::input(3.0, 0);
+  const S y = S::input(4.0, 1);
+  auto s = x * y + 1.0;  // with expression templates: a reference to the dead x * y
+  auto r = s * s - 2.0 * (x + y);
+  EXPECT_EQ(r.value, 13.0 * 13.0 - 14.0);
+  EXPECT_EQ(r.gradient, Vec<2>(2.0 * 13.0 * 4.0 - 2.0, 2.0 * 13.0 * 3.0 - 2.0));
+  EXPECT_EQ(r.hessian(0, 1), 2.0 * 13.0 + 2.0 * 3.0 * 4.0);
+}
+
+TEST(Dual, PowersAtZeroHaveTheirLimits) {
+  using S = Dual<1, 2>;
+  const S zero = S::input(0.0, 0);
+  const auto is = [](const S& f, double value, double slope, double curvature) {
+    return f.value == value && f.gradient[0] == slope && f.hessian(0, 0) == curvature;
+  };
+  EXPECT_TRUE(is(pow(zero, 0.0), 1.0, 0.0, 0.0));
+  EXPECT_TRUE(is(pow(zero, 1.0), 0.0, 1.0, 0.0));
+  EXPECT_TRUE(is(pow(zero, 2.0), 0.0, 0.0, 2.0));
+  EXPECT_TRUE(is(pow(zero, 3.0), 0.0, 0.0, 0.0));
+}
+
+TEST(Dual, ASingularDerivativeIsNotFinite) {
+  using S = Dual<1, 2>;
+  EXPECT_FALSE(isfinite(sqrt(S::input(0.0, 0))));
+  EXPECT_FALSE(isfinite(log(S::input(0.0, 0))));
+  EXPECT_FALSE(isfinite(asin(S::input(1.0, 0))));
+  EXPECT_FALSE(isfinite(hypot(S::input(0.0, 0), S(0.0))));
+  EXPECT_FALSE(isfinite(1.0 / S::input(0.0, 0)));
+  EXPECT_TRUE(isfinite(abs(S::input(0.0, 0))));
+}
+
+TEST(Dual, ComparesByValue) {
+  using S = Dual<1, 1>;
+  const S two = S::input(2.0, 0);
+  EXPECT_TRUE(two == S(2.0));
+  EXPECT_TRUE(two == 2.0);
+  EXPECT_TRUE(1.0 < two && two < 3.0 && two <= S(2.0) && two > S(1.0));
+  EXPECT_EQ(std::max(S(1.0), two).gradient[0], 1.0);
+}
+
+TEST(Dual, AVectorMixesNumbersAndDuals) {
+  using S = Dual<1, 1>;
+  const auto r = vec(S::input(2.0, 0), 3.0, 4);
+  static_assert(std::is_same_v<decltype(r), const VecOf<S, 3>>);
+  EXPECT_EQ(r[0].gradient[0], 1.0);
+  EXPECT_EQ(r[1].value, 3.0);
+  EXPECT_EQ(r[2].value, 4.0);
+}
+
+}  // namespace
+}  // namespace dalembert

@@ -1,0 +1,160 @@
+#include "dalembert/core/system.h"
+
+#include "../equations.h"
+#include <dalembert/constraints/coincident.h>
+#include <dalembert/constraints/distance.h>
+#include <dalembert/constraints/holonomic.h>
+#include <dalembert/constraints/nonholonomic.h>
+#include <dalembert/core/scene.h>
+
+#include <gmock/gmock.h>
+
+namespace dalembert {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using testing::ThrowsMessage;
+
+/// One element of every kind, added so that neither batches nor rows come in the order of adding.
+class MixedScene : public testing::Test {
+ protected:
+  Scene<2> scene{"mixed"};
+  Particle<2> a = scene.add_particle({.mass = 1.0}, "a");
+  Particle<2> b = scene.add_particle({.mass = 2.0}, "b");
+  Particle<2> c = scene.add_particle({.mass = 4.0}, "c");
+  Constraint<1> skate = scene.add(
+      nonholonomic(points(b), [](auto t, auto r, auto v) { return v.y() - (r.x() + sin(t)) * v.x(); }),
+      "skate");
+  Constraint<1> rod = scene.add(Distance{a, b, 1.5}, "rod");
+  Constraint<2> pin = scene.add(Coincident{c, driven([](auto t) { return vec(sin(t), t * t); })}, "pin");
+  Constraint<1> wire =
+      scene.add(holonomic(points(a), [](auto t, auto r) { return r.y() - t * sin(r.x()); }), "wire");
+  Constraint<1> bar = scene.add(Distance{b, c, 2.0}, "bar");
+
+  MixedScene() {
+    scene.add(UniformGravity<2>{{0.0, -9.81}});
+    scene.add(Damper{a, c, 0.7});
+    scene.add(Spring{b, c, 5.0, 0.3});
+    scene.add(potential(points(a), [](auto t, auto r) { return t * r.x() * r.x() * r.y(); }));
+  }
+
+  State state{0.7, (Eigen::VectorXd(6) << 0.5, -0.2, 1.7, 0.9, -0.4, 1.3).finished(),
+              (Eigen::VectorXd(6) << 0.4, 1.1, -0.6, 0.3, 0.8, -0.9).finished()};
+  Eigen::VectorXd lambda = (Eigen::VectorXd(6) << 1.0, -2.0, 0.5, 3.0, -1.5, 0.7).finished();
+};
+
+TEST_F(MixedScene, DerivativesAreConsistent) { expect_consistent(scene.system(), state, lambda); }
+
+TEST_F(MixedScene, HolonomicRowsComeFirst) {
+  const auto system = scene.system();
+  EXPECT_EQ(system.coordinates(), 6);
+  EXPECT_EQ(system.holonomic_rows(), 5);
+  EXPECT_EQ(system.rows(), 6);
+  EXPECT_TRUE(system.rheonomic());
+  const auto& constraints = system.layout()->constraints;
+  EXPECT_EQ(constraints[static_cast<std::size_t>(skate.index)].first_row, 5);
+  for (const auto& constraint : constraints) {
+    for (int k = 0; k < constraint.rows; ++k) {
+      EXPECT_EQ(system.row_label(constraint.first_row + k), constraint.label());
+    }
+  }
+}
+
+TEST_F(MixedScene, EveryRowReadsTheCoordinatesOfItsOwnParticles) {
+  const auto system = scene.system();
+  const auto columns = [&](auto constraint) {
+    const auto row = static_cast<std::size_t>(
+        system.layout()->constraints[static_cast<std::size_t>(constraint.index)].first_row);
+    const auto first = static_cast<std::size_t>(system.row_start()[row]);
+    const auto last = static_cast<std::size_t>(system.row_start()[row + 1]);
+    const auto own = system.w_columns().subspan(first, last - first);
+    return std::vector<int>(own.begin(), own.end());
+  };
+  EXPECT_THAT(columns(skate), ElementsAre(2, 3));
+  EXPECT_THAT(columns(rod), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(columns(pin), ElementsAre(4, 5));
+  EXPECT_THAT(columns(wire), ElementsAre(0, 1));
+  EXPECT_THAT(columns(bar), ElementsAre(2, 3, 4, 5));
+}
+
+TEST_F(MixedScene, ForcesOfConstraintAddUpToWTransposedTimesLambda) {
+  const auto system = scene.system();
+  auto e = system.evaluation();
+  system.evaluate(state.instant(), e);
+  std::vector<double> slots(system.layout()->slot_coordinate.size());
+  system.constraint_forces(e.w, {lambda.data(), 6}, slots);
+  Eigen::VectorXd Z = Eigen::VectorXd::Zero(6);
+  for (std::size_t k = 0; k < slots.size(); ++k) Z[system.layout()->slot_coordinate[k]] += slots[k];
+  const Eigen::VectorXd expected = by_rows(system, e.w).transpose() * lambda;
+  // Six products and sums in another order.
+  EXPECT_LE((Z - expected).lpNorm<Eigen::Infinity>(),
+            6.0 * 2.3e-16 * expected.lpNorm<Eigen::Infinity>() * 6.0);
+}
+
+// (1 (0.4^2 + 1.1^2) + 2 (0.6^2 + 0.3^2) + 4 (0.8^2 + 0.9^2)) / 2
+TEST_F(MixedScene, KineticEnergyIsHalfTheSumOfMassTimesSpeedSquared) {
+  EXPECT_DOUBLE_EQ(scene.system().kinetic_energy(state.instant().v),
+                   0.5 * (0.16 + 1.21 + 2.0 * (0.36 + 0.09) + 4.0 * (0.64 + 0.81)));
+}
+
+// Gravity 9.81 sum m y, spring 5 (|b - c| - 0.3)^2 / 2 with |b - c| = |(2.1, -0.4)|, t x^2 y.
+TEST_F(MixedScene, PotentialEnergyIsThatOfGravitySpringAndPotential) {
+  const double height = -0.2 + 2.0 * 0.9 + 4.0 * 1.3;
+  const double stretch = std::hypot(2.1, 0.4) - 0.3;
+  const double expected = 9.81 * height + 2.5 * stretch * stretch + 0.7 * 0.25 * -0.2;
+  EXPECT_NEAR(scene.system().potential_energy(state.instant()), expected, 10.0 * 2.3e-16 * 100.0);
+}
+
+TEST_F(MixedScene, TwoSystemsOfOneSceneGiveTheSameBits) {
+  const Values once = values(scene.system(), state);
+  const Values again = values(scene.system(), state);
+  EXPECT_EQ(once.F, again.F);
+  EXPECT_EQ(once.g, again.g);
+  EXPECT_EQ(once.psi, again.psi);
+  EXPECT_EQ(once.W, again.W);
+  EXPECT_EQ(once.gamma, again.gamma);
+}
+
+TEST_F(MixedScene, DescriptionCountsWhatThereIs) {
+  EXPECT_THAT(scene.system().describe(),
+              AllOf(HasSubstr("\"mixed\": 3 particles in 2 dimensions, 6 coordinates"),
+                    HasSubstr("1 Coincident, 2 Distance, 1 Holonomic, 1 Nonholonomic"),
+                    HasSubstr("5 holonomic and 1 nonholonomic equations, rheonomic"),
+                    HasSubstr("1 of position, 0 of velocity"), HasSubstr("1 Damper, 1 Potential, 1 Spring"),
+                    HasSubstr("index-2 equations: 23"), HasSubstr("planar"), Not(HasSubstr("damping block")),
+                    Not(HasSubstr("mu:")), Not(HasSubstr("time derivatives"))));
+}
+
+TEST(System, DescriptionSaysWhatAFreeParticleLeavesOut) {
+  Scene<3> scene;
+  scene.add_particle({.mass = 1.0});
+  EXPECT_THAT(scene.system().describe(),
+              AllOf(HasSubstr("1 particle in 3 dimensions"), HasSubstr("constraints: none"),
+                    HasSubstr("forces: none"), HasSubstr("stiffness block"), HasSubstr("damping block"),
+                    HasSubstr("mu:"), HasSubstr("there is no constraint"), Not(HasSubstr("planar")),
+                    HasSubstr("index-2 equations: 6")));
+}
+
+TEST(System, DescriptionSaysThatNothingDependsOnTime) {
+  Scene<2> scene;
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
+  scene.add(Distance{Fixed<2>{}, bob, 1.0});
+  EXPECT_THAT(scene.system().describe(), AllOf(HasSubstr("scleronomic"), HasSubstr("time derivatives")));
+}
+
+TEST(System, ABadNumberOrAnExceptionNamesTheConstraintAndTheTime) {
+  Scene<2> scene;
+  const auto a = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
+  scene.add(holonomic(points(a), [](auto r) { return r.x() - 1.0; }), "good");
+  scene.add(holonomic(points(a), [](auto r) { return log(r.y() - 1.0); }), "bad");
+  const State s{0.25, Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d::Zero()};
+  EXPECT_THAT([&] { (void)values(scene.system(), s); },
+              ThrowsMessage<EquationFault>(AllOf(HasSubstr("Holonomic \"bad\""),
+                                                 HasSubstr("not a finite number"), HasSubstr("t = 0.25"))));
+}
+
+}  // namespace
+}  // namespace dalembert

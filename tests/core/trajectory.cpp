@@ -1,0 +1,195 @@
+#include "dalembert/core/trajectory.h"
+
+#include <dalembert/constraints/coincident.h>
+#include <dalembert/constraints/distance.h>
+#include <dalembert/core/scene.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+namespace dalembert {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+/// A run written by hand: two particles, a rod between them and a pin, two samples.
+class TwoSamples : public testing::Test {
+ protected:
+  Scene<2> scene{"dumbbell"};
+  Particle<2> a = scene.add_particle({.mass = 1.0}, "a");
+  Particle<2> b = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}}, "b");
+  Constraint<1> rod = scene.add(Distance{a, b, 1.0}, "rod");
+  Constraint<2> pin = scene.add(Coincident{a, Fixed<2>{}}, "pin");
+
+  Record record() {
+    Record r;
+    r.layout = scene.system().layout();
+    r.stepper = "hand";
+    r.tolerance = 1e-8;
+    r.statistics.steps = 7;
+    // Slots: the rod's force on a and b, the pin's on a.
+    const std::vector<double> q{0.1, 0.2, 1.1, 1.2}, v{0.3, 0.4, 1.3, 1.4}, lambda{5.0, 6.0, 7.0};
+    const std::vector<double> forces{1.0, 2.0, -1.0, -2.0, 6.0, 7.0};
+    r.append({0.0, q, v, lambda, forces, 42.0});
+    const std::vector<double> later{1.0 / 3.0, 0.2, 1.1, 1.2};
+    r.append({0.5, later, v, lambda, forces, 43.0});
+    return r;
+  }
+  Trajectory<2> run{std::make_shared<const Record>(record())};
+};
+
+TEST_F(TwoSamples, AreReadByHandleAndSample) {
+  EXPECT_EQ(run.size(), 2U);
+  EXPECT_THAT(run.times(), testing::ElementsAre(0.0, 0.5));
+  EXPECT_EQ(run.position(a, 0), Vec<2>(0.1, 0.2));
+  EXPECT_EQ(run.position(a, 1), Vec<2>(1.0 / 3.0, 0.2));
+  EXPECT_EQ(run.velocity(b, 1), Vec<2>(1.3, 1.4));
+  EXPECT_EQ(run.multiplier(rod, 0), 5.0);
+  EXPECT_EQ(run.multiplier(pin, 0), Vec<2>(6.0, 7.0));
+  EXPECT_EQ(run.constraint_force(rod, a, 0), Vec<2>(1.0, 2.0));
+  EXPECT_EQ(run.constraint_force(rod, b, 0), Vec<2>(-1.0, -2.0));
+  EXPECT_EQ(run.constraint_force(pin, a, 0), Vec<2>(6.0, 7.0));
+  EXPECT_EQ(run.constraint_force(a, 0), Vec<2>(7.0, 9.0));
+  EXPECT_EQ(run.energy(0), 42.0);
+  EXPECT_EQ(run.energy(1), 43.0);
+  EXPECT_EQ(run.sample(1).time(), 0.5);
+  EXPECT_EQ(run.statistics().steps, 7);
+}
+
+TEST_F(TwoSamples, AConstraintExertsNoForceOnAParticleItDoesNotTouch) {
+  EXPECT_EQ(run.constraint_force(pin, b, 0), Vec<2>::Zero());
+}
+
+TEST_F(TwoSamples, HaveNoThird) {
+  EXPECT_THAT([&] { (void)run.position(a, 2); },
+              ThrowsMessage<InvalidScene>(AllOf(HasSubstr("no sample 2"), HasSubstr("has 2"))));
+}
+
+TEST_F(TwoSamples, RefuseAForeignHandle) {
+  Scene<2> other;
+  const auto foreign = other.add_particle({.mass = 1.0});
+  const auto foreign_rod = other.add(Distance{Fixed<2>{}, foreign, 1.0});
+  const auto refused = ThrowsMessage<InvalidScene>(
+      AllOf(HasSubstr("\"dumbbell\""), HasSubstr("another scene"), HasSubstr("use the handles")));
+  EXPECT_THAT([&] { (void)run.position(foreign, 0); }, refused);
+  EXPECT_THAT([&] { (void)run.velocity(foreign, 0); }, refused);
+  EXPECT_THAT([&] { (void)run.constraint_force(foreign, 0); }, refused);
+  EXPECT_THAT([&] { (void)run.constraint_force(rod, foreign, 0); }, refused);
+  EXPECT_THAT([&] { (void)run.multiplier(foreign_rod, 0); }, refused);
+  EXPECT_THAT([&] { (void)run.constraint_force(foreign_rod, a, 0); }, refused);
+}
+
+TEST_F(TwoSamples, RefuseAHandleThatWasNeverAdded) {
+  EXPECT_THROW((void)run.position(Particle<2>{}, 0), InvalidScene);
+  EXPECT_THROW((void)run.multiplier(Constraint<1>{}, 0), InvalidScene);
+}
+
+TEST_F(TwoSamples, RefuseAHandleAddedAfterTheRun) {
+  const auto late = scene.add_particle({.mass = 1.0});
+  const auto late_rod = scene.add(Distance{a, late, 1.0});
+  const auto refused = ThrowsMessage<InvalidScene>(HasSubstr("added after the run was made"));
+  EXPECT_THAT([&] { (void)run.position(late, 0); }, refused);
+  EXPECT_THAT([&] { (void)run.multiplier(late_rod, 0); }, refused);
+}
+
+TEST_F(TwoSamples, CannotBeReadInAnotherDimension) {
+  EXPECT_THAT([&] { Trajectory<3>{std::make_shared<const Record>(record())}; },
+              ThrowsMessage<InvalidScene>(AllOf(HasSubstr("\"dumbbell\""), HasSubstr("Trajectory<2>"))));
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::istringstream in(line);
+  std::vector<std::string> cells;
+  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+TEST_F(TwoSamples, AsCsvSayWhatTheyAre) {
+  std::ostringstream out;
+  run.write_csv(out);
+  const auto lines = lines_of(out.str());
+  ASSERT_EQ(lines.size(), 3U + 1U + 2U);
+  EXPECT_THAT(lines[0], AllOf(HasSubstr("# dalembert "), HasSubstr("scene \"dumbbell\""),
+                              HasSubstr("stepper hand"), HasSubstr("tolerance 1e-08")));
+  EXPECT_THAT(lines[1], AllOf(HasSubstr("# "), HasSubstr("Z = +W^T lambda")));
+  EXPECT_THAT(lines[2], AllOf(HasSubstr("# "), HasSubstr("7 steps")));
+  EXPECT_EQ(
+      lines[3],
+      "t,a.x,a.y,a.vx,a.vy,b.x,b.y,b.vx,b.vy,rod.lambda,rod.on.a.Zx,rod.on.a.Zy,rod.on.b.Zx,rod.on.b.Zy,"
+      "pin.lambda1,pin.lambda2,pin.on.a.Zx,pin.on.a.Zy,energy");
+}
+
+TEST_F(TwoSamples, AsCsvKeepEveryDigit) {
+  std::ostringstream out;
+  run.write_csv(out);
+  const auto lines = lines_of(out.str());
+  ASSERT_EQ(lines.size(), 6U);
+  const std::vector<double> expected{0.5, 1.0 / 3.0, 0.2,  0.3,  0.4, 1.1, 1.2, 1.3, 1.4, 5.0,
+                                     1.0, 2.0,       -1.0, -2.0, 6.0, 7.0, 6.0, 7.0, 43.0};
+  const auto cells = cells_of(lines[5]);
+  ASSERT_EQ(cells.size(), expected.size());
+  ASSERT_EQ(cells_of(lines[3]).size(), expected.size());
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    EXPECT_EQ(std::strtod(cells[i].c_str(), nullptr), expected[i]);
+}
+
+TEST_F(TwoSamples, LeaveTheFormatOfTheUsersStreamAlone) {
+  std::ostringstream out;
+  run.write_csv(out);
+  out.str({});
+  out << 1.0 / 3.0;
+  EXPECT_EQ(out.str(), "0.333333");
+}
+
+TEST_F(TwoSamples, AreWrittenToAFile) {
+  const auto path = std::filesystem::temp_directory_path() / "dalembert-two-samples.csv";
+  run.write_csv(path.string());
+  EXPECT_GT(std::filesystem::file_size(path), 100U);
+  std::filesystem::remove(path);
+}
+
+TEST_F(TwoSamples, SayWhenTheyCannotBeWritten) {
+  EXPECT_THAT([&] { run.write_csv("no-such-folder/run.csv"); },
+              ThrowsMessage<Error>(AllOf(HasSubstr("\"no-such-folder/run.csv\""), HasSubstr("folder"))));
+}
+
+// A comma in a name must not make a column of its own.
+TEST(Trajectory, NamesWithACommaAreQuotedInCsv) {
+  Scene<2> scene;
+  scene.add_particle({.mass = 1.0}, "upper, left");
+  Record r;
+  r.layout = scene.system().layout();
+  const std::vector<double> two{0.0, 0.0};
+  r.append({0.0, two, two, {}, {}, 0.0});
+  std::ostringstream out;
+  Trajectory<2>(std::make_shared<const Record>(std::move(r))).write_csv(out);
+  EXPECT_THAT(out.str(), HasSubstr("t,\"upper, left.x\",\"upper, left.y\","));
+}
+
+TEST(Record, ReservedRoomIsNotLeftWhileAppending) {
+  Record r;
+  const std::vector<double> q(4), v(4), lambda(3), forces(6);
+  const FlatSample sample{0.0, q, v, lambda, forces, 0.0};
+  r.reserve(10, sample);
+  r.append(sample);
+  const double* const first = r.values.data();
+  for (int i = 1; i < 10; ++i) r.append(sample);
+  EXPECT_EQ(r.values.data(), first);
+  EXPECT_EQ(r.values.size(), 10U * (4 + 4 + 3 + 6 + 1));
+}
+
+}  // namespace
+}  // namespace dalembert

@@ -1,0 +1,102 @@
+#pragma once
+
+#include "finite_differences.h"
+#include <dalembert/core/system.h>
+
+#include <string>
+#include <vector>
+
+/// The equations of a System as dense matrices, and what must hold between them.
+namespace dalembert {
+
+struct State {
+  double t;
+  Eigen::VectorXd q, v;
+
+  [[nodiscard]] Instant instant() const {
+    const auto n = static_cast<std::size_t>(q.size());
+    return {t, {q.data(), n}, {v.data(), n}};
+  }
+};
+
+inline Eigen::VectorXd vector(std::span<const double> x) {
+  return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
+inline Eigen::MatrixXd by_rows(const System& system, std::span<const double> w) {
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(system.rows(), system.coordinates());
+  for (int r = 0; r < system.rows(); ++r) {
+    for (int k = system.row_start()[static_cast<std::size_t>(r)];
+         k < system.row_start()[static_cast<std::size_t>(r) + 1]; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      dense(r, system.w_columns()[at]) += w[at];
+    }
+  }
+  return dense;
+}
+
+inline Eigen::MatrixXd by_entries(int n, std::span<const System::Entry> pattern,
+                                  std::span<const double> values) {
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t k = 0; k < pattern.size(); ++k) dense(pattern[k].row, pattern[k].column) += values[k];
+  return dense;
+}
+
+struct Values {
+  Eigen::VectorXd F, g, psi, gamma;
+  Eigen::MatrixXd W;
+};
+
+inline Values values(const System& system, const State& s) {
+  auto e = system.evaluation();
+  std::vector<double> gamma(static_cast<std::size_t>(system.rows()));
+  system.evaluate(s.instant(), e);
+  system.bias(s.instant(), gamma);
+  return {vector(e.force), vector(e.g), vector(e.psi), vector(gamma), by_rows(system, e.w)};
+}
+
+struct Derivatives {
+  Eigen::MatrixXd psi_q, stiffness, damping;
+};
+
+inline Derivatives derivatives(const System& system, const State& s, const Eigen::VectorXd& lambda) {
+  auto d = system.linearisation();
+  system.linearise(s.instant(), {lambda.data(), static_cast<std::size_t>(lambda.size())}, d);
+  const int n = system.coordinates();
+  return {by_rows(system, d.psi_q), by_entries(n, system.stiffness_pattern(), d.stiffness),
+          by_entries(n, system.damping_pattern(), d.damping)};
+}
+
+/// Every derivative that a System gives, against central differences of what it is the derivative of.
+inline void expect_consistent(const System& system, const State& at, const Eigen::VectorXd& lambda) {
+  const Values now = values(system, at);
+  const Derivatives d = derivatives(system, at, lambda);
+  const Eigen::Index holonomic = system.holonomic_rows();
+  for (Eigen::Index j = 0; j < at.q.size(); ++j) {
+    const auto moved = [&](double s) {
+      State to = at;
+      to.q[j] += s;
+      return values(system, to);
+    };
+    const auto kicked = [&](double s) {
+      State to = at;
+      to.v[j] += s;
+      return values(system, to);
+    };
+    const std::string column = ", column " + std::to_string(j);
+    expect_slope(slope([&](double s) { return moved(s).g; }), now.W.col(j).head(holonomic), "g_q" + column);
+    expect_slope(slope([&](double s) { return kicked(s).psi; }), now.W.col(j), "psi_v" + column);
+    expect_slope(slope([&](double s) { return moved(s).psi; }), d.psi_q.col(j), "psi_q" + column);
+    expect_slope(slope([&](double s) {
+                   const Values to = moved(s);
+                   return Eigen::VectorXd(to.F + to.W.transpose() * lambda);
+                 }),
+                 d.stiffness.col(j), "(F + W^T lambda)_q" + column);
+    expect_slope(slope([&](double s) { return kicked(s).F; }), d.damping.col(j), "F_v" + column);
+  }
+  const auto later = [&](double s) { return values(system, {at.t + s, at.q + s * at.v, at.v}); };
+  expect_slope(slope([&](double s) { return later(s).g; }), now.psi.head(holonomic), "psi = dg/dt");
+  expect_slope(slope([&](double s) { return later(s).psi; }), now.gamma, "gamma = psi_q v + psi_t");
+}
+
+}  // namespace dalembert

@@ -1,0 +1,195 @@
+#include "scenes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace dalembert {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+/// Every number of an instant.
+std::vector<double> numbers(const FlatSample& s) {
+  std::vector<double> all{s.time, s.energy};
+  for (const auto& part : {s.q, s.v, s.lambda, s.forces}) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+TEST(Simulation, TwoIdenticalRunsGiveTheSameBits) {
+  const Options options{.t_end = 2.0, .samples = 21, .tolerance = 1e-8};
+  const auto once = simulate(EachKind().scene, options);
+  const auto again = simulate(EachKind().scene, options);
+  ASSERT_EQ(once.size(), again.size());
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    EXPECT_EQ(numbers(once.sample(i).flat()), numbers(again.sample(i).flat()));
+  }
+  EXPECT_EQ(once.statistics().steps, again.statistics().steps);
+  EXPECT_EQ(once.statistics().evaluations, again.statistics().evaluations);
+  EXPECT_EQ(once.statistics().factorisations, again.statistics().factorisations);
+}
+
+TEST(Simulation, AnObserverSeesTheSamplesOfTheTrajectory) {
+  const EachKind each;
+  const Options options{.t_end = 1.0, .samples = 11};
+  const auto run = simulate(each.scene, options);
+  std::size_t i = 0;
+  const Statistics statistics = simulate(each.scene, options, [&](const Sample<2>& sample) {
+    ASSERT_LT(i, run.size());
+    EXPECT_EQ(numbers(sample.flat()), numbers(run.sample(i).flat()));
+    EXPECT_EQ(sample.position(each.bead), run.position(each.bead, i));
+    ++i;
+  });
+  EXPECT_EQ(i, run.size());
+  EXPECT_EQ(statistics.steps, run.statistics().steps);
+}
+
+TEST(Simulation, SamplesDoNotInfluenceTheSteps) {
+  const EachKind each;
+  const auto few = simulate(each.scene, {.t_end = 1.0, .samples = 3});
+  const auto many = simulate(each.scene, {.t_end = 1.0, .samples = 1001});
+  EXPECT_EQ(few.statistics().steps, many.statistics().steps);
+  for (std::size_t i = 0; i < few.size(); ++i) {
+    EXPECT_EQ(numbers(few.sample(i).flat()), numbers(many.sample(500 * i).flat()));
+  }
+}
+
+// The pendulum for 3 s. An error made in a step grows at most linearly in time here (the motion is
+// regular, its period depends on its energy), by a factor of about 1 + 3 omega; each step of the coarse
+// run contributes tolerance times (length + |q|) at most.
+TEST(Simulation, TimesBetweenStepsAreAsAccurateAsSteps) {
+  const Pendulum pendulum;
+  const std::vector<double> times{0.123, 0.7, 1.2345, 2.5, 2.999};
+  const auto coarse = simulate(pendulum.scene, {.t_end = 3.0, .times = times, .tolerance = 1e-7});
+  const auto fine = simulate(pendulum.scene, {.t_end = 3.0, .times = times, .tolerance = 1e-11});
+  ASSERT_EQ(coarse.size(), times.size());
+  const double bound =
+      1e-7 * 2.0 * static_cast<double>(coarse.statistics().steps) * (1.0 + 3.0 * std::sqrt(9.81));
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    EXPECT_EQ(coarse.times()[i], times[i]);
+    EXPECT_LE((coarse.position(pendulum.bob, i) - fine.position(pendulum.bob, i)).norm(), bound);
+  }
+}
+
+TEST(Simulation, AnIntervalGivesTheSamplesOfItsTimes) {
+  const Pendulum pendulum;
+  const auto by_interval = simulate(pendulum.scene, {.t_end = 1.0, .sample_interval = 0.25});
+  const auto by_number = simulate(pendulum.scene, {.t_end = 1.0, .samples = 5});
+  ASSERT_EQ(by_interval.size(), 5U);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(numbers(by_interval.sample(i).flat()), numbers(by_number.sample(i).flat()));
+  }
+}
+
+// Round-off of a norm and of a product, each of a few operations, times the number of iterations that
+// settle it: the output projection ends at 1e-15 of the length or where it no longer improves.
+TEST(Simulation, SamplesObeyTheConstraintsToRoundOff) {
+  const Pendulum pendulum;
+  const auto run = simulate(pendulum.scene, {.t_end = 3.0, .tolerance = 1e-4});
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const Vec<2> r = run.position(pendulum.bob, i);
+    EXPECT_NEAR(r.norm(), 1.0, 1e-15);
+    EXPECT_NEAR(r.dot(run.velocity(pendulum.bob, i)), 0.0, 16.0 * 2.3e-16 * std::sqrt(2.0 * 9.81));
+  }
+  EXPECT_LE(run.statistics().residual_position, 1e-15);
+}
+
+TEST(Simulation, BeginsAtTheStart) {
+  const Pendulum pendulum;
+  const Simulation<2> simulation(pendulum.scene, {.t_end = 8.0, .t_start = 5.0});
+  EXPECT_EQ(simulation.time(), 5.0);
+  EXPECT_EQ(simulation.position(pendulum.bob), Vec<2>(1.0, 0.0));
+  EXPECT_EQ(simulation.velocity(pendulum.bob), Vec<2>::Zero());
+  EXPECT_EQ(simulation.energy(), 0.0);
+  EXPECT_EQ(simulation.statistics().steps, 0);
+}
+
+TEST(Simulation, AdvancesToTheSamplesOfARun) {
+  const EachKind each;
+  const Options options{.t_end = 1.0, .samples = 5, .tolerance = 1e-7};
+  const auto run = simulate(each.scene, options);
+  Simulation<2> simulation(each.scene, options);
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    simulation.advance_to(run.times()[i]);
+    EXPECT_EQ(numbers(simulation.sample().flat()), numbers(run.sample(i).flat()));
+  }
+}
+
+TEST(Simulation, StepsForwardUntilItsEnd) {
+  const Pendulum pendulum;
+  Simulation<2> simulation(pendulum.scene, {.t_end = 0.5});
+  double before = 0.0;
+  long steps = 0;
+  while (simulation.time() < 0.5) {
+    simulation.step();
+    EXPECT_GT(simulation.time(), before);
+    before = simulation.time();
+    EXPECT_EQ(simulation.statistics().steps, ++steps);
+  }
+  EXPECT_EQ(simulation.time(), 0.5);
+  EXPECT_THAT([&] { simulation.step(); }, ThrowsMessage<IntegrationFailure>(HasSubstr("t_end is reached")));
+  EXPECT_EQ(simulation.time(), 0.5);
+}
+
+TEST(Simulation, StepsAndAdvancesInTurn) {
+  const Pendulum pendulum;
+  Simulation<2> simulation(pendulum.scene, {.t_end = 2.0});
+  simulation.advance_to(0.3);
+  simulation.advance_to(0.3);
+  EXPECT_EQ(simulation.time(), 0.3);
+  simulation.step();
+  EXPECT_GE(simulation.time(), 0.3);
+  simulation.advance_to(2.0);
+  EXPECT_EQ(simulation.time(), 2.0);
+}
+
+TEST(Simulation, DoesNotAdvanceBackwardsOrBeyondItsEnd) {
+  const Pendulum pendulum;
+  Simulation<2> simulation(pendulum.scene, {.t_end = 1.0});
+  simulation.advance_to(0.5);
+  for (const double t : {0.4, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THAT([&] { simulation.advance_to(t); },
+                ThrowsMessage<InvalidScene>(
+                    AllOf(HasSubstr("advance_to("), HasSubstr("current time 0.5"), HasSubstr("t_end = 1"))));
+  }
+  EXPECT_EQ(simulation.time(), 0.5);
+}
+
+TEST(Simulation, OutlivesItsScene) {
+  auto pendulum = std::make_unique<Pendulum>();
+  const auto bob = pendulum->bob;
+  Simulation<2> simulation(pendulum->scene, {.t_end = 1.0});
+  pendulum.reset();
+  simulation.advance_to(1.0);
+  EXPECT_NEAR(simulation.position(bob).norm(), 1.0, 1e-15);
+}
+
+TEST(Simulation, CanBeMovedInMidRun) {
+  const Pendulum pendulum;
+  Simulation<2> first(pendulum.scene, {.t_end = 1.0});
+  first.advance_to(0.5);
+  Simulation<2> second = std::move(first);
+  second.advance_to(1.0);
+  Simulation<2> straight(pendulum.scene, {.t_end = 1.0});
+  straight.advance_to(0.5);
+  straight.advance_to(1.0);
+  EXPECT_EQ(numbers(second.sample().flat()), numbers(straight.sample().flat()));
+}
+
+TEST(Simulation, ASecondRunHoldsOnlyWhatIsLeft) {
+  const Pendulum pendulum;
+  Simulation<2> simulation(pendulum.scene, {.t_end = 1.0, .samples = 5});
+  EXPECT_EQ(simulation.run().size(), 5U);
+  EXPECT_EQ(simulation.run().size(), 1U);  // the last instant, where it stands
+}
+
+TEST(Simulation, RefusesAForeignHandle) {
+  const Pendulum pendulum, other;
+  const Simulation<2> simulation(pendulum.scene, {.t_end = 1.0});
+  EXPECT_THROW((void)simulation.position(other.bob), InvalidScene);
+  EXPECT_THROW((void)simulation.multiplier(other.rod), InvalidScene);
+}
+
+}  // namespace
+}  // namespace dalembert

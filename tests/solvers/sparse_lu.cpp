@@ -1,0 +1,130 @@
+#include <dalembert/solvers/private/klu.h>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace dalembert {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+using Entry = SparseLU::Entry;
+
+/// All entries of a full matrix, row by row.
+std::vector<Entry> full(int size) {
+  std::vector<Entry> entries;
+  for (int i = 0; i < size; ++i) {
+    for (int j = 0; j < size; ++j) entries.push_back({i, j});
+  }
+  return entries;
+}
+
+void set(SparseLU& lu, const Eigen::MatrixXd& a) {
+  lu.set_zero();
+  std::size_t k = 0;
+  for (Eigen::Index i = 0; i < a.rows(); ++i) {
+    for (Eigen::Index j = 0; j < a.cols(); ++j) lu.add(k++, a(i, j));
+  }
+}
+
+Eigen::VectorXd solution(SparseLU& lu, Eigen::VectorXd b) {
+  lu.solve({b.data(), static_cast<std::size_t>(b.size())});
+  return b;
+}
+
+Eigen::MatrixXd general() {
+  return (Eigen::Matrix4d() << 4.0, 1.0, 0.5, -1.0, 2.0, 5.0, 1.0, 0.3, -0.7, 0.1, 3.0, 1.0, 1.0, 2.0, -1.0,
+          6.0)
+      .finished();
+}
+
+/// Gaussian elimination with pivots is backward stable: |A x - b| <= c n eps |A| |x|.
+void expect_solved(const Eigen::MatrixXd& a, const Eigen::VectorXd& x, const Eigen::VectorXd& b) {
+  const auto n = static_cast<double>(a.rows());
+  EXPECT_LE((a * x - b).lpNorm<Eigen::Infinity>(), 4.0 * n * epsilon * a.norm() * x.norm());
+}
+
+TEST(SparseLU, Solves) {
+  SparseLU lu(4, full(4));
+  set(lu, general());
+  ASSERT_TRUE(lu.factorise());
+  const Eigen::Vector4d b(1.0, 2.0, 3.0, 4.0);
+  expect_solved(general(), solution(lu, b), b);
+}
+
+TEST(SparseLU, EntriesOfOnePlaceAddUp) {
+  const std::vector<Entry> entries{{0, 0}, {1, 1}, {0, 0}, {0, 1}};
+  SparseLU lu(2, entries);
+  lu.set_zero();
+  lu.add(0, 1.5);
+  lu.add(1, 4.0);
+  lu.add(2, 0.5);
+  lu.add(3, 1.0);
+  ASSERT_TRUE(lu.factorise());
+  EXPECT_EQ(solution(lu, Eigen::Vector2d(3.0, 4.0)), Eigen::Vector2d(1.0, 1.0));
+}
+
+TEST(SparseLU, ARefactorisationIsAsGoodAsAFreshOne) {
+  SparseLU reused(4, full(4));
+  set(reused, general());
+  ASSERT_TRUE(reused.factorise());
+  const Eigen::MatrixXd next = general() + Eigen::MatrixXd::Constant(4, 4, 0.01);
+  set(reused, next);
+  ASSERT_TRUE(reused.factorise());
+  const Eigen::Vector4d b(1.0, 2.0, 3.0, 4.0);
+  expect_solved(next, solution(reused, b), b);
+  EXPECT_EQ(reused.factorisations(), 2);
+}
+
+// The pivots of the first matrix stand on entries that vanish in the second.
+TEST(SparseLU, PivotsAgainWhenThePivotsHaveBecomeBad) {
+  SparseLU lu(2, full(2));
+  set(lu, (Eigen::Matrix2d() << 1.0, 0.1, 0.1, 1.0).finished());
+  ASSERT_TRUE(lu.factorise());
+  const Eigen::Matrix2d next = (Eigen::Matrix2d() << 1e-14, 1.0, 1.0, 1e-14).finished();
+  set(lu, next);
+  ASSERT_TRUE(lu.factorise());
+  const Eigen::Vector2d b(1.0, 2.0);
+  expect_solved(next, solution(lu, b), b);
+}
+
+TEST(SparseLU, RecognisesASingularMatrix) {
+  SparseLU lu(2, full(2));
+  set(lu, (Eigen::Matrix2d() << 1.0, 2.0, 2.0, 4.0).finished());
+  EXPECT_FALSE(lu.factorise());
+}
+
+TEST(SparseLU, RecognisesAMatrixThatIsSingularByItsPattern) {
+  const std::vector<Entry> entries{{0, 0}, {1, 0}};
+  SparseLU lu(2, entries);
+  lu.set_zero();
+  lu.add(0, 1.0);
+  lu.add(1, 1.0);
+  EXPECT_FALSE(lu.factorise());
+}
+
+// Its second row is three times the first up to rounding: elimination leaves a pivot of about 1e-17.
+TEST(SparseLU, RecognisesAMatrixThatIsSingularToWorkingPrecision) {
+  SparseLU lu(3, full(3));
+  const Eigen::Matrix3d a =
+      (Eigen::Matrix3d() << 0.1, 0.2, 0.7, 0.3, 0.6, 2.1, 1.0 / 3.0, 0.9, -0.4).finished();
+  set(lu, a);
+  EXPECT_FALSE(lu.factorise());
+}
+
+TEST(SparseLU, RecoversFromASingularMatrix) {
+  SparseLU lu(4, full(4));
+  set(lu, general());
+  ASSERT_TRUE(lu.factorise());
+  set(lu, Eigen::MatrixXd::Ones(4, 4));
+  EXPECT_FALSE(lu.factorise());
+  set(lu, general());
+  ASSERT_TRUE(lu.factorise());
+  const Eigen::Vector4d b(1.0, 2.0, 3.0, 4.0);
+  expect_solved(general(), solution(lu, b), b);
+}
+
+}  // namespace
+}  // namespace dalembert

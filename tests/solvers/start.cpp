@@ -1,0 +1,163 @@
+#include "scenes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace dalembert {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+TEST(Start, AnEmptySceneIsAnError) {
+  const Scene<2> scene("nothing");
+  EXPECT_THAT(
+      [&] { (void)simulate(scene, {.t_end = 1.0}); },
+      ThrowsMessage<InvalidScene>(AllOf(HasSubstr("\"nothing\" is empty"), HasSubstr("add at least one"))));
+}
+
+TEST(Start, APositionOffAConstraintIsAnError) {
+  Scene<2> scene;
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {1.25, 0.0}});
+  scene.add(Distance{Fixed<2>{}, bob, 1.0}, "rod");
+  EXPECT_THAT(
+      [&] { (void)simulate(scene, {.t_end = 1.0}); },
+      ThrowsMessage<InconsistentStart>(AllOf(HasSubstr("Distance \"rod\""), HasSubstr("initial positions"),
+                                             HasSubstr("distance 0.25"), HasSubstr("assemble"))));
+}
+
+TEST(Start, AVelocityAgainstAConstraintIsAnError) {
+  Scene<2> scene;
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}, .velocity = {0.5, 1.0}});
+  scene.add(Distance{Fixed<2>{}, bob, 1.0}, "rod");
+  EXPECT_THAT(
+      [&] { (void)simulate(scene, {.t_end = 1.0}); },
+      ThrowsMessage<InconsistentStart>(AllOf(HasSubstr("Distance \"rod\""), HasSubstr("initial velocities"),
+                                             HasSubstr("speed 0.5"), HasSubstr("assemble"))));
+}
+
+TEST(Start, AVelocityAgainstANonholonomicConstraintIsAnError) {
+  Scene<2> scene;
+  const auto skate = scene.add_particle({.mass = 1.0, .velocity = {1.0, 0.5}});
+  scene.add(nonholonomic(points(skate), [](auto, auto v) { return v.y(); }), "blade");
+  EXPECT_THAT(
+      [&] { (void)simulate(scene, {.t_end = 1.0}); },
+      ThrowsMessage<InconsistentStart>(AllOf(HasSubstr("Nonholonomic \"blade\""), HasSubstr("speed 0.5"))));
+}
+
+// The driven pivot moves at 2 along the rod; a bob at rest violates the rod by that speed.
+TEST(Start, ABobThatDoesNotFollowItsDrivenPivotIsAnError) {
+  Scene<2> scene;
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
+  scene.add(Distance{driven([](auto t) { return vec(2.0 * t, 0.0); }), bob, 1.0}, "rod");
+  EXPECT_THAT([&] { (void)simulate(scene, {.t_end = 1.0}); },
+              ThrowsMessage<InconsistentStart>(AllOf(HasSubstr("Distance \"rod\""), HasSubstr("speed 2"))));
+}
+
+// A rod of 1 and one of 0.5 cannot span the gap of 2 between two fixed points.
+TEST(Start, RodsThatCannotSpanTheirGapAreAnError) {
+  Scene<2> scene;
+  const auto joint = scene.add_particle({.mass = 1.0, .position = {1.0, 0.1}});
+  scene.add(Distance{Fixed<2>{{0.0, 0.0}}, joint, 1.0}, "left rod");
+  scene.add(Distance{Fixed<2>{{2.0, 0.0}}, joint, 0.5}, "right rod");
+  EXPECT_THAT(
+      [&] { (void)simulate(scene, {.t_end = 1.0, .assemble = true}); },
+      ThrowsMessage<InconsistentStart>(AllOf(HasSubstr(" rod\" cannot be met"),
+                                             HasSubstr("other constraints"), HasSubstr("check lengths"))));
+}
+
+TEST(Start, AConstraintStatedTwiceIsAnError) {
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -9.81}});
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {0.6, 0.8}});
+  scene.add(Distance{Fixed<2>{}, bob, 1.0}, "rod");
+  scene.add(Distance{bob, Fixed<2>{}, 1.0}, "the same rod");
+  EXPECT_THAT([&] { (void)simulate(scene, {.t_end = 1.0}); },
+              ThrowsMessage<InconsistentStart>(HasSubstr("depend on each other")));
+}
+
+// The distances of three particles in line fix their line, but not across it: the rows depend on each
+// other though none of them equals another and elimination leaves round-off instead of zeros.
+TEST(Start, ConstraintsThatDependOnEachOtherOnlyUpToRoundOffAreAnError) {
+  Scene<2> scene;
+  const Vec<2> e(1.0 / std::sqrt(3.0), std::sqrt(2.0 / 3.0));
+  const auto a = scene.add_particle({.mass = 0.7, .position = 0.1 * e});
+  const auto b = scene.add_particle({.mass = 1.3, .position = 0.8 * e});
+  const auto c = scene.add_particle({.mass = 2.1, .position = 2.3 * e});
+  scene.add(UniformGravity<2>{{0.0, -9.81}});
+  scene.add(Distance{a, b, 0.7});
+  scene.add(Distance{b, c, 1.5});
+  scene.add(Distance{a, c, 2.2});
+  EXPECT_THAT([&] { (void)simulate(scene, {.t_end = 1.0}); },
+              ThrowsMessage<InconsistentStart>(HasSubstr("depend on each other")));
+}
+
+TEST(Start, WithinRoundedNumbersIsAccepted) {
+  Scene<2> scene;
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {0.577350269, 0.816496581}});
+  scene.add(Distance{Fixed<2>{}, bob, 1.0});
+  const Simulation<2> simulation(scene, {.t_end = 1.0});
+  EXPECT_NEAR(simulation.position(bob).norm(), 1.0, 4.0 * epsilon);
+}
+
+// Two particles of 1 and 3 kg, 4 apart, on a rod of 2: the least mass-weighted change shares the
+// 2 in the inverse ratio of the masses, 1.5 and 0.5.
+TEST(Assembly, MovesAHeavyParticleLess) {
+  Scene<2> scene;
+  const auto light = scene.add_particle({.mass = 1.0, .position = {0.0, 0.0}});
+  const auto heavy = scene.add_particle({.mass = 3.0, .position = {4.0, 0.0}});
+  scene.add(Distance{light, heavy, 2.0});
+  const Simulation<2> simulation(scene, {.t_end = 1.0, .assemble = true});
+  EXPECT_LE((simulation.position(light) - Vec<2>(1.5, 0.0)).norm(), 16.0 * epsilon * 4.0);
+  EXPECT_LE((simulation.position(heavy) - Vec<2>(3.5, 0.0)).norm(), 16.0 * epsilon * 4.0);
+}
+
+// They part at 4: momenta change by equal and opposite amounts until they do not, at the common
+// velocity 3 * 4 / (1 + 3). The velocities across the rod stay.
+TEST(Assembly, ChangesVelocitiesByAnImpulseAlongTheRod) {
+  Scene<2> scene;
+  const auto light = scene.add_particle({.mass = 1.0, .position = {0.0, 0.0}, .velocity = {0.0, 1.0}});
+  const auto heavy = scene.add_particle({.mass = 3.0, .position = {2.0, 0.0}, .velocity = {4.0, -1.0}});
+  scene.add(Distance{light, heavy, 2.0});
+  const Simulation<2> simulation(scene, {.t_end = 1.0, .assemble = true});
+  EXPECT_LE((simulation.velocity(light) - Vec<2>(3.0, 1.0)).norm(), 16.0 * epsilon * 4.0);
+  EXPECT_LE((simulation.velocity(heavy) - Vec<2>(3.0, -1.0)).norm(), 16.0 * epsilon * 4.0);
+}
+
+// The normal of y = x^2 at (1, 1) is (2, -1); it meets (1.2, 0.9). No other point of the parabola is
+// as near, so that is where the least change leads. The projection solves (x - x0) + 2 x (x^2 - y0) = 0
+// to the round-off of the distance g: about 1e-14 of the scene's length.
+TEST(Assembly, LeadsToTheNearestPointOfACurve) {
+  Scene<2> scene;
+  const auto bead = scene.add_particle({.mass = 1.0, .position = {1.2, 0.9}});
+  scene.add(OnCurve{bead, [](auto r) { return r.y() - r.x() * r.x(); }});
+  const Simulation<2> simulation(scene, {.t_end = 1.0, .assemble = true});
+  EXPECT_LE((simulation.position(bead) - Vec<2>(1.0, 1.0)).norm(), 1e-12);
+}
+
+TEST(Assembly, LeavesAConsistentStartAlone) {
+  Scene<2> scene;
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}, .velocity = {0.0, 2.0}});
+  scene.add(Distance{Fixed<2>{}, bob, 1.0});
+  const Simulation<2> simulation(scene, {.t_end = 1.0, .assemble = true});
+  EXPECT_EQ(simulation.position(bob), Vec<2>(1.0, 0.0));
+  EXPECT_EQ(simulation.velocity(bob), Vec<2>(0.0, 2.0));
+}
+
+// A bob at rest on a pivot that moves at 2 along the rod is taken along.
+TEST(Assembly, FollowsADrivenPivot) {
+  Scene<2> scene;
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {1.1, 0.0}, .velocity = {0.0, 0.5}});
+  scene.add(Distance{driven([](auto t) { return vec(2.0 * t, 0.0); }), bob, 1.0});
+  const Simulation<2> simulation(scene, {.t_end = 1.0, .assemble = true});
+  EXPECT_LE((simulation.position(bob) - Vec<2>(1.0, 0.0)).norm(), 16.0 * epsilon);
+  EXPECT_LE((simulation.velocity(bob) - Vec<2>(2.0, 0.5)).norm(), 16.0 * epsilon * 2.0);
+}
+
+}  // namespace
+}  // namespace dalembert

@@ -1,0 +1,89 @@
+#include "scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace dalembert {
+namespace {
+
+struct Units {
+  double length, time, mass;
+};
+
+constexpr Units nano{1e9, 1e9, 1e6};             // nanometres, nanoseconds, milligrams
+constexpr Units giga{1e-9, 1.0 / 3600.0, 1e-3};  // gigametres, hours, tonnes
+
+/// Two bobs with a rod, a spring and a damper, in units other than metres, seconds and kilograms.
+Scene<2> damped_scene(const Units& u) {
+  Scene<2> scene;
+  const double speed = u.length / u.time, acceleration = speed / u.time, force = u.mass * acceleration;
+  scene.add(UniformGravity<2>{{0.0, -9.81 * acceleration}});
+  const auto a = scene.add_particle(
+      {.mass = 1.0 * u.mass, .position = {1.0 * u.length, 0.0}, .velocity = {0.0, 0.5 * speed}});
+  const auto b = scene.add_particle({.mass = 2.0 * u.mass, .position = {1.5 * u.length, 0.5 * u.length}});
+  scene.add(Distance{Fixed<2>{}, a, 1.0 * u.length});
+  scene.add(Spring{a, b, 40.0 * force / u.length, 0.5 * u.length});
+  scene.add(Damper{Fixed<2>{}, b, 2.0 * force / speed});
+  return scene;
+}
+
+long steps(const Scene<2>& scene, double t_end) {
+  return simulate(scene, {.t_end = t_end, .tolerance = 1e-8}).statistics().steps;
+}
+
+/// Within 5 %: units change no number but for its rounding.
+void expect_as_many(long actual, long expected) {
+  EXPECT_NEAR(static_cast<double>(actual), static_cast<double>(expected),
+              0.05 * static_cast<double>(expected));
+}
+
+TEST(Units, APendulumTakesAsManyStepsInAny) {
+  const long metres = steps(Pendulum().scene, 3.0);
+  for (const Units& u : {nano, giga}) {
+    expect_as_many(steps(Pendulum(u.length, u.time, u.mass).scene, 3.0 * u.time), metres);
+  }
+}
+
+TEST(Units, SpringAndDamperTakeAsManyStepsInAny) {
+  const long metres = steps(damped_scene({1.0, 1.0, 1.0}), 3.0);
+  for (const Units& u : {nano, giga}) expect_as_many(steps(damped_scene(u), 3.0 * u.time), metres);
+}
+
+// A thrown stone has no length of its own but that of its path.
+TEST(Units, AThrownStoneTakesAsManyStepsInAny) {
+  const auto thrown = [](const Units& u) {
+    Scene<2> scene;
+    const double speed = u.length / u.time;
+    scene.add(UniformGravity<2>{{0.0, -9.81 * speed / u.time}});
+    scene.add_particle({.mass = u.mass, .velocity = {3.0 * speed, 4.0 * speed}});
+    return scene;
+  };
+  const long metres = steps(thrown({1.0, 1.0, 1.0}), 1.0);
+  for (const Units& u : {nano, giga}) expect_as_many(steps(thrown(u), 1.0 * u.time), metres);
+}
+
+TEST(Units, ABeadOnASphereTakesAsManyStepsInAny) {
+  const auto on_sphere = [](const Units& u) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -9.81 * u.length / (u.time * u.time)}});
+    const auto bead = scene.add_particle({.mass = u.mass, .position = {1.0 * u.length, 0.0}});
+    scene.add(OnCurve{bead, Sphere<2>{{0.0, 0.0}, 1.0 * u.length}});
+    return scene;
+  };
+  const long metres = steps(on_sphere({1.0, 1.0, 1.0}), 3.0);
+  for (const Units& u : {nano, giga}) expect_as_many(steps(on_sphere(u), 3.0 * u.time), metres);
+}
+
+// A pendulum a thousand lengths away is the same pendulum: same steps, same forces.
+TEST(Units, TheOriginIsOfNoAccount) {
+  const auto hung_at = [](double x) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -9.81}});
+    const auto bob = scene.add_particle({.mass = 1.0, .position = {x + 1.0, 0.0}});
+    scene.add(Distance{Fixed<2>{{x, 0.0}}, bob, 1.0});
+    return scene;
+  };
+  expect_as_many(steps(hung_at(1000.0), 3.0), steps(hung_at(0.0), 3.0));
+}
+
+}  // namespace
+}  // namespace dalembert
