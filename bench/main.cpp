@@ -51,7 +51,7 @@ int main(int argc, char** argv) try {
       ->delimiter(',')
       ->capture_default_str();
   work_precision->add_option("--repeat", ladder.repeats, "Runs of which the median time counts")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
   add_report_options(*work_precision, ladder.report);
 
@@ -63,7 +63,7 @@ int main(int argc, char** argv) try {
                    "Beads; up to " + std::to_string(bench::largest_compared) +
                        " the error is that of the last positions, above it is nan")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, 100'000'000))
       ->capture_default_str();
   add_steppers(*scaling, sizes.steppers);
   scaling->add_option("--tolerance", sizes.tolerance, "Between 1e-13 and 0.1")->capture_default_str();

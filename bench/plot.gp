@@ -13,10 +13,12 @@ set title model font ",20" noenhanced
 set xlabel "run time / ms"
 set ylabel "relative error (position / length, force / weight)"
 set logscale xy
-set format x "10^{%T}"
+set xrange [*:*] noextend
+set offsets graph 0.05, graph 0.05, 0, 0
 set format y "10^{%T}"
-set mxtics 10
 set mytics 10
+set xtics () # a model's run times span a decade or two: label 1, 2 and 5 of each
+set for [e = -3:6] for [digit in "1 2 5"] xtics add (sprintf("%g", digit * 10.0**e) digit * 10.0**e)
 set grid xtics ytics linetype 1 linewidth 0.7 linecolor rgb "#dddddd"
 set border linecolor rgb "#444444"
 set key outside right top Left reverse samplen 3 spacing 1.4 noenhanced

@@ -64,4 +64,10 @@ std::string shortest(double value) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
+std::string shortest_power(double value) {
+  std::array<char, 40> text{};
+  const auto format = std::chars_format::scientific;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, format).ptr};
+}
+
 }  // namespace dalembert::bench

@@ -19,7 +19,8 @@ struct Table {
 
 /// A number in scientific notation with so many significant digits; "nan" if there is none.
 [[nodiscard]] std::string scientific(double value, int digits = 4);
-/// A number as short as it can be without loss: 1e-08, 0.5.
+/// A number as short as it can be without loss, by itself (10, 0.5) or as a power of ten (1e-03).
 [[nodiscard]] std::string shortest(double value);
+[[nodiscard]] std::string shortest_power(double value);
 
 }  // namespace dalembert::bench

@@ -49,7 +49,7 @@ std::vector<std::string> row(const std::string& model, const std::string& steppe
   const Statistics& s = m.statistics;
   return {model,
           stepper,
-          shortest(tolerance),
+          shortest_power(tolerance),
           std::to_string(s.steps),
           std::to_string(s.evaluations),
           std::to_string(s.factorisations),
@@ -61,6 +61,13 @@ std::vector<std::string> row(const std::string& model, const std::string& steppe
           scientific(s.run_time)};
 }
 
+/// One tolerance of a ladder.
+struct Rung {
+  Measurement measured;
+  std::vector<double> run_times = {};
+  bool failed = false;
+};
+
 /// The ladder of one model, added to the table; the reference is computed once.
 class Ladder {
  public:
@@ -71,10 +78,17 @@ class Ladder {
   void operator()(const Model<D>& model) {
     const auto reference = model.observations(sample_times({.t_end = model.t_end}));
     for (const std::string& stepper : options_.steppers) {
-      for (const double tolerance : options_.tolerances) {
-        progress_.next(model.name + ", " + stepper + ", tolerance " + shortest(tolerance));
-        const Options run{.t_end = model.t_end, .tolerance = tolerance};
-        table_.rows.push_back(row(model.name, stepper, tolerance, repeated<D>(model, run, reference)));
+      std::vector<Rung> rungs(options_.tolerances.size());
+      // The whole ladder again and again, so that what disturbs the machine for a while hits each
+      // rung once and not one rung always.
+      for (int i = 1; i <= options_.repeats; ++i) {
+        progress_.next(model.name + ", " + stepper + ", run " + std::to_string(i));
+        for (std::size_t k = 0; k < rungs.size(); ++k)
+          climb<D>(model, options_.tolerances[k], reference, rungs[k]);
+      }
+      for (std::size_t k = 0; k < rungs.size(); ++k) {
+        if (!rungs[k].failed) rungs[k].measured.statistics.run_time = median(rungs[k].run_times);
+        table_.rows.push_back(row(model.name, stepper, options_.tolerances[k], rungs[k].measured));
       }
     }
   }
@@ -82,20 +96,16 @@ class Ladder {
 
  private:
   template <int D>
-  Measurement repeated(const Model<D>& model, const Options& run,
-                       std::span<const models::Observation<D>> reference) try {
-    Measurement m;
-    std::vector<double> times;
-    for (int i = 0; i < options_.repeats; ++i) {
-      m = measure<D>(model, run, reference);
-      times.push_back(m.statistics.run_time);
-    }
-    m.statistics.run_time = median(std::move(times));
-    return m;
+  void climb(const Model<D>& model, double tolerance, std::span<const models::Observation<D>> reference,
+             Rung& rung) try {
+    if (rung.failed) return;
+    rung.measured = measure<D>(model, {.t_end = model.t_end, .tolerance = tolerance}, reference);
+    rung.run_times.push_back(rung.measured.statistics.run_time);
   } catch (const IntegrationFailure& failed) {
     ++failures_;
-    std::cerr << model.name << " at tolerance " << shortest(run.tolerance) << ": " << failed.what() << '\n';
-    return failure(failed.trajectory<D>().statistics());
+    std::cerr << model.name << " at tolerance " << shortest_power(tolerance) << ": " << failed.what() << '\n';
+    rung.measured = failure(failed.trajectory<D>().statistics());
+    rung.failed = true;
   }
 
   const WorkPrecision& options_;
@@ -129,7 +139,7 @@ int work_precision(const WorkPrecision& options) {
   Table table{.columns = columns, .rows = {}};
   int failures = 0;
   {
-    Progress progress(selected.size() * options.steppers.size() * options.tolerances.size());
+    Progress progress(selected.size() * options.steppers.size() * static_cast<std::size_t>(options.repeats));
     Ladder ladder(options, table, progress);
     for (const AnyModel& model : selected) std::visit(ladder, model);
     failures = ladder.failures();

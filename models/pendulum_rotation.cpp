@@ -24,8 +24,9 @@ HangingRods PendulumRotation::scene() const {
 
 Observation<2> PendulumRotation::reference(double t) const {
   const Real omega0 = frequency(*this), kappa = modulus(*this);
-  Real cn, dn;
-  const Real sn = boost::math::jacobi_elliptic(kappa, omega0 * t / kappa, &cn, &dn);
+  Real cn;
+  const Real sn = boost::math::jacobi_elliptic<Real, Real, Real>(kappa, omega0 * t / kappa, &cn, nullptr);
+  const Real dn = std::sqrt(1 - kappa * kappa * sn * sn);  // Boost's own is 0/0 where cn = 0
   const Real rate = 2 * omega0 / kappa * dn, sine = 2 * sn * cn, cosine = 1 - 2 * sn * sn;
   const Real tension = mass * (length * rate * rate + gravity * cosine);
   return {.positions = {Vec<2>(static_cast<double>(length * sine), static_cast<double>(-length * cosine))},

@@ -23,8 +23,10 @@ HangingRods PlanePendulum::scene() const {
 
 Observation<2> PlanePendulum::reference(double t) const {
   const Real omega0 = frequency(*this), k = modulus(*this);
-  Real cn, dn;
-  const Real sn = boost::math::jacobi_elliptic(k, boost::math::ellint_1(k) - omega0 * t, &cn, &dn);
+  Real cn;
+  const Real sn =
+      boost::math::jacobi_elliptic<Real, Real, Real>(k, boost::math::ellint_1(k) - omega0 * t, &cn, nullptr);
+  const Real dn = std::hypot(cn, std::cos(Real(amplitude) / 2) * sn);  // Boost's own is 0/0 where cn = 0
   const Real half_sine = k * sn, half_cosine = dn, rate = -2 * k * omega0 * cn;
   const Real sine = 2 * half_sine * half_cosine, cosine = 1 - 2 * half_sine * half_sine;
   const Real tension = mass * (length * rate * rate + gravity * cosine);
