@@ -1,11 +1,11 @@
 #include "dalembert/models/andrews.h"
 
 #include <dalembert/models/minimal_ode.h>
+#include <dalembert/models/numbered.h>
 
 #include <Eigen/LU>
 
 #include <cmath>
-#include <string>
 #include <utility>
 
 namespace dalembert::models {
@@ -121,7 +121,7 @@ AndrewsScene Andrews::scene() const {
                                .inertia = link.inertia,
                                .centre = begin[k] + turn(k) * link.centre,
                                .angle = link.angle},
-                              "K" + std::to_string(k + 1));
+                              numbered("K", k + 1));
     built.joints[k] = built.links[k].point(link.joint - link.centre);
   }
   const auto first_joint = [&](std::size_t k) { return built.links[k].point(-links[k].centre); };

@@ -1,11 +1,11 @@
 #include "dalembert/models/bricard.h"
 
 #include <dalembert/models/minimal_ode.h>
+#include <dalembert/models/numbered.h>
 
 #include <Eigen/Geometry>
 
 #include <cmath>
-#include <string>
 #include <utility>
 
 namespace dalembert::models {
@@ -94,12 +94,12 @@ BricardScene Bricard::scene() const {
   const auto P = joints(0);
   const auto at = [&P](std::size_t i) { return Vec<3>(P[i].P.cast<double>()); };
   for (std::size_t i = 0; i < 5; ++i)
-    rods[i] = add_thin_rod<3>(scene, {.mass = mass, .start = at(i), .end = at(i + 1)},
-                              "rod" + std::to_string(i + 1));
+    rods[i] =
+        add_thin_rod<3>(scene, {.mass = mass, .start = at(i), .end = at(i + 1)}, numbered("rod", i + 1));
   const Fixed<3> P1{at(0)}, P6{at(5)};
   scene.add(Coincident{P1, rods[0].start()}, "P1");
   for (std::size_t i = 0; i + 1 < 5; ++i)
-    scene.add(Coincident{rods[i].end(), rods[i + 1].start()}, "P" + std::to_string(i + 2));
+    scene.add(Coincident{rods[i].end(), rods[i + 1].start()}, numbered("P", i + 2));
   scene.add(Coincident{rods[4].end(), P6}, "P6");
   add_axes(scene, rods);
   return built;

@@ -1,6 +1,7 @@
 #include "dalembert/models/four_bar.h"
 
 #include <dalembert/models/minimal_ode.h>
+#include <dalembert/models/numbered.h>
 
 #include <array>
 #include <cmath>
@@ -15,25 +16,23 @@ FourBarScene FourBar::scene() const {
   const Vec<2> velocity(speed, 0.0);
   for (int i = 0; i <= loops; ++i) {
     const Vec<2> A(i * length, 0.0), B(i * length, length);
-    const std::string number = std::to_string(i);
     built.uprights.push_back(add_thin_rod<2>(
-        scene, {.mass = mass, .start = A, .end = B, .end_velocity = velocity}, "upright" + number));
+        scene, {.mass = mass, .start = A, .end = B, .end_velocity = velocity}, numbered("upright", i)));
     built.ground_pins.push_back(
-        scene.add(Coincident{Fixed<2>{A}, built.uprights.back().start()}, "A" + number));
+        scene.add(Coincident{Fixed<2>{A}, built.uprights.back().start()}, numbered("A", i)));
   }
   for (int i = 0; i < loops; ++i) {
     const auto& left = built.uprights[static_cast<std::size_t>(i)];
     const auto& right = built.uprights[static_cast<std::size_t>(i) + 1];
-    const std::string number = std::to_string(i);
     built.crossbars.push_back(add_thin_rod<2>(scene,
                                               {.mass = mass,
                                                .start = {i * length, length},
                                                .end = {(i + 1) * length, length},
                                                .start_velocity = velocity,
                                                .end_velocity = velocity},
-                                              "crossbar" + number));
-    scene.add(Coincident{left.end(), built.crossbars.back().start()}, "B" + number + ".right");
-    scene.add(Coincident{right.end(), built.crossbars.back().end()}, "B" + std::to_string(i + 1) + ".left");
+                                              numbered("crossbar", i)));
+    scene.add(Coincident{left.end(), built.crossbars.back().start()}, numbered("B", i) + ".right");
+    scene.add(Coincident{right.end(), built.crossbars.back().end()}, numbered("B", i + 1) + ".left");
   }
   return built;
 }

@@ -57,10 +57,10 @@ SpinningDiskScene SpinningDisk::scene() const {
                                   .velocity = radius * (lean_rate * n - spin * t),
                                   .angular_velocity = spin * n + precession * s * rho + lean_rate * t},
                                  "disk");
-  const auto mark = disk.point({radius, 0.0}), other = disk.point({0.0, radius});
-  const auto contact = scene.add(DiskContact{disk.centre(), mark, other, radius});
-  const auto rolling = scene.add(DiskRolling{disk.centre(), mark, other, radius});
-  return {std::move(scene), disk, mark, contact, rolling};
+  const std::array marks = {disk.point({radius, 0.0}), disk.point({0.0, radius})};
+  const auto contact = scene.add(DiskContact{disk.centre(), marks[0], marks[1], radius});
+  const auto rolling = scene.add(DiskRolling{disk.centre(), marks[0], marks[1], radius});
+  return {std::move(scene), disk, marks, contact, rolling};
 }
 
 std::vector<Observation<3>> SpinningDisk::reference(std::span<const double> times) const {
@@ -76,9 +76,10 @@ std::vector<Observation<3>> SpinningDisk::reference(std::span<const double> time
     const RollingState now(*this, y);
     const Vector centre(y[6], y[7], r * now.sine);
     const Vector mark = centre + r * (std::cos(y[5]) * now.t + std::sin(y[5]) * now.rho);
+    const Vector further = centre + r * (std::cos(y[5]) * now.rho - std::sin(y[5]) * now.t);
     const Vector F = Real(mass) * (now.acceleration(r) + Real(gravity) * Vector::UnitZ());
     const Vector h(now.t.y(), -now.t.x(), 0);
-    seen.push_back({.positions = {centre.cast<double>(), mark.cast<double>()},
+    seen.push_back({.positions = {centre.cast<double>(), mark.cast<double>(), further.cast<double>()},
                     .forces = {static_cast<double>(F.z()), static_cast<double>(F.dot(now.t)),
                                static_cast<double>(F.dot(h))}});
   });
@@ -105,11 +106,11 @@ Model<3> SpinningDisk::model() const {
               [*this] {
                 SpinningDiskScene built = scene();
                 return Observed<3>{std::move(built.scene),
-                                   [centre = built.disk.centre(), mark = built.mark, contact = built.contact,
+                                   [centre = built.disk.centre(), marks = built.marks, contact = built.contact,
                                     rolling = built.rolling](const Sample<3>& sample) {
                                      const Vec<2> friction = sample.multiplier(rolling);
                                      return Observation<3>{
-                                         .positions = {sample.position(centre), sample.position(mark)},
+                                         .positions = {sample.position(centre), sample.position(marks[0]), sample.position(marks[1])},
                                          .forces = {sample.multiplier(contact), friction[0], friction[1]}};
                                    }};
               },

@@ -2,6 +2,7 @@
 
 #include <dalembert/models/model.h>
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -11,7 +12,7 @@ namespace dalembert::models {
 struct SpinningDiskScene {
   Scene<3> scene;
   Lamina disk;
-  BodyPoint<3, 3> mark;   ///< a point of the rim
+  std::array<BodyPoint<3, 3>, 2> marks;  ///< points of the rim, the second a quarter turn on
   Constraint<1> contact;  ///< its multiplier is the normal force
   Constraint<2> rolling;  ///< its multipliers: friction along the rim, and to the side the axis leans to
 };
