@@ -51,6 +51,12 @@ PointMotion joint_motion(const Andrews& a, std::size_t link, const State& y) {
   return motion(a, link, a.links[link].joint, y);
 }
 
+State at_rest(const Andrews& a) {
+  State y(2 * count, 0);
+  for (std::size_t k = 0; k < count; ++k) y[k] = a.links[k].angle;
+  return y;
+}
+
 /// theta'' and then the forces at E.
 VecOf<Real, 13> solve_motion(const Andrews& a, const State& y) {
   Eigen::Matrix<Real, 13, 13> K = Eigen::Matrix<Real, 13, 13>::Zero();
@@ -145,24 +151,23 @@ std::vector<Observation<2>> Andrews::reference(std::span<const double> times) co
       y_rate[count + k] = solved[static_cast<int>(k)];
     }
   };
-  State start(2 * count, 0);
-  for (std::size_t k = 0; k < count; ++k) start[k] = links[k].angle;
   std::vector<Observation<2>> seen;
-  integrate(equations, start, times, [&](const State& y) { seen.push_back(observation(*this, y)); });
+  integrate(equations, at_rest(*this), times, [&](const State& y) { seen.push_back(observation(*this, y)); });
   return seen;
 }
 
 Observation<2> Andrews::reference(double t) const { return reference(std::array{t}).front(); }
 
 Model<2> Andrews::model() const {
-  const double crank = links[0].joint.norm();
+  const auto far = motion(*this, 2, D, at_rest(*this));
+  const double stretch = static_cast<double>((far.r - C.cast<Real>()).norm()) - relaxed_length;
   return {.name = "andrews",
           .notes = "-",
           .reference = "angles of the links and forces at E in extended precision",
           .t_end = 0.03,
           .length = links[6].joint.norm(),
-          .force = torque / crank,
-          .energy = torque,
+          .force = stiffness * stretch,
+          .energy = 0.5 * stiffness * stretch * stretch,
           .scene =
               [*this] {
                 AndrewsScene built = scene();
