@@ -8,6 +8,6 @@ configure_package_config_file(cmake/dalembertConfig.cmake.in ${PROJECT_BINARY_DI
                               INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/dalembertConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/dalembertConfig.cmake ${PROJECT_BINARY_DIR}/dalembertConfigVersion.cmake
-              cmake/FindKLU.cmake
+              cmake/FindKLU.cmake cmake/FindLDL.cmake
         DESTINATION ${package_dir})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -127,7 +127,8 @@ class Scene {
     } else if constexpr (P::coordinates > 0) {
       require_own(point.scene, point.coordinate, label);
     } else if constexpr (P::driven) {
-      extent.extend(Vec<D>(point.path(0.0).template cast<double>()));
+      const Vec<D> r = point.path(0.0).template cast<double>();
+      if (r.allFinite()) extent.extend(r);  // a path may begin later than t = 0
     } else {
       require_finite(point.position, label);
       extent.extend(point.position);

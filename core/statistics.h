@@ -6,17 +6,20 @@ namespace dalembert {
 
 /// What a run cost, and how well it kept its constraints.
 struct Statistics {
-  int degrees_of_freedom = 0;      ///< of velocity: coordinates less independent constraint equations
-  int redundant_equations = 0;     ///< constraint equations that follow from others, and were left out
-  long steps = 0;                  ///< accepted steps
-  long evaluations = 0;            ///< of the equations of motion
-  long factorisations = 0;         ///< of a KKT matrix
-  long error_test_failures = 0;    ///< steps repeated because their error was too large
-  long convergence_failures = 0;   ///< steps repeated because Newton's iteration did not converge
+  int degrees_of_freedom = 0;     ///< of velocity: coordinates less independent constraint equations
+  int redundant_equations = 0;    ///< constraint equations that follow from others, and were left out
+  long steps = 0;                 ///< accepted steps
+  long evaluations = 0;           ///< of the equations of motion
+  long factorisations = 0;        ///< of a KKT matrix
+  long error_test_failures = 0;   ///< steps repeated because their error was too large
+  long convergence_failures = 0;  ///< steps repeated because Newton's iteration did not converge
+  /// Steps of the explicit stepper held down by stability, not accuracy (counted by samples). If
+  /// these are most of the steps the scene is stiff: Stepper::ida will be faster.
+  long stability_limited = 0;
   double residual_position = 0.0;  ///< largest |g|/|grad g| at any sample [length]
   double residual_velocity = 0.0;  ///< largest |psi|/|W row| at any sample [speed]
   double correction = 0.0;         ///< largest move that put a sample onto its constraints [length]
-  double run_time = 0.0;           ///< of the integration and its output, without set-up [s]
+  double run_time = 0.0;           ///< processor time of integration and output, without set-up [s]
 
   /// One line for a log.
   [[nodiscard]] std::string report() const;

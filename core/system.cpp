@@ -62,7 +62,9 @@ void System::place_constraints() {
     const ConstraintShape shape = batches[b]->shape();
     const auto width = static_cast<std::size_t>(shape.width);
     const auto coordinates = batches[b]->coordinates();
-    constraint_offsets_.push_back({row_start_.size() - 1, w_columns_.size(), stiffness_pattern_.size(), 0});
+    const std::size_t row_count = batches[b]->size() * static_cast<std::size_t>(shape.rows);
+    constraint_offsets_.push_back({row_start_.size() - 1, w_columns_.size(), stiffness_pattern_.size(), 0,
+                                   shape.holonomic, row_count, row_count * width});
     append_blocks(coordinates, width, stiffness_pattern_);
     for (std::size_t i = 0; i < batches[b]->size(); ++i) {
       auto& info = parts_.layout.constraints[static_cast<std::size_t>(parts_.constraint_numbers[b][i])];
@@ -139,17 +141,14 @@ void System::evaluate(const Instant& at, Evaluation& out) const {
   std::ranges::copy(parts_.constant_force, out.force.begin());
   on_forces(at.t, [&](const ForceBatch& batch, const Offsets&) { batch.add_force(at, out.force); });
   on_constraints(at.t, [&](const ConstraintBatch& batch, const Offsets& first) {
-    const ConstraintShape shape = batch.shape();
-    const std::size_t count = batch.size() * static_cast<std::size_t>(shape.rows);
-    batch.evaluate(at, {shape.holonomic ? part(out.g, first.row, count) : std::span<double>{},
-                        part(out.psi, first.row, count),
-                        part(out.w, first.w, count * static_cast<std::size_t>(shape.width))});
+    batch.evaluate(at, {first.holonomic ? part(out.g, first.row, first.row_count) : std::span<double>{},
+                        part(out.psi, first.row, first.row_count), part(out.w, first.w, first.w_count)});
   });
 }
 
 void System::bias(const Instant& at, std::span<double> gamma) const {
   on_constraints(at.t, [&](const ConstraintBatch& batch, const Offsets& first) {
-    batch.bias(at, gamma.subspan(first.row, batch.size() * static_cast<std::size_t>(batch.shape().rows)));
+    batch.bias(at, gamma.subspan(first.row, first.row_count));
   });
 }
 

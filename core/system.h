@@ -107,9 +107,11 @@ class System {
   template <class F>
   void on_forces(double t, const F& f) const;
 
-  /// Where a batch's part of each array begins.
+  /// Where a batch's part of each array begins; for constraints also how long it is.
   struct Offsets {
     std::size_t row, w, stiffness, damping;
+    bool holonomic = false;
+    std::size_t row_count = 0, w_count = 0;
   };
 
   SystemParts parts_;

@@ -21,6 +21,11 @@ void Record::append(const FlatSample& sample) {
   times.push_back(sample.time);
 }
 
+void Record::clear() {
+  times.clear();
+  values.clear();
+}
+
 FlatSample Record::sample(std::size_t i) const {
   const std::size_t slots = layout->slot_coordinate.size();
   const auto one = std::span(values).subspan(i * (2 * coordinates + rows + slots + 1));

@@ -25,6 +25,7 @@ struct Record {
   /// Makes room, so that `append` allocates nothing for this many samples.
   void reserve(std::size_t samples, const FlatSample& like);
   void append(const FlatSample& sample);
+  void clear();
   [[nodiscard]] FlatSample sample(std::size_t i) const;
 
   /// The whole run as comma-separated values, all digits, behind lines that start with '#' and say

@@ -1,13 +1,15 @@
 #include "dalembert/solvers/integrator.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/private/erk.h>
 #include <dalembert/solvers/private/ida.h>
 #include <dalembert/solvers/private/manifold.h>
 #include <dalembert/solvers/private/start.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <sstream>
+#include <variant>
 
 namespace dalembert {
 
@@ -20,17 +22,33 @@ constexpr double output_distance = 1e-15;
 /// to this fraction of the scene's length.
 constexpr double tolerated_contradiction = 1e-8;
 
+/// Processor time of this thread [s]: what a busy machine does meanwhile does not count.
+double processor_time() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 class Stopwatch {
  public:
   explicit Stopwatch(double& total) : total_(total) {}
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
-  ~Stopwatch() { total_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  ~Stopwatch() { total_ += processor_time() - start_; }
 
  private:
   double& total_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double start_ = processor_time();
 };
+
+using AnyStepper = std::variant<IdaStepper, ErkStepper>;
+
+AnyStepper make_stepper(const System& system, const Start& start, const Options& options) {
+  if (options.stepper == Stepper::erk) {
+    return AnyStepper(std::in_place_type<ErkStepper>, system, start, options);
+  }
+  return AnyStepper(std::in_place_type<IdaStepper>, system, start, options);
+}
 
 }  // namespace
 
@@ -42,12 +60,12 @@ struct Integrator::State {
         start(consistent_start(system, q0, v0, o)),
         lever(start.scales.lever()),
         manifold(system, start.rows, lever),
-        stepper(system, start, o),
+        stepper(make_stepper(system, start, o)),
         now(system, start),
         next(now),
         given(start.q.size()) {
     record.layout = system.layout();
-    record.stepper = "ida";
+    record.stepper = name(o.stepper);
     record.tolerance = o.tolerance;
     record.statistics.degrees_of_freedom = system.coordinates() - start.rows.size();
     record.statistics.redundant_equations = system.rows() - start.rows.size();
@@ -74,9 +92,13 @@ struct Integrator::State {
   /// anything fails the current moment stays as it is.
   void visit(double time) {
     next.t = time;
-    stepper.interpolate(time, next.q, next.v);
+    std::visit([&](auto& s) { s.interpolate(time, next.q, next.v); }, stepper);
     recover(next);
     std::swap(now, next);
+  }
+
+  [[nodiscard]] double stepper_time() const {
+    return std::visit([](const auto& s) { return s.time(); }, stepper);
   }
 
   void recover(Moment& m) {
@@ -109,43 +131,44 @@ struct Integrator::State {
     return {now.t, now.q, now.v, now.lambda, now.forces, now.energy, now.unique};
   }
 
-  void step_once() {
+  void step_once(double wanted) {
     if (++steps > options.max_steps) {
       throw StepFailure{"max_steps = " + std::to_string(options.max_steps) +
                             " is used up; raise it, or ask for a looser tolerance",
-                        stepper.time()};
+                        stepper_time()};
     }
-    stepper.step();
+    std::visit([wanted](auto& s) { s.step(wanted); }, stepper);
   }
 
   void step_past(double time) {
-    while (stepper.time() < time) step_once();
+    while (stepper_time() < time) step_once(time);
   }
 
   /// Runs `f`; whatever stops it becomes an IntegrationFailure with the samples so far.
   template <class F>
   void guarded(const F& f) {
-    const Stopwatch stopwatch(record.statistics.run_time);
     try {
+      const Stopwatch stopwatch(record.statistics.run_time);
       f();
     } catch (const StepFailure& failure) {
       fail(failure.what, failure.time);
     } catch (const EquationFault& fault) {
-      fail(fault.what(), stepper.time());
+      fail(fault.what(), stepper_time());
     }
   }
 
   [[noreturn]] void fail(const std::string& why, double time) {
-    record.statistics = statistics();
+    auto kept = std::make_shared<Record>(record);
+    kept->statistics = statistics();
     std::ostringstream what;
     what.precision(10);
     what << "Scene \"" << record.layout->scene << "\" stopped at t = " << time << ": " << why;
-    throw IntegrationFailure(what.str(), time, std::make_shared<const Record>(record));
+    throw IntegrationFailure(what.str(), time, std::move(kept));
   }
 
   [[nodiscard]] Statistics statistics() const {
     Statistics s = record.statistics;
-    stepper.count(s);
+    std::visit([&s](const auto& stepping) { stepping.count(s); }, stepper);
     s.evaluations += manifold.evaluations();
     s.factorisations += manifold.factorisations();
     return s;
@@ -157,7 +180,7 @@ struct Integrator::State {
   Start start;
   std::vector<double> lever;  // see Scales
   Manifold manifold;
-  IdaStepper stepper;
+  AnyStepper stepper;
   long steps = 0;
 
   Moment now, next;
@@ -179,10 +202,10 @@ Statistics Integrator::statistics() const { return state_->statistics(); }
 void Integrator::step() {
   State& s = *state_;
   s.guarded([&s] {
-    if (s.stepper.time() >= s.options.t_end)
+    if (s.stepper_time() >= s.options.t_end)
       throw StepFailure{"t_end is reached; choose a later one", s.now.t};
-    s.step_once();
-    s.visit(s.stepper.time());
+    s.step_once(s.options.t_end);
+    s.visit(s.stepper_time());
   });
 }
 
@@ -216,6 +239,7 @@ void Integrator::run(const std::function<void(const FlatSample&)>& observe) {
 
 std::shared_ptr<const Record> Integrator::run() {
   State& s = *state_;
+  s.record.clear();
   s.record.reserve(s.times.size(), s.sample());
   run([&s](const FlatSample& sample) { s.record.append(sample); });
   auto record = std::make_shared<Record>(s.record);

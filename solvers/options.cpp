@@ -47,6 +47,8 @@ std::vector<double> every_interval(const Options& o) {
 
 }  // namespace
 
+const char* name(Stepper stepper) { return stepper == Stepper::erk ? "erk" : "ida"; }
+
 void validate(const Options& o) {
   require(std::isfinite(o.t_start), "t_start", o.t_start, "must be finite");
   require(std::isfinite(o.t_end) && o.t_end > o.t_start, "t_end", o.t_end,

@@ -5,6 +5,13 @@
 
 namespace dalembert {
 
+/// How time is stepped.
+enum class Stepper {
+  ida,  ///< implicit (BDF of SUNDIALS' IDA): for every scene, the stiff ones in particular
+  erk   ///< explicit (Runge-Kutta of order 8): 10 to 100 times faster where nothing is stiff
+};
+[[nodiscard]] const char* name(Stepper stepper);
+
 /// How to run a scene. An aggregate: `simulate(scene, {.t_end = 10.0, .tolerance = 1e-8})`.
 struct Options {
   double t_end = 0.0;    ///< where the run ends, > t_start [time]
@@ -15,14 +22,15 @@ struct Options {
   double sample_interval = 0.0;  ///< or a sample every so often, from t_start [time]
   std::vector<double> times{};   ///< or samples at these very times, increasing, within the run
 
-  /// Relative error of one step: positions are kept to tolerance times the scene's own length,
-  /// velocities to tolerance times its length over its time. Between 1e-13 and 1e-1. The error of
-  /// the result grows with the length of the run; the benchmarks show how much.
+  /// Relative accuracy: the steps are chosen so that each errs by a tenth of tolerance times the
+  /// scene's own length in position, and that length over the scene's time in velocity. Between 1e-13
+  /// and 1e-1. The error of the result grows with the length of the run; the benchmarks show how much.
   double tolerance = 1e-6;
+  Stepper stepper = Stepper::ida;
   long max_steps = 10'000'000;  ///< give up after so many steps
 
   /// False: an initial state that violates a constraint is an error. True: it is moved onto the
-  /// constraints by the least mass-weighted change.
+  /// constraints, in Newton steps of which each is the least mass-weighted one.
   bool assemble = false;
 };
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -18,6 +19,9 @@ namespace dalembert {
 
 namespace {
 
+/// The error allowed to one step, of the tolerance asked for: errors of hundreds of steps add up in
+/// the result.
+constexpr double share_of_a_step = 0.1;
 /// Newton stops at this fraction of the error tolerance. IDA's 0.33 lets the multipliers' error
 /// into the step control: it doubles the number of steps.
 constexpr double newton_tolerance = 0.01;
@@ -78,11 +82,15 @@ struct IdaStepper::State {
   NewtonMatrix newton;
   double t = 0.0;
   long steps = 0, evaluations = 0;
-  std::string fault;  // of the last evaluation that failed
+  std::string fault;        // of the last evaluation that failed,
+  double fault_time = 0.0;  // and where; no reason to stop once it has been stepped past
 
   // What the Jacobian callback records for the factorisation.
   double matrix_t = 0.0, matrix_c = 0.0;
   N_Vector matrix_y = nullptr;
+  // Where `e` holds.
+  double evaluated_at = 0.0, factored_at = 0.0;
+  N_Vector evaluated = nullptr;
 
   [[nodiscard]] std::size_t n() const { return static_cast<std::size_t>(system->coordinates()); }
   [[nodiscard]] std::size_t m() const { return static_cast<std::size_t>(rows.size()); }
@@ -98,19 +106,26 @@ struct IdaStepper::State {
   void residual(double at, N_Vector x, N_Vector xp, N_Vector r);
   void weigh(N_Vector x, N_Vector weight);
   void weigh_multipliers();
+  void blame(double at, std::string what) {
+    fault_time = at;
+    fault = std::move(what);
+  }
   [[nodiscard]] std::string explain(int code) const;
+  [[nodiscard]] std::string fault_or(const char* otherwise) const {
+    return !fault.empty() && fault_time >= t ? fault : otherwise;
+  }
 };
 
 namespace {
 
-/// Runs `f` for C: +1, recoverable, for a fault of the user's equations; the step is then tried
-/// shorter. -1 for anything else.
-template <class F>
-int guarded(std::string& fault, const F& f) noexcept {
+/// Runs `f` for C: +1, recoverable, for a fault of the user's equations at a time; the step is then
+/// tried shorter. -1 for anything else.
+template <class State, class F>
+int guarded(State& state, double at, const F& f) noexcept {
   try {
     return f();
   } catch (const EquationFault& error) {
-    fault = error.what();
+    state.blame(at, error.what());
     return 1;
   } catch (...) {
     return -1;
@@ -123,7 +138,7 @@ IdaStepper::State::State(const System& s, const Start& start, const Options& opt
     : system(&s),
       rows(start.rows),
       scales(start.scales),
-      tolerance(options.tolerance),
+      tolerance(share_of_a_step * options.tolerance),
       t_end(options.t_end),
       // IDA's own first step is so short that round-off in the multipliers fails Newton's iteration.
       first_step(
@@ -160,7 +175,7 @@ IdaStepper::IdaStepper(const System& system, const Start& start, const Options& 
   void* ida = s.ida.get();
   const auto residual = [](double t, N_Vector x, N_Vector xp, N_Vector r, void* data) noexcept {
     State& own = *static_cast<State*>(data);
-    return guarded(own.fault, [&] {
+    return guarded(own, t, [&] {
       own.residual(t, x, xp, r);
       return 0;
     });
@@ -207,10 +222,14 @@ void IdaStepper::State::make_linear_solver() {
   solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
   solver->ops->setup = [](SUNLinearSolver self, SUNMatrix) noexcept {
     State& s = *static_cast<State*>(self->content);
-    return guarded(s.fault, [&s] {
+    return guarded(s, s.matrix_t, [&s] {
       s.spread_multipliers(s.matrix_y);
-      const bool regular = s.newton.factorise(s.instant(s.matrix_t, s.matrix_y), s.lambda, s.matrix_c);
-      if (!regular) s.fault = "the constraints became dependent on each other";
+      const Instant at = s.instant(s.matrix_t, s.matrix_y);
+      const bool known = s.evaluated_at == at.t && s.evaluated == s.matrix_y;  // by the residual just before
+      if (!known) s.system->evaluate(at, s.e);
+      const bool regular = s.newton.factorise(at, s.e, s.lambda, s.matrix_c);
+      s.factored_at = at.t;
+      if (!regular) s.blame(s.matrix_t, "the constraints became dependent on each other");
       return regular ? 0 : 1;
     });
   };
@@ -219,8 +238,15 @@ void IdaStepper::State::make_linear_solver() {
     double c = 0.0;
     IDAGetCurrentCj(s.ida.get(), &c);
     if (x != b) N_VScale(1.0, b, x);
-    s.newton.solve(c, s.entries(x));
-    return 0;
+    return guarded(s, s.evaluated_at, [&] {
+      // IDA keeps a matrix as long as Newton converges; fresh soft factors cost less than that saves.
+      if (s.evaluated_at != s.factored_at) {
+        s.factored_at = s.evaluated_at;
+        if (!s.newton.refresh(s.e)) return 1;
+      }
+      s.newton.solve(c, s.entries(x));
+      return 0;
+    });
   };
   solver->ops->free = [](SUNLinearSolver) { return 0; };  // owned by `solver`
 }
@@ -235,6 +261,8 @@ void IdaStepper::State::residual(double at, N_Vector x, N_Vector xp, N_Vector r)
   ++evaluations;
   const Instant now = instant(at, x);
   system->evaluate(now, e);
+  evaluated_at = at;
+  evaluated = x;
   const auto qp = entries(xp).subspan(0, n());
   const auto vp = entries(xp).subspan(n(), n());
   const auto active = entries(x).subspan(2 * n(), m());
@@ -303,14 +331,12 @@ std::string IdaStepper::State::explain(int code) const {
     case IDA_REP_RES_ERR:
     case IDA_LSETUP_FAIL:
     case IDA_LSOLVE_FAIL:
-      return fault.empty() ? "the equations could not be evaluated" : fault;
+      return fault_or("the equations could not be evaluated");
     case IDA_ERR_FAIL:
       return "the error tolerance cannot be met with any step that double precision resolves; "
              "ask for a looser tolerance, or look for a discontinuous or very stiff force";
     case IDA_CONV_FAIL:
-      return fault.empty()
-                 ? "Newton's iteration does not converge; the constraints may be close to singular here"
-                 : fault;
+      return fault_or("Newton's iteration does not converge; the constraints may be close to singular here");
     case IDA_TOO_MUCH_ACC:
       return "the tolerance asks for more than double precision can deliver; ask for a looser one";
     default:
@@ -318,12 +344,17 @@ std::string IdaStepper::State::explain(int code) const {
   }
 }
 
-void IdaStepper::step() {
+void IdaStepper::step(double /*wanted*/) {
   State& s = *state_;
-  s.fault.clear();
+  const double before = s.t;
   const int code = IDASolve(s.ida.get(), s.t_end, &s.t, s.y.get(), s.yp.get(), IDA_ONE_STEP);
   if (code < 0) throw StepFailure{s.explain(code), s.t};
   ++s.steps;
+  // In front of a fault IDA would halve and double such steps for ever.
+  if (code == IDA_SUCCESS && s.t - before <= 4.0 * std::numeric_limits<double>::epsilon() * std::abs(s.t)) {
+    throw StepFailure{
+        s.fault_or("the step has become too short to advance time; look for a discontinuous force"), s.t};
+  }
 }
 
 double IdaStepper::time() const { return state_->t; }

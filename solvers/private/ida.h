@@ -3,17 +3,12 @@
 #include <dalembert/core/statistics.h>
 #include <dalembert/core/system.h>
 #include <dalembert/solvers/private/start.h>
+#include <dalembert/solvers/private/step_failure.h>
 
 #include <memory>
 #include <span>
 
 namespace dalembert {
-
-/// Thrown when a step cannot be taken; the integrator adds the trajectory so far.
-struct StepFailure {
-  std::string what;
-  double time;
-};
 
 /// Steps the stabilised index-2 equations (see NewtonMatrix) by SUNDIALS' IDA: variable-order,
 /// variable-step BDF.
@@ -31,8 +26,9 @@ class IdaStepper {
   IdaStepper(const System& system, const Start& start, const Options& options);
   ~IdaStepper();
 
-  /// One accepted step, not beyond t_end. Throws StepFailure.
-  void step();
+  /// One accepted step, not beyond t_end. Throws StepFailure. (Where output is wanted makes no
+  /// difference: the BDF polynomial is as accurate between steps as at them.)
+  void step(double wanted);
   [[nodiscard]] double time() const;
   /// The state at a time inside the last step (or at the start, before the first).
   void interpolate(double t, std::span<double> q, std::span<double> v) const;

@@ -26,7 +26,8 @@ class SparseLU {
   void set_zero();
   /// Adds to the k-th entry of the list.
   void add(std::size_t k, double value);
-  /// False if the matrix is singular to working precision.
+  /// False if a pivot vanishes. (Rows that depend on each other up to round-off leave a tiny one; they
+  /// are found beforehand, by rank-revealing QR.)
   [[nodiscard]] bool factorise();
   /// Solves in place.
   void solve(std::span<double> x);

@@ -41,7 +41,7 @@ Manifold::Manifold(const System& system, const ActiveRows& rows, std::vector<dou
       lever_(std::move(lever)),
       e_(system.evaluation()),
       gamma_(static_cast<std::size_t>(system.rows())),
-      kkt_(system, rows, KktMatrix::Forces::none),
+      kkt_(system, rows),
       minimum_norm_(system, rows, lever_) {
   x_.resize(static_cast<std::size_t>(kkt_.size()));
   q_before_.resize(static_cast<std::size_t>(system.coordinates()));
@@ -91,25 +91,57 @@ Violation Manifold::project_positions(double t, std::span<double> q, std::span<c
   return left;
 }
 
-bool Manifold::solve_motion(double t, std::span<const double> q, std::span<double> v, std::span<double> a,
-                            std::span<double> lambda) {
+/// (2): only psi and what depends on velocities change with them.
+void Manifold::correct_velocities(double t, std::span<const double> q, std::span<double> v) {
+  if (rows_.rows.empty()) return;
   const std::size_t n = q.size();
+  std::fill_n(x_.begin(), n, 0.0);
+  for (std::size_t r = 0; r < rows_.rows.size(); ++r)
+    x_[n + r] = -e_.psi[static_cast<std::size_t>(rows_.rows[r])];
+  kkt_.solve(x_);
+  for (std::size_t k = 0; k < n; ++k) v[k] += x_[k];
   evaluate({t, q, v});
-  if (!kkt_.factorise(e_.w)) return false;
-  if (!rows_.rows.empty()) {
-    std::fill_n(x_.begin(), n, 0.0);
-    for (std::size_t r = 0; r < rows_.rows.size(); ++r)
-      x_[n + r] = -e_.psi[static_cast<std::size_t>(rows_.rows[r])];
-    kkt_.solve(x_);
-    for (std::size_t k = 0; k < n; ++k) v[k] += x_[k];
-    evaluate({t, q, v});
-    system_->bias({t, q, v}, gamma_);
-  }
+}
+
+/// (3), with the matrix and the forces at hand.
+void Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
+  const std::size_t n = at.q.size();
+  system_->bias(at, gamma_);
   std::ranges::copy(e_.force, x_.begin());
   for (std::size_t r = 0; r < rows_.rows.size(); ++r)
     x_[n + r] = -gamma_[static_cast<std::size_t>(rows_.rows[r])];
   kkt_.solve(x_);
   std::copy_n(x_.begin(), n, a.begin());
+}
+
+bool Manifold::accelerate(const Instant& at, std::span<double> a) {
+  evaluate(at);
+  if (!kkt_.factorise(e_.w)) return false;
+  solve_for_accelerations(at, a);
+  return true;
+}
+
+bool Manifold::land(double t, std::span<double> q, std::span<double> v, std::span<double> a) {
+  evaluate({t, q, v});
+  if (rows_.holonomic > 0) {
+    if (!kkt_.factorise(e_.w)) return false;
+    solve_for_position_step(q.size());
+    for (std::size_t k = 0; k < q.size(); ++k) q[k] += x_[k];
+    evaluate({t, q, v});
+  }
+  if (!kkt_.factorise(e_.w)) return false;
+  correct_velocities(t, q, v);
+  solve_for_accelerations({t, q, v}, a);
+  return true;
+}
+
+bool Manifold::solve_motion(double t, std::span<const double> q, std::span<double> v, std::span<double> a,
+                            std::span<double> lambda) {
+  const std::size_t n = q.size();
+  evaluate({t, q, v});
+  if (!kkt_.factorise(e_.w)) return false;
+  correct_velocities(t, q, v);
+  solve_for_accelerations({t, q, v}, a);
   std::ranges::fill(lambda, 0.0);
   for (std::size_t r = 0; r < rows_.rows.size(); ++r)
     lambda[static_cast<std::size_t>(rows_.rows[r])] = x_[n + r];

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <dalembert/solvers/private/kkt.h>
 #include <dalembert/solvers/private/minimum_norm.h>
+#include <dalembert/solvers/private/saddle.h>
 
 #include <vector>
 
@@ -45,6 +45,12 @@ class Manifold {
   [[nodiscard]] bool solve_motion(double t, std::span<const double> q, std::span<double> v,
                                   std::span<double> a, std::span<double> lambda);
 
+  /// (3) alone, at any state: the accelerations of the constrained motion. False if singular.
+  [[nodiscard]] bool accelerate(const Instant& at, std::span<double> a);
+  /// After a step: one step of (1), then (2) and (3) with the matrix of the new positions. What one
+  /// step of (1) leaves is the square of what it found. False if singular.
+  [[nodiscard]] bool land(double t, std::span<double> q, std::span<double> v, std::span<double> a);
+
   /// Per row of the system, whether its last multiplier is determined by the motion.
   [[nodiscard]] std::span<const char> unique() const { return minimum_norm_.unique(); }
 
@@ -52,17 +58,20 @@ class Manifold {
   [[nodiscard]] const System::Evaluation& equations() const { return e_; }
   [[nodiscard]] long evaluations() const { return evaluations_; }
   [[nodiscard]] long factorisations() const { return kkt_.factorisations(); }
+  [[nodiscard]] const char* method() const { return kkt_.method(); }
 
  private:
   void evaluate(const Instant& at);
   void solve_for_position_step(std::size_t n);
+  void correct_velocities(double t, std::span<const double> q, std::span<double> v);
+  void solve_for_accelerations(const Instant& at, std::span<double> a);
 
   const System* system_;
   ActiveRows rows_;
   std::vector<double> lever_;
   System::Evaluation e_;
   std::vector<double> gamma_, x_, q_before_;
-  KktMatrix kkt_;
+  SaddleMatrix kkt_;
   MinimumNorm minimum_norm_;
   long evaluations_ = 0;
 };

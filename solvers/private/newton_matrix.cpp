@@ -1,10 +1,14 @@
 #include "dalembert/solvers/private/newton_matrix.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dalembert {
 
 namespace {
+
+/// Newton's iteration loses at most this factor in accuracy by leaving soft forces out.
+constexpr double still_soft = 0.1;
 
 ActiveRows holonomic_only(const ActiveRows& all) {
   return {{all.rows.begin(), all.rows.begin() + all.holonomic}, all.holonomic};
@@ -15,23 +19,53 @@ ActiveRows holonomic_only(const ActiveRows& all) {
 NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows)
     : system_(&system),
       rows_(rows),
-      at_(system.evaluation()),
       linear_(system.linearisation()),
-      lower_(at_.w.size()),
-      k1_(system, rows, KktMatrix::Forces::linearised),
-      k2_(system, holonomic_only(rows), KktMatrix::Forces::none),
-      x1_(static_cast<std::size_t>(k1_.size())),
-      x2_(static_cast<std::size_t>(k2_.size())),
+      w_(system.w_columns().size()),
+      k2_(system, holonomic_only(rows)),
+      x1_(static_cast<std::size_t>(system.coordinates() + rows.size())),
+      x2_(static_cast<std::size_t>(system.coordinates() + rows.holonomic)),
       p_(static_cast<std::size_t>(system.coordinates())) {}
 
-bool NewtonMatrix::factorise(const Instant& at, std::span<const double> lambda, double c) {
-  system_->evaluate(at, at_);
+/// Whether all rows are holonomic and H and D small against c^2 M and c M, by their largest row sums.
+bool NewtonMatrix::judge_soft(double c) {
+  if (rows_.holonomic != rows_.size()) return false;
+  std::ranges::fill(p_, 0.0);
+  for (std::size_t k = 0; k < linear_.stiffness.size(); ++k) {
+    p_[static_cast<std::size_t>(system_->stiffness_pattern()[k].row)] +=
+        std::abs(linear_.stiffness[k]) / (c * c);
+  }
+  for (std::size_t k = 0; k < linear_.damping.size(); ++k) {
+    p_[static_cast<std::size_t>(system_->damping_pattern()[k].row)] += std::abs(linear_.damping[k]) / c;
+  }
+  const auto masses = system_->masses();
+  for (std::size_t i = 0; i < p_.size(); ++i) {
+    if (p_[i] > still_soft * masses[i]) return false;
+  }
+  return true;
+}
+
+bool NewtonMatrix::factorise(const Instant& at, const System::Evaluation& e, std::span<const double> lambda,
+                             double c) {
   system_->linearise(at, lambda, linear_);
+  soft_ = judge_soft(c);
+  std::ranges::copy(e.w, w_.begin());
+  if (!k2_.factorise(w_)) return false;
+  if (soft_) return true;
+  if (!k1_) {
+    k1_.emplace(*system_, rows_, KktMatrix::Forces::linearised);
+    lower_.resize(w_.size());
+  }
   const auto first_nonholonomic =
       static_cast<std::size_t>(system_->row_start()[static_cast<std::size_t>(system_->holonomic_rows())]);
-  std::copy(at_.w.begin(), at_.w.end(), lower_.begin());
+  std::copy(w_.begin(), w_.end(), lower_.begin());
   for (std::size_t k = first_nonholonomic; k < lower_.size(); ++k) lower_[k] += linear_.psi_q[k] / c;
-  return k1_.factorise(at_.w, lower_, linear_, 1.0 / (c * c), 1.0 / c) && k2_.factorise(at_.w);
+  return k1_->factorise(w_, lower_, linear_, 1.0 / (c * c), 1.0 / c);
+}
+
+bool NewtonMatrix::refresh(const System::Evaluation& e) {
+  if (!soft_) return true;
+  std::ranges::copy(e.w, w_.begin());
+  return k2_.factorise(w_);
 }
 
 double NewtonMatrix::along(std::size_t row, std::span<const double> values, std::span<const double> x) const {
@@ -44,6 +78,41 @@ double NewtonMatrix::along(std::size_t row, std::span<const double> values, std:
 }
 
 void NewtonMatrix::solve(double c, std::span<double> b) {
+  if (soft_) {
+    solve_soft(c, b);
+  } else {
+    solve_stiff(c, b);
+  }
+}
+
+/// (5) to (7) with H = D = 0, all rows holonomic.
+void NewtonMatrix::solve_soft(double c, std::span<double> b) {
+  const auto n = static_cast<std::size_t>(system_->coordinates());
+  const auto m = static_cast<std::size_t>(rows_.size());
+  const auto b1 = b.subspan(0, n);
+  const auto b2 = b.subspan(n, n);
+  const auto b3 = b.subspan(2 * n, m);
+  const auto b4 = b.subspan(2 * n + m, m);
+  const auto masses = system_->masses();
+  for (std::size_t i = 0; i < n; ++i) x1_[i] = -b2[i] - c * b1[i];
+  for (std::size_t r = 0; r < m; ++r) x1_[n + r] = c * c * b4[r];
+  k2_.solve(x1_);
+  for (std::size_t i = 0; i < n; ++i) {
+    x2_[i] = b1[i] + masses[i] * x1_[i] / c;
+    b1[i] = x1_[i] / (c * c);
+  }
+  for (std::size_t r = 0; r < m; ++r) {
+    x2_[n + r] = b3[r] - along(static_cast<std::size_t>(rows_.rows[r]), linear_.psi_q, b1);
+  }
+  k2_.solve(x2_);
+  std::copy_n(x2_.begin(), n, b2.begin());
+  for (std::size_t r = 0; r < m; ++r) {
+    b4[r] = -x2_[n + r];  // the matrix of (7) has -G^T
+    b3[r] = x1_[n + r] - c * b4[r];
+  }
+}
+
+void NewtonMatrix::solve_stiff(double c, std::span<double> b) {
   const auto n = static_cast<std::size_t>(system_->coordinates());
   const auto m = static_cast<std::size_t>(rows_.size());
   const auto m_holonomic = static_cast<std::size_t>(rows_.holonomic);
@@ -64,9 +133,9 @@ void NewtonMatrix::solve(double c, std::span<double> b) {
   }
   for (std::size_t r = 0; r < m; ++r) {
     const auto row = static_cast<std::size_t>(rows_.rows[r]);
-    x1_[n + r] = r < m_holonomic ? c * c * b4[r] : c * (b3[r] - along(row, at_.w, p_));
+    x1_[n + r] = r < m_holonomic ? c * c * b4[r] : c * (b3[r] - along(row, w_, p_));
   }
-  k1_.solve(x1_);
+  k1_->solve(x1_);
   const auto dq = std::span(x1_).first(n);
   for (double& x : dq) x /= c * c;
 

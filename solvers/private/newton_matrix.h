@@ -1,7 +1,8 @@
 #pragma once
 
-#include <dalembert/solvers/private/kkt.h>
+#include <dalembert/solvers/private/saddle.h>
 
+#include <optional>
 #include <vector>
 
 namespace dalembert {
@@ -31,31 +32,49 @@ namespace dalembert {
 ///
 ///   (7)  M dv + G^T dmu                         = b1 + c M dq,     G dv = b3 - psi_q dq
 ///
-/// Two systems of n + m instead of one of 2n + m + m_holonomic, and their matrices hardly depend on
-/// c: where forces are soft a factorisation outlives changes of the step.
+/// Two systems of n + m instead of one of 2n + m + m_holonomic.
+///
+/// Where forces are soft against the inertia that a step feels, |H|/c^2 + |D|/c small against M, and
+/// no row is nonholonomic, H and D are left out. Then both matrices are the same, nothing in
+/// them depends on c, and their Schur complement W M^-1 W^T serves both; a change of the step needs no
+/// new factors. (H holds the predicted, noisy multipliers: on chains leaving it out halves the
+/// steps.)
 class NewtonMatrix {
  public:
   NewtonMatrix(const System& system, const ActiveRows& rows);
 
-  /// Factors at a state; `lambda` has one number per row of the system. False if singular. Throws
-  /// EquationFault.
-  [[nodiscard]] bool factorise(const Instant& at, std::span<const double> lambda, double c);
+  /// Factors at a state, with the equations there; `lambda` has one number per row of the system.
+  /// False if singular. Throws EquationFault.
+  [[nodiscard]] bool factorise(const Instant& at, const System::Evaluation& e, std::span<const double> lambda,
+                               double c);
   /// In place: b = (b1, b2, b3, b4) becomes (dq, dv, dlambda, dmu). `c` may have changed since.
   void solve(double c, std::span<double> b);
 
-  [[nodiscard]] long factorisations() const { return k1_.factorisations() + k2_.factorisations(); }
+  [[nodiscard]] long factorisations() const {
+    return k2_.factorisations() + (k1_ ? k1_->factorisations() : 0);
+  }
+  /// Brings soft factors up to date with W, which costs them little; others stay as they are.
+  /// False if singular.
+  [[nodiscard]] bool refresh(const System::Evaluation& e);
+  /// Whether the last factors leave the forces' derivatives out.
+  [[nodiscard]] bool soft() const { return soft_; }
 
  private:
   [[nodiscard]] double along(std::size_t row, std::span<const double> values,
                              std::span<const double> x) const;
 
+  [[nodiscard]] bool judge_soft(double c);
+  void solve_soft(double c, std::span<double> b);
+  void solve_stiff(double c, std::span<double> b);
+
   const System* system_;
   ActiveRows rows_;
-  System::Evaluation at_;
   System::Linearisation linear_;
-  std::vector<double> lower_;
-  KktMatrix k1_, k2_;
+  std::vector<double> w_, lower_;
+  std::optional<KktMatrix> k1_;  // once the forces are not soft
+  SaddleMatrix k2_;
   std::vector<double> x1_, x2_, p_;
+  bool soft_ = false;
 };
 
 }  // namespace dalembert

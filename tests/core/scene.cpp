@@ -205,6 +205,16 @@ TEST(Scene, ExtentIsTheDiagonalOfTheBoxAroundAllPoints) {
   EXPECT_DOUBLE_EQ(scene.system().extent(), 5.0);
 }
 
+// 1/t has no value at t = 0, where a run need not begin; an infinite extent would mean that every
+// error is small.
+TEST(Scene, APathWithoutABeginningDoesNotStretchTheExtent) {
+  Scene<2> scene;
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {3.0, 0.0}});
+  scene.add(Distance{driven([](auto t) { return vec(1.0 / t, 0.0); }), bob, 2.0});
+  scene.add(Spring{Fixed<2>{{3.0, 4.0}}, bob, 1.0});
+  EXPECT_DOUBLE_EQ(scene.system().extent(), 4.0);
+}
+
 TEST(Scene, LaterChangesDoNotReachASystemMadeBefore) {
   Scene<2> scene;
   const auto bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});

@@ -49,9 +49,8 @@ std::optional<IntegrationFailure> failure_of(const F& f) {
   return std::nullopt;
 }
 
-/// A sample every 0.1 in a run of 2.
+/// 21 samples: every 0.1 in a run of 2.
 Options sampled(double t_end) { return {.t_end = t_end, .samples = 21}; }
-};
 
 /// That a run to t = 2 stops shortly before t = 1, by name, with its samples so far as in a run that
 /// ended there. The integrator tries shorter steps until they no longer count: it gets to within one

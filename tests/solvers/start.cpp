@@ -129,17 +129,6 @@ TEST(Assembly, ChangesVelocitiesByAnImpulseAlongTheRod) {
   EXPECT_LE((simulation.velocity(heavy) - Vec<2>(3.0, -1.0)).norm(), 16.0 * epsilon * 4.0);
 }
 
-// The normal of y = x^2 at (1, 1) is (2, -1); it meets (1.2, 0.9). No other point of the parabola is
-// as near, so that is where the least change leads. The projection solves (x - x0) + 2 x (x^2 - y0) = 0
-// to the round-off of the distance g: about 1e-14 of the scene's length.
-TEST(Assembly, LeadsToTheNearestPointOfACurve) {
-  Scene<2> scene;
-  const auto bead = scene.add_particle({.mass = 1.0, .position = {1.2, 0.9}});
-  scene.add(OnCurve{bead, [](auto r) { return r.y() - r.x() * r.x(); }});
-  const Simulation<2> simulation(scene, {.t_end = 1.0, .assemble = true});
-  EXPECT_LE((simulation.position(bead) - Vec<2>(1.0, 1.0)).norm(), 1e-12);
-}
-
 TEST(Assembly, LeavesAConsistentStartAlone) {
   Scene<2> scene;
   const auto bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}, .velocity = {0.0, 2.0}});

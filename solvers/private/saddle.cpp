@@ -1,0 +1,50 @@
+#include "dalembert/solvers/private/saddle.h"
+
+namespace dalembert {
+
+namespace {
+
+/// Products per entry of W up to which the Schur complement is taken: a particle that 16
+/// constraints share. Beyond, its fill costs more than LU on the whole matrix.
+constexpr std::size_t most_products = 16;
+
+/// Rows that make a smaller angle than the root of this are left to LU on the whole matrix, so that
+/// the complement never loses more than half of the digits.
+constexpr double smallest_pivot = 1e-8;
+
+bool complement_suits(const System& system, const ActiveRows& rows) {
+  std::size_t entries = 0;
+  for (const int row : rows.rows) {
+    const auto r = static_cast<std::size_t>(row);
+    entries += static_cast<std::size_t>(system.row_start()[r + 1] - system.row_start()[r]);
+  }
+  return SchurComplement::products(system, rows.rows) <= most_products * entries;
+}
+
+}  // namespace
+
+SaddleMatrix::SaddleMatrix(const System& system, const ActiveRows& rows) : system_(&system), rows_(rows) {
+  if (complement_suits(system, rows)) {
+    schur_.emplace(system, rows_.rows);
+  } else {
+    whole_.emplace(system, rows, KktMatrix::Forces::none);
+  }
+}
+
+bool SaddleMatrix::factorise(std::span<const double> w) {
+  ++factorisations_;
+  by_schur_ = schur_ && schur_->factorise(w) && schur_->smallest_pivot() > smallest_pivot;
+  if (by_schur_) return true;
+  if (!whole_) whole_.emplace(*system_, rows_, KktMatrix::Forces::none);
+  return whole_->factorise(w);
+}
+
+void SaddleMatrix::solve(std::span<double> x) {
+  if (by_schur_) {
+    schur_->solve(x);
+  } else {
+    whole_->solve(x);
+  }
+}
+
+}  // namespace dalembert

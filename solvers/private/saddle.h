@@ -1,0 +1,43 @@
+#pragma once
+
+#include <dalembert/solvers/private/kkt.h>
+#include <dalembert/solvers/private/schur.h>
+
+#include <optional>
+
+namespace dalembert {
+
+/// The matrix of projections and accelerations,
+///
+///   [ M  -W^T ]
+///   [ W   0   ],
+///
+/// factored in the way that suits the scene: through its Schur complement W M^-1 W^T, or as a whole
+/// by LU where many constraints share a particle (the complement would be full), and wherever rows
+/// come so close to each other that the complement, whose condition is squared, cannot tell them
+/// apart.
+class SaddleMatrix {
+ public:
+  /// Throughout its life the matrix refers to the system.
+  SaddleMatrix(const System& system, const ActiveRows& rows);
+
+  /// `w` in the pattern of the system's W. False if singular.
+  [[nodiscard]] bool factorise(std::span<const double> w);
+  /// In place: (a, b) becomes (x, y), n and then one number per active row.
+  void solve(std::span<double> x);
+
+  [[nodiscard]] int size() const { return system_->coordinates() + rows_.size(); }
+  [[nodiscard]] long factorisations() const { return factorisations_; }
+  /// "LDL" or "KLU".
+  [[nodiscard]] const char* method() const { return schur_ ? "LDL" : "KLU"; }
+
+ private:
+  const System* system_;
+  ActiveRows rows_;
+  std::optional<SchurComplement> schur_;
+  std::optional<KktMatrix> whole_;
+  bool by_schur_ = false;  // the current factors
+  long factorisations_ = 0;
+};
+
+}  // namespace dalembert

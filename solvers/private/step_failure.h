@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+namespace dalembert {
+
+/// Thrown when a step cannot be taken; the integrator adds the trajectory so far.
+struct StepFailure {
+  std::string what;
+  double time;
+};
+
+}  // namespace dalembert

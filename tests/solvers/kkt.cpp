@@ -1,0 +1,87 @@
+#include "../equations.h"
+#include <dalembert/constraints/distance.h>
+#include <dalembert/constraints/nonholonomic.h>
+#include <dalembert/core/scene.h>
+#include <dalembert/solvers/private/kkt.h>
+
+namespace dalembert {
+namespace {
+
+/// A rod, a blade, a spring and a damper on two particles.
+System system_with_everything() {
+  Scene<2> scene;
+  const auto a = scene.add_particle({.mass = 1.0});
+  const auto b = scene.add_particle({.mass = 3.0});
+  scene.add(Distance{a, b, 1.5});
+  scene.add(nonholonomic(points(b), [](auto r, auto v) { return v.y() - r.x() * v.x(); }));
+  scene.add(Spring{a, b, 7.0, 1.0});
+  scene.add(Damper{a, b, 0.5});
+  return scene.system();
+}
+
+class KktMatrixTest : public testing::Test {
+ protected:
+  System system = system_with_everything();
+  State state{0.4, Eigen::Vector4d(0.8, -0.5, 0.4, 1.4), Eigen::Vector4d(-0.3, 1.2, 0.7, 0.9)};
+  System::Evaluation e = system.evaluation();
+  System::Linearisation d = system.linearisation();
+  Eigen::VectorXd b = (Eigen::VectorXd(6) << 1.0, -2.0, 3.0, 0.5, -1.5, 2.5).finished();
+
+  void SetUp() override {
+    system.evaluate(state.instant(), e);
+    system.linearise(state.instant(), std::vector<double>{2.0, -3.0}, d);
+  }
+  Eigen::VectorXd solution(KktMatrix& kkt) const {
+    Eigen::VectorXd x = b;
+    kkt.solve({x.data(), 6});
+    return x;
+  }
+  /// Backward stability: |K x - b| <= c n eps |K| |x|.
+  void expect_solved(const Eigen::MatrixXd& upper, const Eigen::MatrixXd& lower,
+                     const Eigen::VectorXd& x) const {
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(6, 6);
+    K.topLeftCorner(4, 4) = upper;
+    K.topRightCorner(4, 2) = -by_rows(system, e.w).transpose();
+    K.bottomLeftCorner(2, 4) = lower;
+    EXPECT_LE((K * x - b).norm(), 4.0 * 6.0 * std::numeric_limits<double>::epsilon() * K.norm() * x.norm());
+  }
+  [[nodiscard]] Eigen::MatrixXd masses() const { return vector(system.masses()).asDiagonal(); }
+};
+
+TEST_F(KktMatrixTest, HoldsMassesAndConstraints) {
+  KktMatrix kkt(system, {{0, 1}, 1}, KktMatrix::Forces::none);
+  ASSERT_EQ(kkt.size(), 6);
+  ASSERT_TRUE(kkt.factorise(e.w));
+  expect_solved(masses(), by_rows(system, e.w), solution(kkt));
+}
+
+TEST_F(KktMatrixTest, HoldsStiffnessAndDampingWithTheirFactors) {
+  KktMatrix kkt(system, {{0, 1}, 1}, KktMatrix::Forces::linearised);
+  constexpr double h = 0.3, c = 0.7;
+  std::vector<double> lower(e.w);
+  for (std::size_t k = 0; k < lower.size(); ++k) lower[k] += h * d.psi_q[k];
+  ASSERT_TRUE(kkt.factorise(e.w, lower, d, h, c));
+  const Eigen::MatrixXd H = -by_entries(4, system.stiffness_pattern(), d.stiffness);
+  const Eigen::MatrixXd D = -by_entries(4, system.damping_pattern(), d.damping);
+  expect_solved(masses() + h * H + c * D, by_rows(system, lower), solution(kkt));
+}
+
+TEST_F(KktMatrixTest, LeavesOutRowsThatAreNotActive) {
+  KktMatrix kkt(system, {{1}, 0}, KktMatrix::Forces::none);
+  ASSERT_EQ(kkt.size(), 5);
+  ASSERT_TRUE(kkt.factorise(e.w));
+  Eigen::VectorXd x = b.head(5);
+  kkt.solve({x.data(), 5});
+  const Eigen::RowVectorXd blade = by_rows(system, e.w).row(1);
+  const double round_off = 100.0 * std::numeric_limits<double>::epsilon();
+  EXPECT_LE((masses() * x.head(4) - blade.transpose() * x[4] - b.head(4)).norm(), round_off * x.norm());
+  EXPECT_NEAR(blade * x.head(4), b[4], round_off * x.norm());
+}
+
+TEST_F(KktMatrixTest, IsSingularForTwoEqualRows) {
+  KktMatrix kkt(system, {{0, 0}, 2}, KktMatrix::Forces::none);
+  EXPECT_FALSE(kkt.factorise(e.w));
+}
+
+}  // namespace
+}  // namespace dalembert
