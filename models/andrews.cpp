@@ -166,7 +166,7 @@ Model<2> Andrews::model() const {
           .reference = "angles of the links and forces at E in extended precision",
           .t_end = 0.03,
           .length = links[6].joint.norm(),
-          .force = stiffness * stretch,
+          .force = std::abs(stiffness * stretch),
           .energy = 0.5 * stiffness * stretch * stretch,
           .scene =
               [*this] {
