@@ -171,17 +171,17 @@ Model<2> Andrews::model() const {
           .scene =
               [*this] {
                 AndrewsScene built = scene();
-                return Observed<2>{std::move(built.scene),
-                                   [joints = built.joints, pins = built.pins_at_E](const Sample<2>& sample) {
-                                     Observation<2> seen;
-                                     for (const auto& joint : joints)
-                                       seen.positions.push_back(sample.position(joint));
-                                     for (const auto& pin : pins) {
-                                       const Vec<2> force = sample.multiplier(pin);
-                                       seen.forces.insert(seen.forces.end(), {force.x(), force.y()});
-                                     }
-                                     return seen;
-                                   }};
+                const auto observe = [joints = built.joints,
+                                      pins = built.pins_at_E](const Sample<2>& sample) {
+                  Observation<2> seen;
+                  for (const auto& joint : joints) seen.positions.push_back(sample.position(joint));
+                  for (const auto& pin : pins) {
+                    const Vec<2> force = sample.multiplier(pin);
+                    seen.forces.insert(seen.forces.end(), {force.x(), force.y()});
+                  }
+                  return seen;
+                };
+                return Observed<2>{std::move(built.scene), observe, {}};  // the couple does work
               },
           .observations = [*this](std::span<const double> times) { return reference(times); }};
 }

@@ -1,6 +1,7 @@
 #include "dalembert/models/error.h"
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace dalembert::models {
@@ -42,12 +43,15 @@ Measurement measure(const Model<D>& model, const Options& options,
   const Observed<D> observed = model.scene();
   const Trajectory<D> run = simulate(observed.scene, options);
   require_same(run.size(), reference.size(), "samples");
+  const auto conserved = [&](std::size_t i) {
+    return observed.conserved ? observed.conserved(run.sample(i)) : std::numeric_limits<double>::quiet_NaN();
+  };
   Measurement m;
   for (std::size_t i = 0; i < run.size(); ++i) {
     const Observation<D> seen = observed.observe(run.sample(i));
     m.error_position = larger(m.error_position, position_error(seen, reference[i]) / model.length);
     m.error_force = larger(m.error_force, force_error(seen, reference[i]) / model.force);
-    m.energy_drift = larger(m.energy_drift, std::abs(run.energy(i) - run.energy(0)) / model.energy);
+    m.energy_drift = larger(m.energy_drift, std::abs(conserved(i) - conserved(0)) / model.energy);
   }
   m.statistics = run.statistics();
   return m;

@@ -11,7 +11,8 @@ namespace dalembert::models {
 struct Measurement {
   double error_position = 0.0;  ///< largest at any sample, relative to the model's length
   double error_force = 0.0;     ///< largest at any sample, relative to the model's force
-  double energy_drift = 0.0;    ///< largest change of energy, relative to the model's energy
+  double energy_drift = 0.0;    ///< largest change of what is conserved, relative to the model's energy; NaN
+                                ///< if nothing is
   Statistics statistics;
 };
 

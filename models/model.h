@@ -22,6 +22,10 @@ template <int D>
 struct Observed {
   Scene<D> scene;
   std::function<Observation<D>(const Sample<D>&)> observe;
+  /// What the motion conserves, as an energy: the energy itself, or if something is turned at a constant rate
+  /// Omega about an axis the Jacobi integral, energy - Omega times the angular momentum about it. Empty if
+  /// there is no such thing.
+  std::function<double(const Sample<D>&)> conserved = [](const Sample<D>& sample) { return sample.energy(); };
 };
 
 /// A system of the catalogue: the scene, built from the public API, and the same motion and forces
@@ -34,7 +38,7 @@ struct Model {
   double t_end;           ///< the run compared, from t = 0 [time]
   double length;          ///< position errors are relative to this [length]
   double force;           ///< force errors are relative to this: its weight [force]
-  double energy;          ///< energy drift is relative to this [energy]
+  double energy;          ///< the drift of what is conserved is relative to this [energy]
   std::function<Observed<D>()> scene;
   /// The observations at the given increasing times.
   std::function<std::vector<Observation<D>>(std::span<const double> times)> observations;

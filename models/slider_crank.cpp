@@ -102,14 +102,14 @@ Model<2> SliderCrank::model() const {
           .scene =
               [*this] {
                 SliderCrankScene built = scene();
-                return Observed<2>{
-                    std::move(built.scene), [radius = crank_radius, crank = built.crank, rod = built.rod,
-                                             pin = built.pin, guide = built.guide](const Sample<2>& sample) {
-                      const Vec<2> R = sample.multiplier(pin);
-                      return Observation<2>{.positions = {sample.position(crank.point({radius, 0.0})),
-                                                          sample.position(rod.centre())},
-                                            .forces = {R.x(), R.y(), sample.multiplier(guide)}};
-                    }};
+                const auto observe = [radius = crank_radius, crank = built.crank, rod = built.rod,
+                                      pin = built.pin, guide = built.guide](const Sample<2>& sample) {
+                  const Vec<2> R = sample.multiplier(pin);
+                  return Observation<2>{.positions = {sample.position(crank.point({radius, 0.0})),
+                                                      sample.position(rod.centre())},
+                                        .forces = {R.x(), R.y(), sample.multiplier(guide)}};
+                };
+                return Observed<2>{std::move(built.scene), observe, {}};  // the damper takes energy
               },
           .observations = [*this](std::span<const double> times) { return reference(times); }};
 }

@@ -105,14 +105,15 @@ Model<3> SpinningDisk::model() const {
           .scene =
               [*this] {
                 SpinningDiskScene built = scene();
-                return Observed<3>{std::move(built.scene),
-                                   [centre = built.disk.centre(), marks = built.marks, contact = built.contact,
-                                    rolling = built.rolling](const Sample<3>& sample) {
-                                     const Vec<2> friction = sample.multiplier(rolling);
-                                     return Observation<3>{
-                                         .positions = {sample.position(centre), sample.position(marks[0]), sample.position(marks[1])},
-                                         .forces = {sample.multiplier(contact), friction[0], friction[1]}};
-                                   }};
+                return Observed<3>{
+                    std::move(built.scene),
+                    [centre = built.disk.centre(), marks = built.marks, contact = built.contact,
+                     rolling = built.rolling](const Sample<3>& sample) {
+                      const Vec<2> friction = sample.multiplier(rolling);
+                      return Observation<3>{.positions = {sample.position(centre), sample.position(marks[0]),
+                                                          sample.position(marks[1])},
+                                            .forces = {sample.multiplier(contact), friction[0], friction[1]}};
+                    }};
               },
           .observations = [*this](std::span<const double> times) { return reference(times); }};
 }

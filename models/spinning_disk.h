@@ -13,7 +13,7 @@ struct SpinningDiskScene {
   Scene<3> scene;
   Lamina disk;
   std::array<BodyPoint<3, 3>, 2> marks;  ///< points of the rim, the second a quarter turn on
-  Constraint<1> contact;  ///< its multiplier is the normal force
+  Constraint<1> contact;                 ///< its multiplier is the normal force
   Constraint<2> rolling;  ///< its multipliers: friction along the rim, and to the side the axis leans to
 };
 

@@ -1,8 +1,7 @@
 #include "dalembert/constraints/lamina.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
+#include <gtest/gtest.h>
 
 #include <limits>
 #include <string>

@@ -25,7 +25,8 @@ TEST(ThinRod, HasItsEndsItsMassAndTheEnergyOfAUniformRod) {
   const auto q = scene.initial_positions(), v = scene.initial_velocities();
   EXPECT_LT((rod.start().gather(q) - s.start).norm(), round_off);
   EXPECT_LT((rod.end().gather(q) - s.end).norm(), round_off);
-  EXPECT_LT((rod.point(0.25).gather(v) - (0.75 * s.start_velocity + 0.25 * s.end_velocity)).norm(), round_off);
+  EXPECT_LT((rod.point(0.25).gather(v) - (0.75 * s.start_velocity + 0.25 * s.end_velocity)).norm(),
+            round_off);
   // m/6 (v^2 + v . v~ + v~^2)
   const Vec<3> a = s.start_velocity, b = s.end_velocity;
   const double T = s.mass / 6.0 * (a.squaredNorm() + a.dot(b) + b.squaredNorm());

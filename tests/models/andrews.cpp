@@ -26,8 +26,8 @@ class Angles {
   [[nodiscard]] double beta() const { return theta[0]; }
   /// beta, Theta, gamma, phi, delta, Omega, epsilon.
   [[nodiscard]] std::array<double, 7> published() const {
-    return {theta[0],            theta[1] - theta[0], theta[2], theta[3] - theta[4],
-            theta[4],            theta[5] - theta[6], theta[6]};
+    return {theta[0], theta[1] - theta[0], theta[2], theta[3] - theta[4],
+            theta[4], theta[5] - theta[6], theta[6]};
   }
 
  private:
@@ -35,7 +35,7 @@ class Angles {
 };
 
 // Published values at t = 0.03 (IVP test set, IFToMM A03).
-constexpr std::array published = {15.810771195153707,  -15.756371058411839, 0.040822240119645805,
+constexpr std::array published = {15.810771195153707,   -15.756371058411839, 0.040822240119645805,
                                   -0.53473011634207959, 0.52440996587995407, 0.53473011634207959,
                                   1.0480807410419379};
 
@@ -71,12 +71,14 @@ TEST(Andrews, WorkOfTheDriveIsTheChangeOfEnergy) {
   Angles angles(mechanism);
   constexpr double published_constant = 1.4378329575327399;
   const double tolerance = 1e-10;
-  simulate(built.scene, {.t_end = 0.03, .samples = 301, .tolerance = tolerance}, [&](const Sample<2>& sample) {
-    angles.follow(built, sample);
-    // The energy reached is torque beta = 0.5; its relative error is that of the speeds, a few thousand
-    // steps' worth of the tolerance.
-    EXPECT_NEAR(sample.energy() - mechanism.torque * angles.beta(), published_constant, 1e4 * tolerance * 0.5);
-  });
+  simulate(built.scene, {.t_end = 0.03, .samples = 301, .tolerance = tolerance},
+           [&](const Sample<2>& sample) {
+             angles.follow(built, sample);
+             // The energy reached is torque beta = 0.5; its relative error is that of the speeds, a few
+             // thousand steps' worth of the tolerance.
+             EXPECT_NEAR(sample.energy() - mechanism.torque * angles.beta(), published_constant,
+                         1e4 * tolerance * 0.5);
+           });
 }
 
 }  // namespace

@@ -86,7 +86,8 @@ TEST(ChaplyginSleigh, TurnsInAllByPiTimesARootOfTheInertias) {
   }
   // By symmetry the run ends with w as at the start. Both tails lack J/(m a) w/U to first order of w/U,
   // and to third, (w/U)^3/3, less than 1e-6.
-  const double all = std::numbers::pi * std::sqrt(1.0 + sleigh.inertia / (sleigh.mass * sleigh.arm * sleigh.arm));
+  const double all =
+      std::numbers::pi * std::sqrt(1.0 + sleigh.inertia / (sleigh.mass * sleigh.arm * sleigh.arm));
   const double tails = 2.0 * J / (sleigh.mass * sleigh.arm) * sleigh.turn_rate / U;
   EXPECT_NEAR(turned, all - tails, 1e-5 * all);
 }

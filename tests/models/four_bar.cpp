@@ -42,10 +42,10 @@ TEST(FourBar, HasOneDegreeOfFreedom) {
   }
 }
 
-// Before the rods first lie in line, all pins follow from Newton's and Euler's laws for single rods: a crossbar
-// does not turn, so either end carries half its m (g + a_y); the torque about A_i on upright i,
-// m L^2 p''/3 = m g (L/2) sin p + L (X_i cos p - Y_i sin p), gives the force X_i along the crossbars, and
-// m a/2 = (X_i, Y_i) - m g + ground_i that of the ground.
+// Before the rods first lie in line, all pins follow from Newton's and Euler's laws for single rods: a
+// crossbar does not turn, so either end carries half its m (g + a_y); the torque about A_i on upright i, m
+// L^2 p''/3 = m g (L/2) sin p + L (X_i cos p - Y_i sin p), gives the force X_i along the crossbars, and m a/2
+// = (X_i, Y_i) - m g + ground_i that of the ground.
 TEST(FourBar, PinsOnTheGroundCarryWhatNewtonSays) {
   const FourBar bars;
   const FourBarScene built = bars.scene();

@@ -37,8 +37,7 @@ TEST(Pursuit, SpeedStaysAndTheForceIsThatOfTheTurningLineOfSight) {
   const Chase built = chase.scene();
   const auto run = simulate(built.scene, {.t_end = 0.9 * chase.capture_time(), .tolerance = tolerance});
   for (std::size_t i = 0; i < run.size(); ++i) {
-    const Vec<2> sight =
-        Vec<2>(chase.prey_speed * run.times()[i], 0.0) - run.position(built.pursuer, i);
+    const Vec<2> sight = Vec<2>(chase.prey_speed * run.times()[i], 0.0) - run.position(built.pursuer, i);
     const double rho = sight.norm(), sin_theta = -sight.y() / rho;
     const double expected = chase.mass * chase.pursuer_speed * chase.prey_speed * sin_theta / rho;
     EXPECT_NEAR(run.velocity(built.pursuer, i).norm(), chase.pursuer_speed,

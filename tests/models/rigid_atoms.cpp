@@ -3,10 +3,9 @@
 #include <dalembert/models/error.h>
 #include <dalembert/tests/models/newton.h>
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <Eigen/QR>
+#include <gtest/gtest.h>
 
 #include <cmath>
 
@@ -136,7 +135,8 @@ TEST(RigidBodyOfAtoms, InThePlaneHasThreeDegreesOfFreedom) {
       const Eigen::Rotation2Dd turned(rate * t);
       for (std::size_t k = 0; k < states.size(); ++k) {
         const Vec<2> arm = turned * states[k].position;
-        EXPECT_LT((run.position(built.atoms[k], i) - drift * t - arm).norm(), error_per_tolerance * tolerance);
+        EXPECT_LT((run.position(built.atoms[k], i) - drift * t - arm).norm(),
+                  error_per_tolerance * tolerance);
         EXPECT_LT((run.constraint_force(built.atoms[k], i) + rate * rate * arm).norm(),
                   10.0 * error_per_tolerance * tolerance);
       }

@@ -9,7 +9,8 @@
 namespace dalembert::models {
 namespace {
 
-// SUNDIALS' example idasSlCrank at rtol = atol = 1e-6 prints five digits; the tolerance may have moved the last.
+// SUNDIALS' example idasSlCrank at rtol = atol = 1e-6 prints five digits; the tolerance may have moved the
+// last.
 constexpr double q10 = 1.2757, x10 = 1.0236, p10 = -0.49881;
 
 TEST(SliderCrankReference, IsThePublishedEnd) {

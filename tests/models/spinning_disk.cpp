@@ -35,7 +35,8 @@ TEST(SpinningDiskReference, ForceIsMassTimesAccelerationLessGravity) {
     const Stencil<3> centre(disk.model(), t, 3e-3, 0);
     const Bounded<Vec<3>> Z = force_by_newton(centre, disk.mass, disk.gravity);
     const Observation<3> seen = disk.reference(t);
-    // The components in the plane have directions that only the derivation knows; their sum of squares has not.
+    // The components in the plane have directions that only the derivation knows; their sum of squares has
+    // not.
     EXPECT_NEAR(Z.value.z(), seen.forces[0], Z.error);
     EXPECT_NEAR(Z.value.head<2>().norm(), std::hypot(seen.forces[1], seen.forces[2]), Z.error);
   }
@@ -67,7 +68,8 @@ TEST(SpinningDiskReference, ConservesEnergy) {
 TEST(SpinningDiskReference, Rolls) {
   const SpinningDisk d;
   for (const double t : {0.3, 1.1, 2.6}) {
-    const Stencil<3> centre(d.model(), t, 3e-3, 0), first(d.model(), t, 3e-3, 1), second(d.model(), t, 3e-3, 2);
+    const Stencil<3> centre(d.model(), t, 3e-3, 0), first(d.model(), t, 3e-3, 1),
+        second(d.model(), t, 3e-3, 2);
     const Vec<3> e = (first.position() - centre.position()) / d.radius;
     const Vec<3> f = (second.position() - centre.position()) / d.radius;
     const double sine = std::hypot(e.z(), f.z());  // of the lean: z = e.z e + f.z f + n.z n
@@ -86,7 +88,8 @@ TEST(SpinningDisk, SteadyPrecessionKeepsItsLeanOnACircle) {
   const Vec<3> middle = run.position(built.disk.centre(), 0) +
                         Vec<3>::UnitZ().cross(run.velocity(built.disk.centre(), 0)) / disk.precession;
   for (std::size_t i = 0; i < run.size(); ++i) {
-    EXPECT_NEAR(run.position(built.disk.centre(), i).z(), disk.radius * std::sin(disk.lean), 1e-5 * disk.radius);
+    EXPECT_NEAR(run.position(built.disk.centre(), i).z(), disk.radius * std::sin(disk.lean),
+                1e-5 * disk.radius);
     EXPECT_NEAR((run.position(built.disk.centre(), i) - middle).norm(), path, 1e-5 * disk.radius);
     const double weight = disk.mass * disk.gravity;
     EXPECT_NEAR(run.multiplier(built.contact, i), weight, 1e-4 * weight);
@@ -127,7 +130,8 @@ TEST(SpinningDisk, AboveTheCriticalSpeedItSwaysAndRunsStraight) {
   const double push = 1e-3;
   const StraightOn s(1.2, push);
   const double w = std::sqrt(s.k);
-  expect_tilt(s, push, [w](double t) { return std::sin(w * t) / w; }, 10.0, push / w);
+  expect_tilt(
+      s, push, [w](double t) { return std::sin(w * t) / w; }, 10.0, push / w);
 }
 
 TEST(SpinningDisk, BelowTheCriticalSpeedItFallsOver) {
@@ -135,7 +139,8 @@ TEST(SpinningDisk, BelowTheCriticalSpeedItFallsOver) {
   const StraightOn s(0.8, push);
   const double w = std::sqrt(-s.k);
   const double t_end = 3.0;
-  expect_tilt(s, push, [w](double t) { return std::sinh(w * t) / w; }, t_end, push / w * std::sinh(w * t_end));
+  expect_tilt(
+      s, push, [w](double t) { return std::sinh(w * t) / w; }, t_end, push / w * std::sinh(w * t_end));
 }
 
 }  // namespace
