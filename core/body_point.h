@@ -9,15 +9,16 @@
 namespace dalembert {
 
 /// A point fixed in a rigid body, as made by RigidBody::point: a constant linear map of the body's
-/// particles, r = L (p_1, ..., p_k), two particles in the plane and four in space.
+/// particles, r = L (p_1, ..., p_k), two particles in the plane and four in space. On a ThinRod it is
+/// a map of two particles in space too, on a Lamina of three.
 ///
 /// Equations are differentiated with respect to the D numbers of r; L carries gradients and second
 /// derivatives on to the particles.
-template <int D>
+template <int D, int Particles = (D == 2 ? 2 : 4)>
 struct BodyPoint {
   static constexpr int dimension = D;
   static constexpr int inputs = D;
-  static constexpr int count = D == 2 ? 2 : 4;
+  static constexpr int count = Particles;
   static constexpr int coordinates = count * D;
   static constexpr bool driven = false;
   using Map = Eigen::Matrix<double, D, coordinates>;
@@ -43,6 +44,6 @@ struct BodyPoint {
   }
 };
 
-static_assert(Point<BodyPoint<2>> && Point<BodyPoint<3>>);
+static_assert(Point<BodyPoint<2>> && Point<BodyPoint<3>> && Point<BodyPoint<3, 2>>);
 
 }  // namespace dalembert

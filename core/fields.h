@@ -76,6 +76,33 @@ struct Torque {
   [[nodiscard]] std::string fault() const { return std::isfinite(torque) ? "" : "torque must be finite"; }
 };
 
+/// A constant torque on a planar body, counter-clockwise, as a couple of forces on two of its points:
+/// with d = r_b - r_a and d turned left by a right angle as n,
+///
+///   F_b = torque n/|d|^2,   F_a = -F_b.
+///
+/// On a body that turns about a fixed point, that point may be one of the two. The torque has no
+/// single-valued potential: the energy of a run does not contain its work, torque times the angle.
+template <Point A, Point B>
+struct Couple {
+  static_assert(A::dimension == 2, "Couple is planar");
+  static constexpr std::string_view kind = "Couple";
+  A a;
+  B b;
+  double torque;  ///< [force length], finite
+
+  auto points() const { return std::tie(a, b); }
+  auto force(const auto& r_a, const auto& r_b, const auto& /*v_a*/, const auto& /*v_b*/) const {
+    using V = std::remove_cvref_t<decltype(r_a)>;
+    const V d = r_b - r_a;
+    const V on_b = (torque / d.squaredNorm()) * V(-d.y(), d.x());
+    return std::tuple<V, V>{-on_b, on_b};
+  }
+  [[nodiscard]] std::string fault() const { return std::isfinite(torque) ? "" : "torque must be finite"; }
+};
+template <class A, class B>
+Couple(A, B, double) -> Couple<A, B>;
+
 /// An elastic string between two points, which only pulls (notes, mex251):
 /// V = stiffness max(0, |r_b - r_a| - relaxed_length)^2 / 2. Slack, it exerts no force. The force is
 /// continuous where it becomes taut; its stiffness jumps there.
@@ -107,6 +134,7 @@ template <class A, class B>
 ElasticString(A, B, double, double) -> ElasticString<A, B>;
 
 static_assert(PotentialForce<Torque> && LawForce<QuadraticDrag<Particle<3>>>);
+static_assert(LawForce<Couple<Fixed<2>, Particle<2>>>);
 static_assert(PotentialForce<ElasticString<Fixed<2>, Particle<2>>>);
 
 }  // namespace dalembert

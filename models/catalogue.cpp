@@ -1,6 +1,9 @@
 #include "dalembert/models/catalogue.h"
 
+#include <dalembert/models/andrews.h>
+#include <dalembert/models/bricard.h>
 #include <dalembert/models/chain.h>
+#include <dalembert/models/chaplygin_sleigh.h>
 #include <dalembert/models/cone.h>
 #include <dalembert/models/disk_on_incline.h>
 #include <dalembert/models/disk_on_rotating_track.h>
@@ -8,6 +11,7 @@
 #include <dalembert/models/driven_pivot.h>
 #include <dalembert/models/elastic_string_circle.h>
 #include <dalembert/models/elastic_string_line.h>
+#include <dalembert/models/four_bar.h>
 #include <dalembert/models/governor.h>
 #include <dalembert/models/hoop_about_diameter.h>
 #include <dalembert/models/hoop_about_external_axis.h>
@@ -15,8 +19,14 @@
 #include <dalembert/models/pendulum_rotation.h>
 #include <dalembert/models/pendulum_separatrix.h>
 #include <dalembert/models/plane_pendulum.h>
+#include <dalembert/models/pursuit.h>
+#include <dalembert/models/rigid_atoms.h>
+#include <dalembert/models/rolling_disk.h>
+#include <dalembert/models/rolling_disk_on_slope.h>
+#include <dalembert/models/slider_crank.h>
 #include <dalembert/models/sliding_pivot.h>
 #include <dalembert/models/sliding_rod.h>
+#include <dalembert/models/spinning_disk.h>
 
 namespace dalembert::models {
 
@@ -41,6 +51,16 @@ std::vector<AnyModel> catalogue() {
       DrivenPivot::horizontal().model(),
       DrivenPivot::vertical().model(),
       DrivenPivot::circular().model(),
+      RollingDisk{}.model(),
+      RollingDiskOnSlope{}.model(),
+      PursuitCurve{}.model(),
+      RigidAtoms{}.model(),
+      FourBar{}.model(),
+      Andrews{}.model(),
+      Bricard{}.model(),
+      SliderCrank{}.model(),
+      ChaplyginSleigh{}.model(),
+      SpinningDisk{}.model(),
   };
 }
 

@@ -112,7 +112,8 @@ void NewtonMatrix::solve_soft(double c, std::span<double> b) {
   }
 }
 
-void NewtonMatrix::solve_stiff(double c, std::span<double> b) {
+/// (5) to (7), given p = dv - c dq as far as it is known; leaves dq, dnu in x1_ and dv, -dmu in x2_.
+void NewtonMatrix::eliminate(double c, std::span<const double> b) {
   const auto n = static_cast<std::size_t>(system_->coordinates());
   const auto m = static_cast<std::size_t>(rows_.size());
   const auto m_holonomic = static_cast<std::size_t>(rows_.holonomic);
@@ -123,10 +124,7 @@ void NewtonMatrix::solve_stiff(double c, std::span<double> b) {
   const auto masses = system_->masses();
 
   // (5), (6)
-  for (std::size_t i = 0; i < n; ++i) {
-    p_[i] = b1[i] / masses[i];
-    x1_[i] = -b2[i] - c * b1[i];
-  }
+  for (std::size_t i = 0; i < n; ++i) x1_[i] = -b2[i] - c * b1[i];
   for (std::size_t k = 0; k < linear_.damping.size(); ++k) {
     const auto [row, column] = system_->damping_pattern()[k];
     x1_[static_cast<std::size_t>(row)] += linear_.damping[k] * p_[static_cast<std::size_t>(column)];
@@ -145,13 +143,25 @@ void NewtonMatrix::solve_stiff(double c, std::span<double> b) {
     x2_[n + r] = b3[r] - along(static_cast<std::size_t>(rows_.rows[r]), linear_.psi_q, dq);
   }
   k2_.solve(x2_);
+}
 
-  std::ranges::copy(dq, b1.begin());
-  std::copy_n(x2_.begin(), n, b2.begin());
+void NewtonMatrix::solve_stiff(double c, std::span<double> b) {
+  const auto n = static_cast<std::size_t>(system_->coordinates());
+  const auto m = static_cast<std::size_t>(rows_.size());
+  const auto m_holonomic = static_cast<std::size_t>(rows_.holonomic);
+  for (std::size_t i = 0; i < n; ++i) p_[i] = b[i] / system_->masses()[i];
+  eliminate(c, b);
+  if (m > m_holonomic && m_holonomic > 0) {
+    for (std::size_t i = 0; i < n; ++i) p_[i] = x2_[i] - c * x1_[i];
+    eliminate(c, b);
+  }
+
+  std::copy_n(x1_.begin(), n, b.begin());
+  std::copy_n(x2_.begin(), n, b.begin() + static_cast<std::ptrdiff_t>(n));
   for (std::size_t r = 0; r < m; ++r) {
     const double dmu = r < m_holonomic ? -x2_[n + r] : 0.0;  // the matrix of (7) has -G^T
-    b3[r] = x1_[n + r] - c * dmu;
-    if (r < m_holonomic) b4[r] = dmu;
+    b[2 * n + r] = x1_[n + r] - c * dmu;
+    if (r < m_holonomic) b[2 * n + m + r] = dmu;
   }
 }
 

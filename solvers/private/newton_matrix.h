@@ -22,17 +22,22 @@ namespace dalembert {
 ///   (3)  psi_q dq + W dv                        = b3
 ///   (4)  G dq                                   = b4
 ///
-/// (1) gives dv = c dq + M^-1 (b1 - G^T dmu). In (2), with dnu = dlambda + c dmu on holonomic rows
-/// and dnu = dlambda on the others, and D M^-1 G^T dmu and A M^-1 G^T dmu neglected like mu,
+/// (1) gives dv = c dq + p, p = M^-1 (b1 - G^T dmu). In (2), with dnu = dlambda + c dmu on holonomic
+/// rows and dnu = dlambda on the others,
 ///
-///   (5)  (M + D/c + H/c^2) x - W^T dnu          = -b2 - c b1 - D M^-1 b1,      x = c^2 dq
-///   (6)  G x = c^2 b4,   (A + psi_q/c) x        = c (b3 - A M^-1 b1)
+///   (5)  (M + D/c + H/c^2) x - W^T dnu          = -b2 - c b1 - D p,      x = c^2 dq
+///   (6)  G x = c^2 b4,   (A + psi_q/c) x        = c (b3 - A p)
 ///
 /// for holonomic and nonholonomic rows. Then the velocities, from (1) and the holonomic rows of (3):
 ///
 ///   (7)  M dv + G^T dmu                         = b1 + c M dq,     G dv = b3 - psi_q dq
 ///
 /// Two systems of n + m instead of one of 2n + m + m_holonomic.
+///
+/// In p, dmu is neglected at first. In D p that does no harm. In A p it does where nonholonomic rows
+/// meet holonomic ones, A M^-1 G^T not 0: a predictor leaves the manifold by c b4 - b3, dmu is as large, and
+/// each iteration would mend that error of the last in the multipliers by one as large. There (5) to (7) are
+/// solved a second time with p = dv - c dq of the first, which leaves of the error a part of order psi_q/c.
 ///
 /// Where forces are soft against the inertia that a step feels, |H|/c^2 + |D|/c small against M, and
 /// no row is nonholonomic, H and D are left out. Then both matrices are the same, nothing in
@@ -67,6 +72,7 @@ class NewtonMatrix {
   [[nodiscard]] bool judge_soft(double c);
   void solve_soft(double c, std::span<double> b);
   void solve_stiff(double c, std::span<double> b);
+  void eliminate(double c, std::span<const double> b);
 
   const System* system_;
   ActiveRows rows_;

@@ -1,6 +1,7 @@
 #include "laws.h"
 
 #include <dalembert/constraints/coincident.h>
+#include <dalembert/constraints/disk_on_plane.h>
 #include <dalembert/constraints/distance.h>
 #include <dalembert/constraints/holonomic.h>
 #include <dalembert/constraints/nonholonomic.h>
@@ -108,6 +109,14 @@ const bool registered = [] {
                            [](auto r_a, auto r_d, auto v_a, auto) {
                              return v_a.x() * (r_d - r_a).y() - v_a.y() * (r_d - r_a).x();
                            }));
+  });
+  invariant<3>("DiskContact", [](auto& scene, auto& at, auto a, auto b) {
+    const Plane<3> plane{at.point(0.1, 0.2, 0.3), at.direction(1.0, 2.0, -2.0)};
+    scene.add(DiskContact{a, b, at.fixed(0.3, 1.4, -0.2), 0.8, plane});
+  });
+  invariant<3>("DiskRolling", [](auto& scene, auto& at, auto a, auto b) {
+    const Plane<3> plane{at.point(0.1, 0.2, 0.3), at.direction(1.0, 2.0, -2.0)};
+    scene.add(DiskRolling{a, b, at.fixed(0.3, 1.4, -0.2), 0.8, plane});
   });
   return true;
 }();

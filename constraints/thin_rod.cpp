@@ -1,0 +1,56 @@
+#include "dalembert/constraints/thin_rod.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace dalembert {
+
+namespace {
+
+/// Distance of the particles from the centre, as a fraction of the length.
+constexpr double arm = 0.5 * std::numbers::inv_sqrt3;
+
+template <class V>
+V between(const V& start, const V& end, double fraction) {
+  return start + fraction * (end - start);
+}
+
+}  // namespace
+
+template <int D>
+BodyPoint<D, 2> ThinRod<D>::point(double fraction) const {
+  const double weight = 0.5 + (fraction - 0.5) / (2.0 * arm);  // of the particle near the end
+  const auto one = Eigen::Matrix<double, D, D>::Identity();
+  BodyPoint<D, 2> p{particles, {}};
+  p.L << (1.0 - weight) * one, weight * one;
+  return p;
+}
+
+template <int D>
+ThinRod<D> add_thin_rod(Scene<D>& scene, const ThinRodState<D>& s, const std::string& name) {
+  const double length = (s.end - s.start).norm();
+  if (!(std::isfinite(s.mass) && s.mass > 0.0)) {
+    throw InvalidScene("Rod \"" + name + "\": mass = " + std::to_string(s.mass) + ", must be finite and > 0");
+  }
+  if (!(std::isfinite(length) && length > 0.0)) {
+    throw InvalidScene("Rod \"" + name +
+                       "\": its ends must be finite and different; a rod of no length is a particle");
+  }
+  ThinRod<D> rod{.particles = {}, .distance = {}, .length = length};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double fraction = i == 0 ? 0.5 - arm : 0.5 + arm;
+    rod.particles[i] = scene.add_particle({.mass = 0.5 * s.mass,
+                                           .position = between(s.start, s.end, fraction),
+                                           .velocity = between(s.start_velocity, s.end_velocity, fraction)},
+                                          name + ".p" + std::to_string(i + 1));
+  }
+  rod.distance = scene.add(Distance{rod.particles[0], rod.particles[1], 2.0 * arm * length}, name + ".rod");
+  return rod;
+}
+
+template struct ThinRod<2>;
+template struct ThinRod<3>;
+template ThinRod<2> add_thin_rod(Scene<2>&, const ThinRodState<2>&, const std::string&);
+template ThinRod<3> add_thin_rod(Scene<3>&, const ThinRodState<3>&, const std::string&);
+
+}  // namespace dalembert

@@ -1,0 +1,80 @@
+#include "dalembert/models/four_bar.h"
+
+#include <dalembert/models/error.h>
+#include <dalembert/tests/models/newton.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace dalembert::models {
+namespace {
+
+// The published benchmark, recomputed in extended precision (IFToMM A02, N = 2).
+TEST(FourBarReference, IsThePublishedEndOfTheParallelogramBranch) {
+  const FourBar bars;
+  const Vec<2> B0(0.3284581115408154, 0.944518538178601), v(1.423051470206944, -0.494868845487043);
+  EXPECT_LT((bars.reference(10.0).positions[0] - B0).norm(), 1e-13);  // digits
+  const auto velocity = Stencil(bars.model(), 10.0, 2e-3, 0).velocity();
+  EXPECT_LT((velocity.value - v).norm(), velocity.error);
+}
+
+// Each upright has its centre half way up, each crossbar moves with its ends.
+TEST(FourBarReference, GroundForceIsMassTimesAccelerationLessGravityOfAllRods) {
+  const FourBar bars;
+  for (const double t : {0.5, 1.7, 4.2}) {
+    const auto a = Stencil(bars.model(), t, 2e-3, 0).acceleration();
+    const int N = bars.loops;
+    const double moving = 0.5 * (N + 1) + N;
+    const Vec<2> ground = bars.mass * (moving * a.value + (2 * N + 1) * bars.gravity * Vec<2>::UnitY());
+    const Observation<2> seen = bars.reference(t);
+    EXPECT_LT((ground - Vec<2>(seen.forces[0], seen.forces[1])).norm(), bars.mass * moving * a.error);
+  }
+}
+
+TEST(FourBar, HasOneDegreeOfFreedom) {
+  for (const int loops : {1, 2, 10}) {
+    FourBar bars;
+    bars.loops = loops;
+    const auto run = simulate(bars.scene().scene, {.t_end = 0.1, .samples = 2});
+    EXPECT_EQ(run.statistics().degrees_of_freedom, 1);
+  }
+}
+
+// Before the rods first lie in line, all pins follow from Newton's and Euler's laws for single rods: a
+// crossbar does not turn, so either end carries half its m (g + a_y); the torque about A_i on upright i, m
+// L^2 p''/3 = m g (L/2) sin p + L (X_i cos p - Y_i sin p), gives the force X_i along the crossbars, and m a/2
+// = (X_i, Y_i) - m g + ground_i that of the ground.
+TEST(FourBar, PinsOnTheGroundCarryWhatNewtonSays) {
+  const FourBar bars;
+  const FourBarScene built = bars.scene();
+  const auto run = simulate(built.scene, {.t_end = 0.35, .samples = 8, .tolerance = 1e-10});
+  const double m = bars.mass, L = bars.length, g = bars.gravity, weight = m * g;
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const Vec<2> B = run.position(built.uprights[0].end(), i), v = run.velocity(built.uprights[0].end(), i);
+    const double sine = B.x() / L, cosine = B.y() / L, rate = v.x() / (L * cosine);
+    ASSERT_GT(cosine, 0.5);
+    const double W2 = g / L * 7.0 / 6.0, p2 = W2 * sine;  // N = 2
+    const Vec<2> a = L * (p2 * Vec<2>(cosine, -sine) - rate * rate * Vec<2>(sine, cosine));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double crossbars = k == 1 ? 2.0 : 1.0;
+      const double Y = -crossbars * m / 2.0 * (g + a.y());
+      const double X = (m * L * p2 / 3.0 - m * g * sine / 2.0 + Y * sine) / cosine;
+      const Vec<2> ground = 0.5 * m * a - Vec<2>(X, Y) + Vec<2>(0.0, weight);
+      EXPECT_LT((run.multiplier(built.ground_pins[k], i) - ground).norm(), 1e-6 * weight) << k << ' ' << i;
+    }
+  }
+}
+
+// It passes positions with all rods in line, where the constraints are dependent.
+TEST(FourBar, StaysOnItsBranchThroughSingularPositions) {
+  const Model<2> model = FourBar{}.model();
+  const Measurement usual = measure(model, {.t_end = model.t_end, .tolerance = 1e-8});
+  EXPECT_LT(usual.error_position, 1e-5);
+  const Measurement tight = measure(model, {.t_end = model.t_end, .tolerance = 1e-10});
+  EXPECT_LT(tight.error_position, 1e-5);
+}
+
+}  // namespace
+}  // namespace dalembert::models
