@@ -1,5 +1,7 @@
 #include "dalembert/core/integrability.h"
 
+#include <dalembert/core/errors.h>
+
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -44,12 +46,26 @@ Slopes slopes(const System& system, const Instant& at) {
   return {dense(system, linear.psi_q), std::move(gamma)};
 }
 
-/// psi = A v + a is linear in v, so its derivatives at rest and for unit velocities give those of A
-/// and a: with psi_q(v) and gamma(v) = psi_q v + A_t v + a_t,
-///   a_q = psi_q(0),   (A_k)_q = psi_q(e_k) - psi_q(0),   (A_k)_t = gamma(e_k) - psi_q(e_k) e_k - gamma(0).
+/// The slopes for a unit of velocity k, forwards or, where a one-sided equation (Pursuit) refuses
+/// that, backwards; `sign` says which.
+Slopes unit_slopes(const System& system, double t, std::span<const double> q, std::size_t k, double& sign) {
+  std::vector<double> v(q.size(), 0.0);
+  for (sign = 1.0;; sign = -1.0) {
+    v[k] = sign;
+    try {
+      return slopes(system, {t, q, v});
+    } catch (const EquationFault&) {
+      if (sign < 0.0) throw;
+    }
+  }
+}
+
+/// psi = A v + a is linear in v, so its derivatives at rest and for unit velocities v = s e_k, s = +-1,
+/// give those of A and a: with psi_q(v) and gamma(v) = psi_q v + A_t v + a_t,
+///   a_q = psi_q(0),   (A_k)_q = s (psi_q(v) - psi_q(0)),   (A_k)_t = s (gamma(v) - gamma(0)) - psi_q(v) e_k.
 Forms forms(const System& system, double t, std::span<const double> q) {
   const auto n = static_cast<Eigen::Index>(system.coordinates());
-  std::vector<double> v(q.size(), 0.0);
+  const std::vector<double> v(q.size(), 0.0);
   auto e = system.evaluation();
   system.evaluate({t, q, v}, e);
   Forms result;
@@ -62,14 +78,13 @@ Forms forms(const System& system, double t, std::span<const double> q) {
   result.derivative.assign(static_cast<std::size_t>(system.rows() - first),
                            Eigen::MatrixXd::Zero(n + 1, n + 1));
   for (Eigen::Index k = 0; k < n; ++k) {
-    v[static_cast<std::size_t>(k)] = 1.0;
-    const Slopes unit = slopes(system, {t, q, v});
-    v[static_cast<std::size_t>(k)] = 0.0;
+    double sign = 1.0;
+    const Slopes unit = unit_slopes(system, t, q, static_cast<std::size_t>(k), sign);
     for (int r = first; r < system.rows(); ++r) {
+      const auto row = static_cast<std::size_t>(r);
       auto& J = result.derivative[static_cast<std::size_t>(r - first)];
-      J.col(k).head(n) = (unit.psi_q.row(r) - rest.psi_q.row(r)).transpose();
-      J(n, k) = unit.gamma[static_cast<std::size_t>(r)] - unit.psi_q(r, k) -
-                rest.gamma[static_cast<std::size_t>(r)];
+      J.col(k).head(n) = sign * (unit.psi_q.row(r) - rest.psi_q.row(r)).transpose();
+      J(n, k) = sign * (unit.gamma[row] - rest.gamma[row]) - unit.psi_q(r, k);
     }
   }
   for (int r = first; r < system.rows(); ++r) {
