@@ -139,17 +139,18 @@ void ErkStepper::State::finish(const Node& start, double step, Node& end) const 
 
 /// Root mean square of the estimated error over what the tolerance allows.
 double ErkStepper::State::error(const Node& end, double step) {
-  const auto squares = [&](std::size_t offset, std::span<const double> x, double time) {
-    d.apply(step, k, offset, nullptr, stage_q.data(), n);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double e = stage_q[i] / (scales.coordinate[i] / time + std::abs(x[i]));
-      sum += e * e;
-    }
-    return sum;
-  };
-  const double sum = squares(0, end.q, 1.0) + squares(n, std::span(end.va).first(n), scales.time);
-  return std::sqrt(sum / (2.0 * static_cast<double>(n))) / tolerance;
+  double sum = 0.0;
+  d.apply(step, k, 0, nullptr, stage_q.data(), n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double e = stage_q[i] / scales.position_error(i, end.q[i], tolerance);
+    sum += e * e;
+  }
+  d.apply(step, k, n, nullptr, stage_q.data(), n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double e = stage_q[i] / (tolerance * (scales.coordinate[i] / scales.time + std::abs(end.va[i])));
+    sum += e * e;
+  }
+  return std::sqrt(sum / (2.0 * static_cast<double>(n)));
 }
 
 /// Tries a step into `next`. Returns its error over the tolerance; infinite, with the reason in

@@ -318,7 +318,7 @@ void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
   const auto w = entries(weight);
   for (std::size_t i = 0; i < n(); ++i) {
     const double scale = scales.coordinate[i];
-    w[i] = 1.0 / (tolerance * (scale + std::abs(value[i])));
+    w[i] = 1.0 / scales.position_error(i, value[i], tolerance);
     w[n() + i] = 1.0 / (tolerance * (scale / scales.time + std::abs(value[n() + i])));
   }
   for (std::size_t r = 0; r < m(); ++r) {

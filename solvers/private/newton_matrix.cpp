@@ -10,6 +10,14 @@ namespace {
 /// Newton's iteration loses at most this factor in accuracy by leaving soft forces out.
 constexpr double still_soft = 0.1;
 
+/// Whether there are forces besides constant ones: entries of the stiffness besides the constraints'.
+bool has_varying_forces(const System& system) {
+  std::size_t of_constraints = 0;
+  for (const auto& c : system.layout()->constraints)
+    of_constraints += static_cast<std::size_t>(c.width * c.width);
+  return system.stiffness_pattern().size() > of_constraints;
+}
+
 ActiveRows holonomic_only(const ActiveRows& all) {
   return {{all.rows.begin(), all.rows.begin() + all.holonomic}, all.holonomic};
 }
@@ -24,7 +32,16 @@ NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows)
       k2_(system, holonomic_only(rows)),
       x1_(static_cast<std::size_t>(system.coordinates() + rows.size())),
       x2_(static_cast<std::size_t>(system.coordinates() + rows.holonomic)),
-      p_(static_cast<std::size_t>(system.coordinates())) {}
+      p_(static_cast<std::size_t>(system.coordinates())) {
+  // Where it will be needed, before the first step: stepping allocates nothing.
+  if (rows.holonomic != rows.size() || has_varying_forces(system)) make_stiff();
+}
+
+void NewtonMatrix::make_stiff() {
+  if (k1_) return;
+  k1_.emplace(*system_, rows_, KktMatrix::Forces::linearised);
+  lower_.resize(w_.size());
+}
 
 /// Whether all rows are holonomic and H and D small against c^2 M and c M, by their largest row sums.
 bool NewtonMatrix::judge_soft(double c) {
@@ -51,10 +68,7 @@ bool NewtonMatrix::factorise(const Instant& at, const System::Evaluation& e, std
   std::ranges::copy(e.w, w_.begin());
   if (!k2_.factorise(w_)) return false;
   if (soft_) return true;
-  if (!k1_) {
-    k1_.emplace(*system_, rows_, KktMatrix::Forces::linearised);
-    lower_.resize(w_.size());
-  }
+  make_stiff();
   const auto first_nonholonomic =
       static_cast<std::size_t>(system_->row_start()[static_cast<std::size_t>(system_->holonomic_rows())]);
   std::copy(w_.begin(), w_.end(), lower_.begin());

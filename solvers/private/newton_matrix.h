@@ -70,6 +70,7 @@ class NewtonMatrix {
                              std::span<const double> x) const;
 
   [[nodiscard]] bool judge_soft(double c);
+  void make_stiff();
   void solve_soft(double c, std::span<double> b);
   void solve_stiff(double c, std::span<double> b);
   void eliminate(double c, std::span<const double> b);
@@ -78,7 +79,7 @@ class NewtonMatrix {
   ActiveRows rows_;
   System::Linearisation linear_;
   std::vector<double> w_, lower_;
-  std::optional<KktMatrix> k1_;  // once the forces are not soft
+  std::optional<KktMatrix> k1_;  // if forces or rows may need it
   SaddleMatrix k2_;
   std::vector<double> x1_, x2_, p_;
   bool soft_ = false;

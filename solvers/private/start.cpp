@@ -218,6 +218,7 @@ Start consistent_start(const System& system, std::span<const double> q, std::spa
     system.evaluate({t, start.q, start.v}, e);
     start_velocities(system, start, e, options);
 
+    start.scales.origin = start.q;
     start.rows = independent_rows(system, e.w, rank_threshold);
     Manifold manifold(system, start.rows, start.scales.lever());
     if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda)) {

@@ -4,6 +4,8 @@
 #include <dalembert/solvers/options.h>
 #include <dalembert/solvers/private/kkt.h>
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace dalembert {
@@ -14,8 +16,15 @@ struct Scales {
   double length;
   double time;
   std::vector<double> coordinate;  ///< of each coordinate: `length`, or 1 for an angle
+  std::vector<double> origin;      ///< the coordinates at the start
 
   [[nodiscard]] double speed() const { return length / time; }
+  /// The error allowed to coordinate i at q: relative to the scene, or to how far the coordinate has
+  /// come, wherever the origin lies; and never below round-off.
+  [[nodiscard]] double position_error(std::size_t i, double q, double tolerance) const {
+    return tolerance * (coordinate[i] + std::abs(q - origin[i])) +
+           std::numeric_limits<double>::epsilon() * std::abs(q);
+  }
   /// What turns each coordinate into a length: 1, or `length` for an angle.
   [[nodiscard]] std::vector<double> lever() const;
 };

@@ -157,9 +157,8 @@ const bool registered = [] {
     scene.add(InPlane{a, axis, [](auto t) { return t * t; }});
   });
   geometric<2>("OnCurveTranslating", [](auto& scene, auto& at, auto a, auto) {
-    const Vec<2> shift = at.direction(0.3, 0.8);
-    scene.add(OnCurve{a, Translating{Sphere<2>{at.point(0.1, 0.2), 0.6},
-                                     [shift](auto t) { return vec(shift.x() * sin(t), shift.y() * t); }}});
+    const auto path = [at](auto t) { return (at.point(sin(t), t) - at.point(0.0 * t, 0.0 * t)).eval(); };
+    scene.add(OnCurve{a, Translating{Sphere<2>{at.point(0.1, 0.2), 0.6}, path}});
   });
   geometric<2>("OnCurveRotating", [](auto& scene, auto& at, auto a, auto) {
     const Plane<2> line{at.point(0.1, 0.2), at.direction(3.0, 4.0)};

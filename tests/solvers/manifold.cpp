@@ -92,16 +92,6 @@ TEST_F(ManifoldTest, AccelerationsAndMultipliersSolveTheEquationsOfMotion) {
   EXPECT_LE((now.W * acceleration + now.gamma).norm(), round_off);
 }
 
-TEST_F(ManifoldTest, RowsThatAreNotActiveHaveNoMultiplier) {
-  Manifold manifold(system, {{0, 2}, 1}, system.coordinate_scales(1.0));
-  ASSERT_TRUE(solve(manifold));
-  EXPECT_EQ(lambda[1], 0.0);
-  const Values now = values(system, state);
-  EXPECT_LE((masses() * acceleration - now.F - now.W.transpose() * lambda).norm(), round_off);
-  EXPECT_LE(std::abs(now.psi[0]), round_off);
-  EXPECT_GT(std::abs(now.psi[1]), 0.01);
-}
-
 TEST_F(ManifoldTest, ViolationsAreDistancesAndSpeeds) {
   Scene<2> line;
   const auto p = line.add_particle({.mass = 1.0});

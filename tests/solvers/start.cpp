@@ -71,32 +71,6 @@ TEST(Start, RodsThatCannotSpanTheirGapAreAnError) {
                                              HasSubstr("other constraints"), HasSubstr("check lengths"))));
 }
 
-TEST(Start, AConstraintStatedTwiceIsAnError) {
-  Scene<2> scene;
-  scene.add(UniformGravity<2>{{0.0, -9.81}});
-  const auto bob = scene.add_particle({.mass = 1.0, .position = {0.6, 0.8}});
-  scene.add(Distance{Fixed<2>{}, bob, 1.0}, "rod");
-  scene.add(Distance{bob, Fixed<2>{}, 1.0}, "the same rod");
-  EXPECT_THAT([&] { (void)simulate(scene, {.t_end = 1.0}); },
-              ThrowsMessage<InconsistentStart>(HasSubstr("depend on each other")));
-}
-
-// The distances of three particles in line fix their line, but not across it: the rows depend on each
-// other though none of them equals another and elimination leaves round-off instead of zeros.
-TEST(Start, ConstraintsThatDependOnEachOtherOnlyUpToRoundOffAreAnError) {
-  Scene<2> scene;
-  const Vec<2> e(1.0 / std::sqrt(3.0), std::sqrt(2.0 / 3.0));
-  const auto a = scene.add_particle({.mass = 0.7, .position = 0.1 * e});
-  const auto b = scene.add_particle({.mass = 1.3, .position = 0.8 * e});
-  const auto c = scene.add_particle({.mass = 2.1, .position = 2.3 * e});
-  scene.add(UniformGravity<2>{{0.0, -9.81}});
-  scene.add(Distance{a, b, 0.7});
-  scene.add(Distance{b, c, 1.5});
-  scene.add(Distance{a, c, 2.2});
-  EXPECT_THAT([&] { (void)simulate(scene, {.t_end = 1.0}); },
-              ThrowsMessage<InconsistentStart>(HasSubstr("depend on each other")));
-}
-
 TEST(Start, WithinRoundedNumbersIsAccepted) {
   Scene<2> scene;
   const auto bob = scene.add_particle({.mass = 1.0, .position = {0.577350269, 0.816496581}});
