@@ -19,8 +19,10 @@
 #include <dalembert/constraints/rolling.h>
 #include <dalembert/constraints/thin_rod.h>
 #include <dalembert/constraints/upright_rolling.h>
+#include <dalembert/core/audit.h>
 #include <dalembert/core/fields.h>
 #include <dalembert/core/forces.h>
+#include <dalembert/core/integrability.h>
 #include <dalembert/core/scene.h>
 #include <dalembert/core/trajectory.h>
 #include <dalembert/solvers/simulation.h>

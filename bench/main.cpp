@@ -1,3 +1,4 @@
+#include <dalembert/bench/own_constraint.h>
 #include <dalembert/bench/scaling.h>
 #include <dalembert/bench/table.h>
 #include <dalembert/bench/work_precision.h>
@@ -6,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <iostream>
+#include <map>
 
 namespace {
 
@@ -24,11 +26,12 @@ void add_report_options(CLI::App& command, bench::ReportOptions& options) {
   command.add_option("--note", options.note, "A line for the heading, such as the commit");
 }
 
-void add_steppers(CLI::App& command, std::vector<std::string>& steppers) {
-  command.add_option("--stepper", steppers, "ida")
+void add_steppers(CLI::App& command, std::vector<Stepper>& steppers) {
+  const std::map<std::string, Stepper> known{{name(Stepper::ida), Stepper::ida},
+                                             {name(Stepper::erk), Stepper::erk}};
+  command.add_option("--stepper", steppers, "ida, erk; ida unless given")
       ->delimiter(',')
-      ->check(CLI::IsMember({"ida"}))
-      ->capture_default_str();
+      ->transform(CLI::CheckedTransformer(known).description("{ida, erk}"));
 }
 
 }  // namespace
@@ -70,10 +73,21 @@ int main(int argc, char** argv) try {
   scaling->add_option("--t-end", sizes.t_end, "Length of the run [s]")->capture_default_str();
   add_report_options(*scaling, sizes.report);
 
+  bench::OwnConstraint own;
+  CLI::App* own_constraint = app.add_subcommand(
+      "own-constraint", "Run time of a chain whose rods are a user's lambdas against one of Distances");
+  own_constraint->add_option("--size", own.beads, "Beads")->check(CLI::PositiveNumber)->capture_default_str();
+  own_constraint->add_option("--repeat", own.repeats, "Pairs of runs of which the median ratio counts")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  add_steppers(*own_constraint, own.steppers);
+  add_report_options(*own_constraint, own.report);
+
   CLI11_PARSE(app, argc, argv);
   int failures = 0;
   if (*listing) list();
   if (*work_precision) failures = bench::work_precision(ladder);
+  if (*own_constraint) bench::own_constraint(own);
   if (*scaling) failures = bench::scaling(sizes);
   return failures == 0 ? 0 : 1;
 } catch (const std::exception& error) {

@@ -43,13 +43,14 @@ double last_error(const models::Chain& chain, const Scaling& options, const mode
   return position_error(last, reference.front()) / chain.length;
 }
 
-Outcome run(const models::Chain& chain, const Scaling& options) {
+Outcome run(const models::Chain& chain, Stepper stepper, const Scaling& options) {
   Outcome outcome;
   models::Observation<2> last;
   {
     const models::Observed<2> observed = models::observed(chain.scene());
     const Trajectory<2> trajectory =
-        simulate(observed.scene, {.t_end = options.t_end, .samples = 2, .tolerance = options.tolerance});
+        simulate(observed.scene,
+                 {.t_end = options.t_end, .samples = 2, .tolerance = options.tolerance, .stepper = stepper});
     last = observed.observe(trajectory.sample(trajectory.size() - 1));
     outcome.statistics = trajectory.statistics();
     outcome.memory = peak_memory_mib();
@@ -58,11 +59,10 @@ Outcome run(const models::Chain& chain, const Scaling& options) {
   return outcome;
 }
 
-std::vector<std::string> row(const Scaling& options, const std::string& stepper, int size,
-                             const Outcome& outcome) {
+std::vector<std::string> row(const Scaling& options, Stepper stepper, int size, const Outcome& outcome) {
   const Statistics& s = outcome.statistics;
   return {options.model,
-          stepper,
+          name(stepper),
           std::to_string(size),
           shortest_power(options.tolerance),
           shortest(options.t_end),
@@ -87,12 +87,12 @@ int scaling(const Scaling& options) {
   int failures = 0;
   {
     Progress progress(sizes.size() * options.steppers.size());
-    for (const std::string& stepper : options.steppers) {
+    for (const Stepper stepper : options.steppers) {
       for (const int size : sizes) {
-        progress.next(options.model + ", " + stepper + ", size " + std::to_string(size));
+        progress.next(options.model + ", " + name(stepper) + ", size " + std::to_string(size));
         Outcome outcome;
         try {
-          outcome = run(models::Chain{.beads = size}, options);
+          outcome = run(models::Chain{.beads = size}, stepper, options);
         } catch (const IntegrationFailure& failed) {
           ++failures;
           std::cerr << options.model << " of " << size << ": " << failed.what() << '\n';

@@ -44,11 +44,11 @@ Measurement failure(const Statistics& so_far) {
   return {.error_position = nan, .error_force = nan, .energy_drift = nan, .statistics = so_far};
 }
 
-std::vector<std::string> row(const std::string& model, const std::string& stepper, double tolerance,
+std::vector<std::string> row(const std::string& model, Stepper stepper, double tolerance,
                              const Measurement& m) {
   const Statistics& s = m.statistics;
   return {model,
-          stepper,
+          name(stepper),
           shortest_power(tolerance),
           std::to_string(s.steps),
           std::to_string(s.evaluations),
@@ -77,14 +77,15 @@ class Ladder {
   template <int D>
   void operator()(const Model<D>& model) {
     const auto reference = model.observations(sample_times({.t_end = model.t_end}));
-    for (const std::string& stepper : options_.steppers) {
+    for (const Stepper stepper : options_.steppers) {
       std::vector<Rung> rungs(options_.tolerances.size());
       // The whole ladder again and again, so that what disturbs the machine for a while hits each
       // rung once and not one rung always.
       for (int i = 1; i <= options_.repeats; ++i) {
-        progress_.next(model.name + ", " + stepper + ", run " + std::to_string(i));
+        progress_.next(model.name + ", " + name(stepper) + ", run " + std::to_string(i));
         for (std::size_t k = 0; k < rungs.size(); ++k)
-          climb<D>(model, options_.tolerances[k], reference, rungs[k]);
+          climb<D>(model, {.t_end = model.t_end, .tolerance = options_.tolerances[k], .stepper = stepper},
+                   reference, rungs[k]);
       }
       for (std::size_t k = 0; k < rungs.size(); ++k) {
         if (!rungs[k].failed) rungs[k].measured.statistics.run_time = median(rungs[k].run_times);
@@ -96,14 +97,15 @@ class Ladder {
 
  private:
   template <int D>
-  void climb(const Model<D>& model, double tolerance, std::span<const models::Observation<D>> reference,
+  void climb(const Model<D>& model, const Options& run, std::span<const models::Observation<D>> reference,
              Rung& rung) try {
     if (rung.failed) return;
-    rung.measured = measure<D>(model, {.t_end = model.t_end, .tolerance = tolerance}, reference);
+    rung.measured = measure<D>(model, run, reference);
     rung.run_times.push_back(rung.measured.statistics.run_time);
   } catch (const IntegrationFailure& failed) {
     ++failures_;
-    std::cerr << model.name << " at tolerance " << shortest_power(tolerance) << ": " << failed.what() << '\n';
+    std::cerr << model.name << " at tolerance " << shortest_power(run.tolerance) << ": " << failed.what()
+              << '\n';
     rung.measured = failure(failed.trajectory<D>().statistics());
     rung.failed = true;
   }

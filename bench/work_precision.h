@@ -2,6 +2,7 @@
 
 #include <dalembert/bench/report.h>
 #include <dalembert/models/model.h>
+#include <dalembert/solvers/options.h>
 
 #include <string>
 #include <vector>
@@ -10,7 +11,7 @@ namespace dalembert::bench {
 
 struct WorkPrecision {
   std::vector<std::string> models = {"all"};  ///< names of the catalogue, or "all"
-  std::vector<std::string> steppers = {"ida"};
+  std::vector<Stepper> steppers = {Stepper::ida};
   std::vector<double> tolerances = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
   int repeats = 3;  ///< the run time reported is the median of so many runs
   ReportOptions report;

@@ -93,6 +93,8 @@ class ForceBatch {
   /// For each force the dense `width x width` blocks (rows first) of dF/dq and, if it is
   /// dissipative, dF/dv.
   virtual void linearise(const Instant& at, std::span<double> stiffness, std::span<double> damping) const = 0;
+  /// F . v of each force.
+  virtual void power(const Instant& at, std::span<double> out) const = 0;
   /// Sum of the energies; 0 for forces that have none.
   [[nodiscard]] virtual double energy(const Instant& at) const = 0;
 };

@@ -1,4 +1,7 @@
 #include "dalembert/core/system.h"
+#include <dalembert/core/integrability.h>
+
+#include <Eigen/QR>
 
 #include <map>
 #include <sstream>
@@ -42,6 +45,35 @@ std::string System::describe() const {
   left_out(damping_pattern_.empty(), "the damping block: no force depends on velocities");
   left_out(holonomic_rows() == 0, "the position multipliers mu: there is no holonomic constraint");
   left_out(rows() == 0, "the constraint forces: there is no constraint");
+  return out.str();
+}
+
+std::string System::describe(double t, std::span<const double> q) const {
+  std::ostringstream out;
+  out << describe();
+  const std::vector<double> at_rest(q.size(), 0.0);
+  auto e = evaluation();
+  evaluate({t, q, at_rest}, e);
+  Eigen::MatrixXd gradients = Eigen::MatrixXd::Zero(coordinates(), rows());
+  for (int r = 0; r < rows(); ++r) {
+    const auto row = static_cast<std::size_t>(r);
+    for (auto k = static_cast<std::size_t>(row_start_[row]);
+         k < static_cast<std::size_t>(row_start_[row + 1]); ++k) {
+      gradients(w_columns_[k], r) += e.w[k];
+    }
+    gradients.col(r).normalize();
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(gradients);
+  qr.setThreshold(1e-9);
+  const auto rank = static_cast<int>(rows() == 0 ? 0 : qr.rank());
+  out << "at t = " << t << ": " << rank << " of " << rows() << " constraint equations independent, "
+      << coordinates() - rank << " degrees of freedom of velocity\n";
+  for (const Integrability& set : integrability(*this, t, q)) {
+    std::string labels;
+    for (const auto& label : set.constraints) labels += (labels.empty() ? "" : ", ") + label;
+    out << labels << ": " << (set.holonomic ? "holonomic in disguise" : "not integrable") << '\n';
+    for (const auto& label : set.holonomic_alone) out << "  but " << label << " by itself is holonomic\n";
+  }
   return out.str();
 }
 

@@ -83,6 +83,13 @@ class PotentialBatch final : public ForceBatch {
     });
   }
 
+  void power(const Instant& at, std::span<double> out) const override {
+    using S = Dual<inputs, 1>;
+    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      out[i] = -potential<S>(e, at, AsInput<S>{}).gradient.dot(gather_inputs(e, at.v));
+    });
+  }
+
   void linearise(const Instant& at, std::span<double> stiffness,
                  std::span<double> /*damping*/) const override {
     using S = Dual<inputs, 2>;
@@ -137,6 +144,12 @@ class LawBatch final : public ForceBatch {
       const Vec<inputs> f = forces<double>(e, at, AsNumber{}, AsNumber{});
       detail::require_finite(f.allFinite(), i, "is not a finite number");
       detail::scatter<width>(pull_back(e, f), elements_.coordinates(i), F);
+    });
+  }
+
+  void power(const Instant& at, std::span<double> out) const override {
+    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      out[i] = forces<double>(e, at, AsNumber{}, AsNumber{}).dot(gather_inputs(e, at.v));
     });
   }
 

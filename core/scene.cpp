@@ -106,7 +106,8 @@ void Scene<D>::require_own(std::uint64_t scene, int coordinate, const std::strin
   if (scene == layout_.id && coordinate >= 0 && coordinate < static_cast<int>(q_.size())) return;
   throw InvalidScene(label + ": a particle or rotor it acts on " +
                      (scene == 0 ? "was never added" : "belongs to another scene") +
-                     "; use the handle that scene \"" + layout_.scene + "\" returned for it");
+                     "; use the handle that add_particle or add_rotor of scene \"" + layout_.scene +
+                     "\" returned");
 }
 
 template <int D>

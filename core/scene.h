@@ -85,6 +85,9 @@ class Scene {
   [[nodiscard]] std::span<const double> initial_positions() const { return q_; }
   [[nodiscard]] std::span<const double> initial_velocities() const { return v_; }
 
+  /// What the scene consists of, at its initial positions; see System::describe.
+  [[nodiscard]] std::string describe(double t = 0.0) const { return system().describe(t, q_); }
+
   /// The equations of the scene as it is now. Throws InvalidScene if it has no particles.
   [[nodiscard]] System system() const;
 

@@ -12,6 +12,7 @@ std::string Statistics::report() const {
       << error_test_failures << " error test failures, " << convergence_failures
       << " convergence failures, residuals " << residual_position << " (position) " << residual_velocity
       << " (velocity), correction " << correction << ", " << run_time << " s";
+  if (!linear_algebra.empty()) out << ", " << linear_algebra;
   if (2 * stability_limited > steps) {
     out << "; stiff: stability, not accuracy, held down most steps, use Stepper::ida";
   }

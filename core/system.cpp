@@ -131,10 +131,13 @@ void System::on_forces(double t, const F& f) const {
     try {
       f(*parts_.forces[b], force_offsets_[b]);
     } catch (const ElementFault& fault) {
-      throw EquationFault(std::string(parts_.forces[b]->shape().kind) + " \"" +
-                          parts_.force_names[b][fault.element] + "\" " + fault.what + at_time(t));
+      throw EquationFault(force_label(b, fault.element) + ' ' + fault.what + at_time(t));
     }
   }
+}
+
+std::string System::force_label(std::size_t batch, std::size_t element) const {
+  return std::string(parts_.forces[batch]->shape().kind) + " \"" + parts_.force_names[batch][element] + '"';
 }
 
 void System::evaluate(const Instant& at, Evaluation& out) const {
@@ -191,6 +194,19 @@ double System::potential_energy(const Instant& at) const {
   double V = -std::inner_product(at.q.begin(), at.q.end(), parts_.constant_force.begin(), 0.0);
   on_forces(at.t, [&](const ForceBatch& batch, const Offsets&) { V += batch.energy(at); });
   return V;
+}
+
+double System::constant_power(std::span<const double> v) const {
+  return std::inner_product(v.begin(), v.end(), parts_.constant_force.begin(), 0.0);
+}
+
+void System::for_each_force_power(const Instant& at,
+                                  const std::function<void(std::string, double)>& f) const {
+  for (std::size_t b = 0; b < parts_.forces.size(); ++b) {
+    std::vector<double> power(parts_.forces[b]->size());
+    parts_.forces[b]->power(at, power);
+    for (std::size_t i = 0; i < power.size(); ++i) f(force_label(b, i), power[i]);
+  }
 }
 
 const Layout::Constraint& System::constraint_of_row(int row, std::size_t& batch) const {

@@ -3,6 +3,7 @@
 #include <dalembert/core/batch.h>
 #include <dalembert/core/layout.h>
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -88,6 +89,10 @@ class System {
   /// Energy of all forces that have one.
   [[nodiscard]] double potential_energy(const Instant& at) const;
 
+  /// F . v of the constant forces together, and of every other one, by its label.
+  [[nodiscard]] double constant_power(std::span<const double> v) const;
+  void for_each_force_power(const Instant& at, const std::function<void(std::string, double)>& f) const;
+
   /// The label of the constraint that row r belongs to.
   [[nodiscard]] std::string row_label(int row) const;
   /// What a constraint of this row says when it is singular; may be empty.
@@ -96,10 +101,14 @@ class System {
   /// What the scene consists of, its degrees of freedom, and what was left out because nothing in
   /// it needs it.
   [[nodiscard]] std::string describe() const;
+  /// The same with what only a state can tell: how many constraint equations are independent there,
+  /// and which velocity constraints are holonomic in disguise.
+  [[nodiscard]] std::string describe(double t, std::span<const double> q) const;
 
  private:
   void place_constraints();
   void place_forces();
+  [[nodiscard]] std::string force_label(std::size_t batch, std::size_t element) const;
   [[nodiscard]] const Layout::Constraint& constraint_of_row(int row, std::size_t& batch) const;
 
   template <class F>

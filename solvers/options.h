@@ -8,7 +8,7 @@ namespace dalembert {
 /// How time is stepped.
 enum class Stepper {
   ida,  ///< implicit (BDF of SUNDIALS' IDA): for every scene, the stiff ones in particular
-  erk   ///< explicit (Runge-Kutta of order 8): 10 to 100 times faster where nothing is stiff
+  erk   ///< explicit (Runge-Kutta of order 8): several times faster where nothing is stiff
 };
 [[nodiscard]] const char* name(Stepper stepper);
 

@@ -271,6 +271,7 @@ void ErkStepper::count(Statistics& statistics) const {
   statistics.evaluations += s.manifold.evaluations();
   statistics.factorisations += s.manifold.factorisations();
   statistics.error_test_failures += s.failures;
+  statistics.linear_algebra = s.manifold.method();
   statistics.stability_limited += s.stability_limited;
 }
 

@@ -91,16 +91,15 @@ Violation Manifold::project_positions(double t, std::span<double> q, std::span<c
   return left;
 }
 
-/// (2): only psi and what depends on velocities change with them.
-void Manifold::correct_velocities(double t, std::span<const double> q, std::span<double> v) {
-  if (rows_.rows.empty()) return;
-  const std::size_t n = q.size();
+/// (2), with the matrix at hand. Of the equations psi is then out of date, and F if it depends on
+/// velocities.
+void Manifold::correct_velocities(std::span<double> v) {
+  const std::size_t n = v.size();
   std::fill_n(x_.begin(), n, 0.0);
   for (std::size_t r = 0; r < rows_.rows.size(); ++r)
     x_[n + r] = -e_.psi[static_cast<std::size_t>(rows_.rows[r])];
   kkt_.solve(x_);
   for (std::size_t k = 0; k < n; ++k) v[k] += x_[k];
-  evaluate({t, q, v});
 }
 
 /// (3), with the matrix and the forces at hand.
@@ -130,7 +129,8 @@ bool Manifold::land(double t, std::span<double> q, std::span<double> v, std::spa
     evaluate({t, q, v});
   }
   if (!kkt_.factorise(e_.w)) return false;
-  correct_velocities(t, q, v);
+  correct_velocities(v);
+  if (!system_->damping_pattern().empty()) evaluate({t, q, v});
   solve_for_accelerations({t, q, v}, a);
   return true;
 }
@@ -140,7 +140,10 @@ bool Manifold::solve_motion(double t, std::span<const double> q, std::span<doubl
   const std::size_t n = q.size();
   evaluate({t, q, v});
   if (!kkt_.factorise(e_.w)) return false;
-  correct_velocities(t, q, v);
+  if (!rows_.rows.empty()) {
+    correct_velocities(v);
+    evaluate({t, q, v});
+  }
   solve_for_accelerations({t, q, v}, a);
   std::ranges::fill(lambda, 0.0);
   for (std::size_t r = 0; r < rows_.rows.size(); ++r)

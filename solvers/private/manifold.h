@@ -63,7 +63,7 @@ class Manifold {
  private:
   void evaluate(const Instant& at);
   void solve_for_position_step(std::size_t n);
-  void correct_velocities(double t, std::span<const double> q, std::span<double> v);
+  void correct_velocities(std::span<double> v);
   void solve_for_accelerations(const Instant& at, std::span<double> a);
 
   const System* system_;

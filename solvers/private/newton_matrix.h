@@ -63,6 +63,7 @@ class NewtonMatrix {
   [[nodiscard]] bool refresh(const System::Evaluation& e);
   /// Whether the last factors leave the forces' derivatives out.
   [[nodiscard]] bool soft() const { return soft_; }
+  [[nodiscard]] const char* method() const { return soft_ ? k2_.method() : "KLU"; }
 
  private:
   [[nodiscard]] double along(std::size_t row, std::span<const double> values,

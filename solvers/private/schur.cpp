@@ -1,7 +1,6 @@
 #include "dalembert/solvers/private/schur.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace dalembert {
 
@@ -79,11 +78,12 @@ SchurComplement::SchurComplement(const System& system, Plan plan)
     : rows_(std::move(plan.rows)),
       products_(std::move(plan.products)),
       ldl_(static_cast<int>(rows_.size()), plan.entries) {
-  for (const double m : system.masses()) inverse_root_mass_.push_back(1.0 / std::sqrt(m));
+  for (const double m : system.masses()) inverse_mass_.push_back(1.0 / m);
   for (const Row& row : rows_) {
     for (std::size_t k = row.first; k < row.last; ++k) column_.push_back(system.w_columns()[k]);
   }
-  u_.resize(column_.size());
+  w_.resize(column_.size());
+  v_.resize(column_.size());
   for (std::size_t k = 0; k < products_.size(); ++k) products_[k].place = ldl_.place(k);
   std::ranges::stable_sort(products_, {}, &Product::place);
 }
@@ -92,7 +92,8 @@ bool SchurComplement::factorise(std::span<const double> w) {
   for (const Row& row : rows_) {
     std::size_t own = row.own;
     for (std::size_t k = row.first; k < row.last; ++k, ++own) {
-      u_[own] = w[k] * inverse_root_mass_[static_cast<std::size_t>(column_[own])];
+      w_[own] = w[k];
+      v_[own] = w[k] * inverse_mass_[static_cast<std::size_t>(column_[own])];
     }
   }
   const auto values = ldl_.values();
@@ -100,7 +101,7 @@ bool SchurComplement::factorise(std::span<const double> w) {
   for (const Product& p : products_) {
     double sum = 0.0;
     for (int k = 0; k < p.count; ++k) {
-      sum += u_[static_cast<std::size_t>(p.a + k)] * u_[static_cast<std::size_t>(p.b + k)];
+      sum += w_[static_cast<std::size_t>(p.a + k)] * v_[static_cast<std::size_t>(p.b + k)];
     }
     double& value = values[static_cast<std::size_t>(p.place)];
     value = p.place == last ? value + sum : sum;
@@ -110,21 +111,20 @@ bool SchurComplement::factorise(std::span<const double> w) {
 }
 
 void SchurComplement::solve(std::span<double> x) {
-  const std::size_t n = inverse_root_mass_.size();
+  const std::size_t n = inverse_mass_.size();
   const auto y = x.subspan(n);
-  for (std::size_t i = 0; i < n; ++i) x[i] *= inverse_root_mass_[i];  // M^-1/2 a
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const std::size_t end = rows_[r].own + rows_[r].last - rows_[r].first;
     double sum = 0.0;
-    for (std::size_t k = rows_[r].own; k < end; ++k) sum += u_[k] * x[static_cast<std::size_t>(column_[k])];
+    for (std::size_t k = rows_[r].own; k < end; ++k) sum += v_[k] * x[static_cast<std::size_t>(column_[k])];
     y[r] -= sum;
   }
   ldl_.solve(y);
+  for (std::size_t i = 0; i < n; ++i) x[i] *= inverse_mass_[i];
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const std::size_t end = rows_[r].own + rows_[r].last - rows_[r].first;
-    for (std::size_t k = rows_[r].own; k < end; ++k) x[static_cast<std::size_t>(column_[k])] += u_[k] * y[r];
+    for (std::size_t k = rows_[r].own; k < end; ++k) x[static_cast<std::size_t>(column_[k])] += v_[k] * y[r];
   }
-  for (std::size_t i = 0; i < n; ++i) x[i] *= inverse_root_mass_[i];
 }
 
 }  // namespace dalembert

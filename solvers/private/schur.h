@@ -18,8 +18,8 @@ namespace dalembert {
 ///   S y = b - W M^-1 a,   x = M^-1 (a + W^T y),   S = W M^-1 W^T                          (2)
 ///
 /// S has one row per constraint, is positive definite if the rows of W are independent, and for a
-/// chain it is tridiagonal. With U = W M^-1/2 it is U U^T, a sum of products of entries of U that
-/// share a coordinate; which ones is settled once.
+/// chain it is tridiagonal: a sum of products of entries of W and V = W M^-1 that share a
+/// coordinate; which ones is settled once.
 ///
 /// The condition of S is the square of that of W M^-1/2: rows that make an angle of 1e-8 are
 /// dependent here, while (1) as a whole still tells them apart. SaddleMatrix takes care of that.
@@ -40,11 +40,11 @@ class SchurComplement {
   [[nodiscard]] double smallest_pivot() const { return ldl_.smallest_pivot(); }
 
  private:
-  /// A row's entries in the system's W, and where its copy in u_ starts.
+  /// A row's entries in the system's W, and where its copies in w_ and v_ start.
   struct Row {
     std::size_t first, last, own;
   };
-  /// A sum of products of consecutive entries of U; goes to one place in S.
+  /// A sum of products of consecutive entries of W and V; goes to one place in S.
   struct Product {
     int place, a, b, count;
   };
@@ -56,10 +56,10 @@ class SchurComplement {
   [[nodiscard]] static Plan plan(const System& system, std::span<const int> rows);
   SchurComplement(const System& system, Plan plan);
 
-  std::vector<double> inverse_root_mass_;
+  std::vector<double> inverse_mass_;
   std::vector<Row> rows_;
   std::vector<int> column_;
-  std::vector<double> u_;
+  std::vector<double> w_, v_;
   std::vector<Product> products_;
   SparseLdl ldl_;
 };

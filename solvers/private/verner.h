@@ -19,8 +19,9 @@ struct ButcherTable {
 /// (2010) 383-396: the "most efficient" pair of orders 8 and 7. The 13th stage serves the estimate
 /// only; it and the 12th lie at t + h.
 ///
-/// Measured on pendulum and double pendulum, for equal evaluations: 10 to 100 times smaller errors
-/// than Fehlberg's 7(8), 2 to 20 times smaller than Dormand and Prince's 8(5,3) and 8(7).
+/// Measured on pendulum and double pendulum in fixed steps, for equal evaluations: below errors of
+/// 1e-5 at least 10 times smaller errors than Fehlberg's 7(8); about those of Dormand and Prince's
+/// 8(5,3) and 8(7) down to 1e-8, several times smaller below.
 inline constexpr ButcherTable<13> verner87{
     8,
     7,

@@ -3,10 +3,19 @@
 #include <dalembert/constraints/coincident.h>
 #include <dalembert/constraints/disk_on_plane.h>
 #include <dalembert/constraints/distance.h>
+#include <dalembert/constraints/heading.h>
 #include <dalembert/constraints/holonomic.h>
+#include <dalembert/constraints/in_plane.h>
+#include <dalembert/constraints/line_offset.h>
+#include <dalembert/constraints/moving.h>
 #include <dalembert/constraints/nonholonomic.h>
 #include <dalembert/constraints/on_curve.h>
 #include <dalembert/constraints/on_surface.h>
+#include <dalembert/constraints/prescribed.h>
+#include <dalembert/constraints/pursuit.h>
+#include <dalembert/constraints/rigid_body.h>
+#include <dalembert/constraints/rolling.h>
+#include <dalembert/constraints/upright_rolling.h>
 
 namespace dalembert::laws {
 namespace {
@@ -117,6 +126,52 @@ const bool registered = [] {
   invariant<3>("DiskRolling", [](auto& scene, auto& at, auto a, auto b) {
     const Plane<3> plane{at.point(0.1, 0.2, 0.3), at.direction(1.0, 2.0, -2.0)};
     scene.add(DiskRolling{a, b, at.fixed(0.3, 1.4, -0.2), 0.8, plane});
+  });
+  geometric<2>("LineOffsetFromFixedPoints", [](auto& scene, auto& at, auto a, auto) {
+    scene.add(LineOffset{a, at.fixed(0.1, 0.2), at.fixed(2.0, 0.9), 0.3});
+  });
+  invariant<2>("LineOffsetFromALineThatTurns", [](auto& scene, auto& at, auto a, auto b) {
+    scene.add(LineOffset{a, driven([at](auto t) { return at.point(t, sin(t)); }), b, 0.3});
+  });
+  any<2>("RollingOnATrackThatTurns", [](auto& scene, auto&, auto a, auto b) {
+    scene.add(
+        Rolling{a, scene.add_rotor({.inertia = 1.0}), driven([](auto t) { return vec(t, sin(t)); }), b, 0.4});
+  });
+  any<2>("UprightRolling", [](auto& scene, auto&, auto a, auto) {
+    scene.add(UprightRolling{a, scene.add_rotor({.inertia = 1.0}), scene.add_rotor({.inertia = 2.0}), 0.4});
+  });
+  invariant<2>("HeadingAlongADrivenDirection", [](auto& scene, auto& at, auto a, auto b) {
+    scene.add(Heading{a, b, driven([at](auto t) { return at.point(2.0 + t, sin(t)); })});
+  });
+  invariant<2>("Pursuit", [](auto& scene, auto& at, auto a, auto) {
+    scene.add(Pursuit{a, driven([at](auto t) { return at.point(0.5 * t, 2.0 + sin(t)); })});
+  });
+  any<2>("PrescribedPosition", [](auto& scene, auto&, auto a, auto) {
+    scene.add(Prescribed{a, [](auto t) { return vec(sin(t), t * t); }});
+  });
+  any<2>("PrescribedAngle", [](auto& scene, auto&, auto, auto) {
+    scene.add(Prescribed{scene.add_rotor({.inertia = 1.0}), [](auto t) { return vec(t * t * t); }});
+  });
+  geometric<3>("InPlane", [](auto& scene, auto& at, auto a, auto) {
+    const Axis axis{at.point(0.1, 0.2, 0.3), at.direction(1.0, 2.0, -2.0), at.direction(2.0, 1.0, 0.5)};
+    scene.add(InPlane{a, axis, [](auto t) { return t * t; }});
+  });
+  geometric<2>("OnCurveTranslating", [](auto& scene, auto& at, auto a, auto) {
+    const Vec<2> shift = at.direction(0.3, 0.8);
+    scene.add(OnCurve{a, Translating{Sphere<2>{at.point(0.1, 0.2), 0.6},
+                                     [shift](auto t) { return vec(shift.x() * sin(t), shift.y() * t); }}});
+  });
+  geometric<2>("OnCurveRotating", [](auto& scene, auto& at, auto a, auto) {
+    const Plane<2> line{at.point(0.1, 0.2), at.direction(3.0, 4.0)};
+    scene.add(OnCurve{a, Rotating{line, at.point(1.0, -1.0), [](auto t) { return t * t; }}});
+  });
+  geometric<3>("OnSurfaceRotatingAbout", [](auto& scene, auto& at, auto a, auto) {
+    const Axis axis{at.point(0.5, 0.2, 0.3), at.direction(1.0, 2.0, -2.0), at.direction(2.0, 1.0, 0.5)};
+    const Cone cone{at.point(0.1, 0.2, 0.3), at.direction(1.0, -2.0, 2.0), 0.6};
+    scene.add(OnSurface{a, RotatingAbout{cone, axis, [](auto t) { return t * t; }}});
+  });
+  any<2>("DistanceFromAPointOfABody", [](auto& scene, auto&, auto a, auto b) {
+    scene.add(Distance{RigidBody<2>{{a, b}, {}, {0.7, 0.7}}.point({0.3, -0.5}), Fixed<2>{{0.1, 0.2}}, 1.3});
   });
   return true;
 }();

@@ -1,0 +1,234 @@
+#include "dalembert/solvers/private/schur.h"
+
+#include <dalembert/constraints/distance.h>
+#include <dalembert/core/scene.h>
+#include <dalembert/solvers/private/kkt.h>
+#include <dalembert/solvers/private/newton_matrix.h>
+#include <dalembert/solvers/private/saddle.h>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+using namespace dalembert;
+
+namespace {
+
+ActiveRows all_rows(const System& system) {
+  ActiveRows rows{std::vector<int>(static_cast<std::size_t>(system.rows())), system.holonomic_rows()};
+  std::iota(rows.rows.begin(), rows.rows.end(), 0);
+  return rows;
+}
+
+/// W as a dense matrix, from its pattern.
+Eigen::MatrixXd dense_w(const System& system, std::span<const double> w) {
+  Eigen::MatrixXd W = Eigen::MatrixXd::Zero(system.rows(), system.coordinates());
+  for (int r = 0; r < system.rows(); ++r) {
+    for (int k = system.row_start()[static_cast<std::size_t>(r)];
+         k < system.row_start()[static_cast<std::size_t>(r) + 1]; ++k) {
+      W(r, system.w_columns()[static_cast<std::size_t>(k)]) += w[static_cast<std::size_t>(k)];
+    }
+  }
+  return W;
+}
+
+/// A truss of rods in a row of triangles, masses from 0.1 to 10: S has fill and no natural order.
+Scene<2> truss(int triangles) {
+  Scene<2> scene("truss");
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> exponent(-1.0, 1.0);
+  std::vector<Particle<2>> p;
+  for (int i = 0; i < triangles + 2; ++i) {
+    p.push_back(scene.add_particle(
+        {.mass = std::pow(10.0, exponent(random)), .position = {0.5 * i, i % 2 == 0 ? 0.0 : 0.8}}));
+  }
+  std::vector<std::pair<std::size_t, std::size_t>> rods;
+  for (std::size_t i = 0; i + 1 < p.size(); ++i) rods.push_back({i, i + 1});
+  for (std::size_t i = 0; i + 2 < p.size(); ++i) rods.push_back({i, i + 2});
+  std::shuffle(rods.begin(), rods.end(), random);
+  for (const auto& [a, b] : rods) {
+    const bool level = b == a + 2;
+    scene.add(Distance{p[a], p[b], level ? 1.0 : std::hypot(0.5, 0.8)});
+  }
+  return scene;
+}
+
+struct Prepared {
+  explicit Prepared(const Scene<2>& scene)
+      : system(scene.system()), rows(all_rows(system)), e(system.evaluation()) {
+    system.evaluate({0.0, scene.initial_positions(), scene.initial_velocities()}, e);
+  }
+  System system;
+  ActiveRows rows;
+  System::Evaluation e;
+};
+
+std::vector<double> random_numbers(int count) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  std::vector<double> x(static_cast<std::size_t>(count));
+  for (double& y : x) y = number(random);
+  return x;
+}
+
+/// Against a dense solve of [M -W^T; W 0]. Either solution is good to round-off times condition.
+template <class Matrix>
+void expect_solves(Matrix& matrix, const Prepared& p) {
+  const int n = p.system.coordinates();
+  const int m = p.system.rows();
+  const Eigen::MatrixXd W = dense_w(p.system, p.e.w);
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n + m, n + m);
+  for (int i = 0; i < n; ++i) K(i, i) = p.system.masses()[static_cast<std::size_t>(i)];
+  K.topRightCorner(n, m) = -W.transpose();
+  K.bottomLeftCorner(m, n) = W;
+  const std::vector<double> b = random_numbers(n + m);
+  const Eigen::VectorXd expected = K.fullPivLu().solve(Eigen::Map<const Eigen::VectorXd>(b.data(), n + m));
+  const Eigen::VectorXd singular = K.jacobiSvd().singularValues();
+  const double condition = singular[0] / singular[n + m - 1];
+
+  ASSERT_TRUE(matrix.factorise(p.e.w));
+  std::vector<double> x = b;
+  matrix.solve(x);
+  const double bound = 1e-16 * condition * condition * expected.norm() * (n + m);  // S squares it
+  EXPECT_LT((Eigen::Map<Eigen::VectorXd>(x.data(), n + m) - expected).norm(), bound);
+}
+
+TEST(SchurComplement, SolvesLikeADenseMatrix) {
+  const Prepared p(truss(12));
+  SchurComplement schur(p.system, p.rows.rows);
+  expect_solves(schur, p);
+}
+
+TEST(SchurComplement, SolvesForALoneConstraint) {
+  Scene<2> scene;
+  const auto bob = scene.add_particle({.mass = 2.0, .position = {0.6, -0.8}});
+  scene.add(Distance{Fixed<2>{{0.0, 0.0}}, bob, 1.0});
+  const Prepared p(scene);
+  SchurComplement schur(p.system, p.rows.rows);
+  expect_solves(schur, p);
+}
+
+TEST(SchurComplement, WorksWithSomeOfTheRowsOnly) {
+  const Prepared p(truss(3));
+  const std::vector<int> rows{1, 3, 4};
+  SchurComplement schur(p.system, rows);
+  ASSERT_TRUE(schur.factorise(p.e.w));
+  const int n = p.system.coordinates();
+  std::vector<double> x = random_numbers(n + 3);
+  const std::vector<double> b = x;
+  schur.solve(x);
+  const Eigen::MatrixXd W = dense_w(p.system, p.e.w);
+  for (int r = 0; r < 3; ++r) {
+    const double reached =
+        W.row(rows[static_cast<std::size_t>(r)]).dot(Eigen::Map<Eigen::VectorXd>(x.data(), n));
+    EXPECT_NEAR(reached, b[static_cast<std::size_t>(n + r)], 1e-13);  // round-off, 4 terms of size 10
+  }
+}
+
+/// Two rods between the same points: the second pivot of S is round-off.
+TEST(SchurComplement, RecognisesDependentRows) {
+  Scene<2> scene;
+  const auto a = scene.add_particle({.mass = 1.0, .position = {0.0, 0.0}});
+  const auto b = scene.add_particle({.mass = 3.0, .position = {0.3, 0.4}});
+  scene.add(Distance{a, b, 0.5}, "one");
+  scene.add(Distance{a, b, 0.5}, "the same");
+  const Prepared p(scene);
+  SchurComplement schur(p.system, p.rows.rows);
+  EXPECT_FALSE(schur.factorise(p.e.w));
+}
+
+/// Two rods from a bob to pivots that stand an angle of 1e-6 apart: sin^2 = 1e-12 is far above
+/// round-off, but S alone would lose 12 of 16 digits. (The dense check is a residual, since the
+/// solution itself is ill-conditioned.)
+TEST(SaddleMatrix, TakesTheWholeMatrixWhereRowsNearlyCoincide) {
+  Scene<2> scene;
+  const double angle = 1e-6;
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
+  scene.add(Distance{Fixed<2>{{0.0, 0.0}}, bob, 1.0});
+  const Vec<2> pivot{1.0 - std::cos(angle), std::sin(angle)};
+  scene.add(Distance{Fixed<2>{pivot}, bob, 1.0});
+  const Prepared p(scene);
+  SaddleMatrix saddle(p.system, p.rows);
+  ASSERT_TRUE(saddle.factorise(p.e.w));
+  std::vector<double> x{0.0, 0.0, 0.3, 0.7};
+  saddle.solve(x);
+  const Eigen::MatrixXd W = dense_w(p.system, p.e.w);
+  const Eigen::Vector2d dq(x[0], x[1]);
+  // |dq| = 4e5: a residual of a few units of its round-off. Through S alone it would be 1e-4.
+  EXPECT_NEAR(W.row(0).dot(dq), 0.3, 1e-9);
+  EXPECT_NEAR(W.row(1).dot(dq), 0.7, 1e-9);
+}
+
+/// 60 rods from one hub: S is full, the whole matrix sparse.
+TEST(SaddleMatrix, TakesTheWholeMatrixWhereTheComplementIsFull) {
+  Scene<2> scene;
+  const auto hub = scene.add_particle({.mass = 1.0, .position = {0.0, 0.0}});
+  for (int i = 0; i < 60; ++i) {
+    const double phi = 0.1 * i;
+    const auto p = scene.add_particle({.mass = 0.1, .position = {std::cos(phi), std::sin(phi)}});
+    scene.add(Distance{hub, p, 1.0});
+  }
+  const Prepared p(scene);
+  SaddleMatrix saddle(p.system, p.rows);
+  EXPECT_STREQ(saddle.method(), "KLU");
+  const Prepared few(truss(4));
+  EXPECT_STREQ(SaddleMatrix(few.system, few.rows).method(), "LDL");
+  expect_solves(saddle, p);
+}
+
+/// The soft Newton solve satisfies (1) to (4) of NewtonMatrix with H = D = 0 exactly: checked by
+/// inserting it.
+TEST(NewtonMatrix, SolvesItsEquationsWithoutSoftForces) {
+  const Scene<2> scene = truss(5);
+  Prepared p(scene);
+  std::vector<double> v = random_numbers(p.system.coordinates());
+  p.system.evaluate({0.0, scene.initial_positions(), v}, p.e);
+  const auto n = p.system.coordinates();
+  const auto m = p.system.rows();
+  const std::vector<double> lambda(static_cast<std::size_t>(m), 0.0);  // so that H = 0
+  const double c = 50.0;
+  NewtonMatrix newton(p.system, p.rows);
+  ASSERT_TRUE(newton.factorise({0.0, scene.initial_positions(), v}, p.e, lambda, c));
+  ASSERT_TRUE(newton.soft());
+  const std::vector<double> b = random_numbers(2 * n + 2 * m);
+  std::vector<double> x = b;
+  newton.solve(c, x);
+
+  auto linear = p.system.linearisation();
+  p.system.linearise({0.0, scene.initial_positions(), v}, lambda, linear);
+  const Eigen::MatrixXd W = dense_w(p.system, p.e.w);
+  const Eigen::MatrixXd psi_q = dense_w(p.system, linear.psi_q);
+  const Eigen::Map<Eigen::VectorXd> dq(x.data(), n), dv(x.data() + n, n), dlambda(x.data() + 2 * n, m),
+      dmu(x.data() + 2 * n + m, m);
+  const Eigen::Map<const Eigen::VectorXd> b1(b.data(), n), b2(b.data() + n, n), b3(b.data() + 2 * n, m),
+      b4(b.data() + 2 * n + m, m);
+  const Eigen::Map<const Eigen::VectorXd> M(p.system.masses().data(), n);
+  // Round-off of terms up to c^2 |x| ~ 1e5, times the condition of S.
+  const double bound = 1e-8;
+  EXPECT_LT((M.cwiseProduct(dv - c * dq) + W.transpose() * dmu - b1).norm(), bound);
+  EXPECT_LT((-c * M.cwiseProduct(dv) + W.transpose() * dlambda - b2).norm(), bound);
+  EXPECT_LT((psi_q * dq + W * dv - b3).norm(), bound);
+  EXPECT_LT((W * dq - b4).norm(), bound);
+}
+
+TEST(NewtonMatrix, KeepsStiffForces) {
+  Scene<2> scene;
+  const auto a = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
+  const auto b = scene.add_particle({.mass = 1.0, .position = {2.0, 0.0}});
+  scene.add(Distance{Fixed<2>{{0.0, 0.0}}, a, 1.0});
+  scene.add(Spring{a, b, 1e6, 1.0});
+  const Prepared p(scene);
+  NewtonMatrix newton(p.system, p.rows);
+  const std::vector<double> lambda{0.0};
+  const Instant at{0.0, scene.initial_positions(), scene.initial_velocities()};
+  ASSERT_TRUE(newton.factorise(at, p.e, lambda, 100.0));  // k/(m c^2) = 100
+  EXPECT_FALSE(newton.soft());
+  ASSERT_TRUE(newton.factorise(at, p.e, lambda, 1e5));  // 1e-4
+  EXPECT_TRUE(newton.soft());
+}
+
+}  // namespace
