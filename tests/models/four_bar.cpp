@@ -67,13 +67,19 @@ TEST(FourBar, PinsOnTheGroundCarryWhatNewtonSays) {
   }
 }
 
-// It passes positions with all rods in line, where the constraints are dependent.
+// It passes positions with all rods in line, where the constraints are dependent, about ten times. Leaving
+// the branch there would be an error of order 1; staying on it, the passages magnify what the steps leave.
 TEST(FourBar, StaysOnItsBranchThroughSingularPositions) {
   const Model<2> model = FourBar{}.model();
-  const Measurement usual = measure(model, {.t_end = model.t_end, .tolerance = 1e-8});
-  EXPECT_LT(usual.error_position, 1e-5);
-  const Measurement tight = measure(model, {.t_end = model.t_end, .tolerance = 1e-10});
-  EXPECT_LT(tight.error_position, 1e-5);
+  const Measurement run = measure(model, {.t_end = model.t_end, .tolerance = 1e-8});
+  EXPECT_LT(run.error_position, 1e-3);
+}
+
+// The bound that the requirements set (issue "Every system of the notes", 1).
+TEST(FourBar, IsAsAccurateAsRequiredAtATightTolerance) {
+  const Model<2> model = FourBar{}.model();
+  const Measurement run = measure(model, {.t_end = model.t_end, .tolerance = 1e-10});
+  EXPECT_LT(run.error_position, 1e-5);
 }
 
 }  // namespace
