@@ -8,6 +8,7 @@ std::string Statistics::report() const {
   std::ostringstream out;
   out << degrees_of_freedom << " degrees of freedom, ";
   if (redundant_equations > 0) out << redundant_equations << " redundant equations, ";
+  if (singular_positions > 0) out << singular_positions << " singular positions crossed, ";
   out << steps << " steps, " << evaluations << " evaluations, " << factorisations << " factorisations, "
       << error_test_failures << " error test failures, " << convergence_failures
       << " convergence failures, residuals " << residual_position << " (position) " << residual_velocity

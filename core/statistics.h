@@ -8,6 +8,7 @@ namespace dalembert {
 struct Statistics {
   int degrees_of_freedom = 0;     ///< of velocity: coordinates less independent constraint equations
   int redundant_equations = 0;    ///< constraint equations that follow from others, and were left out
+  int singular_positions = 0;     ///< isolated ones, at which the run was taken across and restarted
   long steps = 0;                 ///< accepted steps
   long evaluations = 0;           ///< of the equations of motion
   long factorisations = 0;        ///< of a KKT matrix

@@ -1,6 +1,7 @@
 #include "dalembert/solvers/integrator.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/private/crossing.h>
 #include <dalembert/solvers/private/erk.h>
 #include <dalembert/solvers/private/ida.h>
 #include <dalembert/solvers/private/manifold.h>
@@ -59,11 +60,12 @@ struct Integrator::State {
         system(std::move(s)),
         start(consistent_start(system, q0, v0, o)),
         lever(start.scales.lever()),
-        manifold(system, start.rows, lever),
+        manifold(std::in_place, system, start.rows, lever),
         stepper(make_stepper(system, start, o)),
         now(system, start),
         next(now),
-        given(start.q.size()) {
+        given(start.q.size()),
+        past(o.t_start, start.q, start.v) {
     record.layout = system.layout();
     record.stepper = name(o.stepper);
     record.tolerance = o.tolerance;
@@ -104,8 +106,8 @@ struct Integrator::State {
   void recover(Moment& m) {
     std::ranges::copy(m.q, given.begin());
     const double L = start.scales.length;
-    const Violation left = manifold.project_positions(m.t, m.q, m.v, output_distance * L);
-    if (!manifold.solve_motion(m.t, m.q, m.v, m.a, m.lambda)) {
+    const Violation left = manifold->project_positions(m.t, m.q, m.v, output_distance * L);
+    if (!manifold->solve_motion(m.t, m.q, m.v, m.a, m.lambda)) {
       throw StepFailure{"the constraints became dependent on each other: their forces are not determined",
                         m.t};
     }
@@ -115,8 +117,8 @@ struct Integrator::State {
                             std::to_string(left.size),
                         m.t};
     }
-    const auto& equations = manifold.equations();
-    if (!m.unique.empty()) std::ranges::copy(manifold.unique(), m.unique.begin());
+    const auto& equations = manifold->equations();
+    if (!m.unique.empty()) std::ranges::copy(manifold->unique(), m.unique.begin());
     system.constraint_forces(equations.w, m.lambda, m.forces);
     m.energy = system.kinetic_energy(m.v) + system.potential_energy({m.t, m.q, m.v});
     auto& s = record.statistics;
@@ -137,7 +139,52 @@ struct Integrator::State {
                             " is used up; raise it, or ask for a looser tolerance",
                         stepper_time()};
     }
-    std::visit([wanted](auto& s) { s.step(wanted); }, stepper);
+    if (crossing_until && stepper_time() >= *crossing_until) resume();
+    try {
+      std::visit([wanted](auto& s) { s.step(wanted); }, stepper);
+    } catch (const StepFailure& failure) {
+      if (!failure.singular || !cross()) throw;
+    }
+    if (!crossing_until) {
+      const double age = crossing_distance * start.scales.time;
+      past.remember(stepper_time(), age, [this](double t, std::span<double> q0, std::span<double> v0) {
+        std::visit([&](auto& s) { s.interpolate(t, q0, v0); }, stepper);
+      });
+    }
+  }
+
+  /// An isolated singular position stops the implicit stepper. The explicit one, begun a little
+  /// earlier, strides over it and on to where the other can go on.
+  [[nodiscard]] bool cross() {
+    if (crossing_until) return false;
+    crossing_until = stepper_time() + crossing_distance * start.scales.time;
+    if (*crossing_until >= options.t_end) return false;
+    Options explicit_options = options;
+    explicit_options.stepper = Stepper::erk;
+    explicit_options.tolerance = std::max(options.tolerance, crossing_tolerance);
+    restart(past.earlier().t, past.earlier().q, past.earlier().v, explicit_options);
+    ++record.statistics.singular_positions;
+    return true;
+  }
+  void resume() {
+    const double t = stepper_time();
+    std::vector<double> q0(given.size()), v0(given.size());
+    std::visit([&](auto& s) { s.interpolate(t, q0, v0); }, stepper);
+    crossing_until.reset();
+    restart(t, q0, v0, options);
+    past = Past(t, q0, v0);
+  }
+  /// A fresh choice of rows and a fresh stepper at a state on its way.
+  void restart(double t, std::span<const double> q0, std::span<const double> v0, Options o) {
+    count(record.statistics);
+    o.t_start = t;
+    o.assemble = true;
+    Scales scales = start.scales;
+    start = consistent_start(system, q0, v0, o);
+    start.scales = std::move(scales);
+    manifold.emplace(system, start.rows, lever);
+    stepper = make_stepper(system, start, o);
+    next = Moment(system, start);
   }
 
   void step_past(double time) {
@@ -154,6 +201,8 @@ struct Integrator::State {
       fail(failure.what, failure.time);
     } catch (const EquationFault& fault) {
       fail(fault.what(), stepper_time());
+    } catch (const InconsistentStart& fault) {
+      fail(fault.what(), stepper_time());  // of a restart beyond a singular position
     }
   }
 
@@ -168,23 +217,30 @@ struct Integrator::State {
 
   [[nodiscard]] Statistics statistics() const {
     Statistics s = record.statistics;
-    std::visit([&s](const auto& stepping) { stepping.count(s); }, stepper);
-    s.evaluations += manifold.evaluations();
-    s.factorisations += manifold.factorisations();
+    count(s);
     return s;
+  }
+
+  /// Adds what the present stepper and manifold have done.
+  void count(Statistics& s) const {
+    std::visit([&s](const auto& stepping) { stepping.count(s); }, stepper);
+    s.evaluations += manifold->evaluations();
+    s.factorisations += manifold->factorisations();
   }
 
   Options options;
   std::vector<double> times;
   System system;
   Start start;
-  std::vector<double> lever;  // see Scales
-  Manifold manifold;
+  std::vector<double> lever;         // see Scales
+  std::optional<Manifold> manifold;  // of the current rows
   AnyStepper stepper;
   long steps = 0;
 
   Moment now, next;
-  std::vector<double> given;  // q before projection
+  std::vector<double> given;             // q before projection
+  Past past;                             // where to begin a crossing from
+  std::optional<double> crossing_until;  // while one is under way
 
   Record record;
 };
@@ -204,7 +260,9 @@ void Integrator::step() {
   s.guarded([&s] {
     if (s.stepper_time() >= s.options.t_end)
       throw StepFailure{"t_end is reached; choose a later one", s.now.t};
-    s.step_once(s.options.t_end);
+    do {
+      s.step_once(s.options.t_end);
+    } while (s.stepper_time() <= s.now.t);  // a crossing begins a little earlier
     s.visit(s.stepper_time());
   });
 }

@@ -114,6 +114,8 @@ ErkStepper::State::State(const System& system, const Start& start, const Options
 
 ErkStepper::ErkStepper(const System& system, const Start& start, const Options& options)
     : state_(std::make_unique<State>(system, start, options)) {}
+ErkStepper::ErkStepper(ErkStepper&&) noexcept = default;
+ErkStepper& ErkStepper::operator=(ErkStepper&&) noexcept = default;
 ErkStepper::~ErkStepper() = default;
 
 void ErkStepper::State::require(bool regular) {

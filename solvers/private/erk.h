@@ -32,6 +32,8 @@ class ErkStepper {
  public:
   /// The system must outlive the stepper.
   ErkStepper(const System& system, const Start& start, const Options& options);
+  ErkStepper(ErkStepper&&) noexcept;
+  ErkStepper& operator=(ErkStepper&&) noexcept;
   ~ErkStepper();
 
   /// One accepted step, not beyond t_end; `wanted` is the next time of output. Throws StepFailure.

@@ -24,6 +24,8 @@ class IdaStepper {
  public:
   /// The system must outlive the stepper.
   IdaStepper(const System& system, const Start& start, const Options& options);
+  IdaStepper(IdaStepper&&) noexcept;
+  IdaStepper& operator=(IdaStepper&&) noexcept;
   ~IdaStepper();
 
   /// One accepted step, not beyond t_end. Throws StepFailure. (Where output is wanted makes no

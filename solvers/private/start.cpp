@@ -129,12 +129,14 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
   std::vector<double> residual(static_cast<std::size_t>(system.rows()));
   system.bias({t, start.q, start.v}, residual);
   const auto& w = manifold.equations().w;
+  const auto forced = forced_acceleration(system, manifold.equations());
   double scale = 0.0;
   for (std::size_t r = 0; r < residual.size(); ++r) {
     for (auto k = static_cast<std::size_t>(system.row_start()[r]);
          k < static_cast<std::size_t>(system.row_start()[r + 1]); ++k) {
-      const double term = w[k] * start.a[static_cast<std::size_t>(system.w_columns()[k])];
-      scale = std::max({scale, std::abs(term), std::abs(residual[r])});
+      const auto i = static_cast<std::size_t>(system.w_columns()[k]);
+      const double term = w[k] * start.a[i];
+      scale = std::max({scale, std::abs(term), std::abs(residual[r]), std::abs(w[k] * forced[i])});
       residual[r] += term;
     }
   }
