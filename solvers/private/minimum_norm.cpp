@@ -36,7 +36,7 @@ MinimumNorm::MinimumNorm(const System& system, const ActiveRows& active, std::ve
   scaled_.resize(a);
   right_.resize(d);
   lambda_d_.resize(d);
-  factor_ = Eigen::LLT<Eigen::MatrixXd>(d);
+  factor_.compute(Eigen::MatrixXd::Identity(d, d));  // makes room
   for (const int r : dropped_) unique_[static_cast<std::size_t>(r)] = 0;
 }
 
