@@ -21,11 +21,11 @@ namespace dalembert {
 namespace {
 
 /// The error allowed to one step, of the tolerance asked for: errors of hundreds of steps add up in
-/// the result.
+/// the result. Chosen by the benchmark: with it every model of the catalogue errs by less than 1000
+/// times the tolerance 1e-8.
 constexpr double share_of_a_step = 0.05;
 /// Newton stops at this fraction of the error tolerance. IDA's 0.33 lets the multipliers' error
-/// into the step control. Measured with factors that follow W: 0.1 and 0.01 take the same steps on
-/// pendulums, 0.1 a fifth less time on a chain of 100 beads.
+/// into the step control.
 constexpr double newton_tolerance = 0.1;
 
 struct FreeContext {
