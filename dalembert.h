@@ -2,6 +2,7 @@
 
 /// The whole library: states a scene, runs it, reads its motion and its forces of constraint.
 #include <dalembert/constraints/coincident.h>
+#include <dalembert/constraints/compliant.h>
 #include <dalembert/constraints/disk_on_plane.h>
 #include <dalembert/constraints/distance.h>
 #include <dalembert/constraints/heading.h>

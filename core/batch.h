@@ -63,6 +63,8 @@ class ConstraintBatch {
   [[nodiscard]] virtual std::span<const int> coordinates() const = 0;
 
   virtual void evaluate(const Instant& at, const ConstraintValues& out) const = 0;
+  /// The compliance of each row [length / force, at unit gradient]: 0 if it is rigid.
+  virtual void compliance(std::span<double> out) const = 0;
   /// gamma = psi_q v + psi_t, so that W v' + gamma = 0 at acceleration level.
   virtual void bias(const Instant& at, std::span<double> gamma) const = 0;
   /// psi_q, and for each constraint the dense `width x width` block (rows first) of

@@ -22,6 +22,12 @@ concept VelocityLevel = requires {
   requires C::velocity_level;
 };
 
+/// A holonomic constraint that yields: `double compliance`, see Compliant.
+template <class C>
+concept HasCompliance = requires(const C& c) {
+  { c.compliance } -> std::convertible_to<double>;
+};
+
 namespace detail {
 
 template <class C>

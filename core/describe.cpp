@@ -1,5 +1,6 @@
 #include "dalembert/core/system.h"
 #include <dalembert/core/integrability.h>
+#include <dalembert/core/islands.h>
 
 #include <Eigen/QR>
 
@@ -32,8 +33,9 @@ std::string System::describe() const {
       << " dimensions, " << n << " coordinates\n"
       << "constraints: " << kinds(parts_.constraints) << "; " << holonomic_rows() << " holonomic and "
       << nonholonomic << " nonholonomic equations, " << (rheonomic() ? "rheonomic" : "scleronomic") << '\n'
-      << "degrees of freedom: " << n - holonomic_rows() << " of position, " << n - rows()
-      << " of velocity (if the constraints are independent)\n"
+      << "degrees of freedom: " << n - holonomic_rows() + compliant_rows() << " of position, "
+      << n - rows() + compliant_rows() << " of velocity (if the constraints are independent)\n"
+      << "islands that do not act on each other: " << islands(*this).count << '\n'
       << "forces: " << kinds(parts_.forces) << " besides constant ones\n"
       << "unknowns of the stabilised index-2 equations: " << 2 * n + rows() + holonomic_rows() << '\n';
   const auto left_out = [&out](bool is, const char* what) {
@@ -41,6 +43,7 @@ std::string System::describe() const {
   };
   left_out(layout_->dimension == 2, "the third coordinate: the scene is planar");
   left_out(rows() > 0 && !rheonomic(), "time derivatives of the constraints: none depends on time");
+  left_out(rows() > 0 && !compliant(), "compliance: all constraints are rigid");
   left_out(stiffness_pattern_.empty(), "the stiffness block: no force or constraint varies with position");
   left_out(damping_pattern_.empty(), "the damping block: no force depends on velocities");
   left_out(holonomic_rows() == 0, "the position multipliers mu: there is no holonomic constraint");
@@ -57,6 +60,7 @@ std::string System::describe(double t, std::span<const double> q) const {
   Eigen::MatrixXd gradients = Eigen::MatrixXd::Zero(coordinates(), rows());
   for (int r = 0; r < rows(); ++r) {
     const auto row = static_cast<std::size_t>(r);
+    if (compliance_[row] > 0.0) continue;  // takes no freedom away
     for (auto k = static_cast<std::size_t>(row_start_[row]);
          k < static_cast<std::size_t>(row_start_[row + 1]); ++k) {
       gradients(w_columns_[k], r) += e.w[k];
@@ -66,8 +70,8 @@ std::string System::describe(double t, std::span<const double> q) const {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(gradients);
   qr.setThreshold(1e-9);
   const auto rank = static_cast<int>(rows() == 0 ? 0 : qr.rank());
-  out << "at t = " << t << ": " << rank << " of " << rows() << " constraint equations independent, "
-      << coordinates() - rank << " degrees of freedom of velocity\n";
+  out << "at t = " << t << ": " << rank << " of " << rows() - compliant_rows()
+      << " constraint equations independent, " << coordinates() - rank << " degrees of freedom of velocity\n";
   for (const Integrability& set : integrability(*this, t, q)) {
     std::string labels;
     for (const auto& label : set.constraints) labels += (labels.empty() ? "" : ", ") + label;

@@ -56,6 +56,13 @@ class HolonomicBatch final : public ConstraintBatch {
     });
   }
 
+  void compliance(std::span<double> out) const override {
+    std::ranges::fill(out, 0.0);
+    if constexpr (HasCompliance<C>) {
+      for (std::size_t row = 0; row < out.size(); ++row) out[row] = elements_.all()[row / rows].compliance;
+    }
+  }
+
   void bias(const Instant& at, std::span<double> gamma) const override {
     using S = Dual<1, 2>;
     for_each_element(elements_.all(), [&](const C& c, std::size_t i) {

@@ -43,6 +43,11 @@ class Scene {
   static_assert(D == 2 || D == 3);
 
   explicit Scene(std::string name = "scene");
+  Scene(const Scene&) = delete;
+  Scene(Scene&&) noexcept = default;
+  Scene& operator=(const Scene&) = delete;
+  Scene& operator=(Scene&&) noexcept = default;
+  ~Scene() = default;
 
   /// Throws InvalidScene unless mass, position and velocity are finite and the mass is positive.
   Particle<D> add_particle(const ParticleState<D>& state, const std::string& name = {});

@@ -14,9 +14,7 @@ std::string Statistics::report() const {
       << " convergence failures, residuals " << residual_position << " (position) " << residual_velocity
       << " (velocity), correction " << correction << ", " << run_time << " s";
   if (!linear_algebra.empty()) out << ", " << linear_algebra;
-  if (2 * stability_limited > steps) {
-    out << "; stiff: stability, not accuracy, held down most steps, use Stepper::ida";
-  }
+  if (!advice.empty()) out << "; " << advice;
   return out.str();
 }
 

@@ -17,6 +17,7 @@ struct Statistics {
   /// Steps of the explicit stepper held down by stability, not accuracy (counted by samples). If
   /// these are most of the steps the scene is stiff: Stepper::ida will be faster.
   long stability_limited = 0;
+  std::string advice;              ///< what held up the run, if that is known, and what to do about it
   std::string linear_algebra;      ///< what factors the matrices: LDL the Schur complement, KLU the whole
   double residual_position = 0.0;  ///< largest |g|/|grad g| at any sample [length]
   double residual_velocity = 0.0;  ///< largest |psi|/|W row| at any sample [speed]

@@ -77,8 +77,11 @@ void System::place_constraints() {
         row_start_.push_back(static_cast<int>(w_columns_.size()));
       }
     }
+    compliance_.resize(row_start_.size() - 1);
+    batches[b]->compliance(std::span(compliance_).last(row_count));
     if (shape.holonomic) holonomic_rows_ = rows();
   }
+  compliant_rows_ = static_cast<int>(std::ranges::count_if(compliance_, [](double C) { return C > 0.0; }));
 }
 
 void System::place_forces() {
@@ -196,6 +199,12 @@ double System::potential_energy(const Instant& at) const {
   return V;
 }
 
+double System::elastic_energy(std::span<const double> lambda) const {
+  double V = 0.0;
+  for (std::size_t r = 0; r < lambda.size(); ++r) V += 0.5 * compliance_[r] * lambda[r] * lambda[r];
+  return V;
+}
+
 double System::constant_power(std::span<const double> v) const {
   return std::inner_product(v.begin(), v.end(), parts_.constant_force.begin(), 0.0);
 }
@@ -207,6 +216,14 @@ void System::for_each_force_power(const Instant& at,
     parts_.forces[b]->power(at, power);
     for (std::size_t i = 0; i < power.size(); ++i) f(force_label(b, i), power[i]);
   }
+}
+
+std::string System::force_of_stiffness(std::size_t entry) const {
+  const auto next = std::ranges::upper_bound(force_offsets_, entry, {}, &Offsets::stiffness);
+  const auto batch = static_cast<std::size_t>(next - force_offsets_.begin()) - 1;
+  const int width = parts_.forces[batch]->shape().width;
+  return force_label(batch,
+                     (entry - force_offsets_[batch].stiffness) / static_cast<std::size_t>(width * width));
 }
 
 const Layout::Constraint& System::constraint_of_row(int row, std::size_t& batch) const {

@@ -29,7 +29,8 @@ struct SystemParts {
 ///
 /// Rows of holonomic constraints come first, with psi = dg/dt; rows of nonholonomic ones follow,
 /// with psi = a(t,q,v). At acceleration level W v' + gamma = 0 with gamma = psi_q v + psi_t.
-/// The force of constraint on coordinate i is Z_i = (W^T lambda)_i.
+/// The force of constraint on coordinate i is Z_i = (W^T lambda)_i. A compliant holonomic constraint
+/// obeys g + C lambda = 0 in place of g = 0: a spring whose force is its multiplier.
 class System {
  public:
   /// Everything a residual needs at one instant.
@@ -57,6 +58,11 @@ class System {
   [[nodiscard]] int holonomic_rows() const { return holonomic_rows_; }
   /// Whether any constraint depends on time explicitly.
   [[nodiscard]] bool rheonomic() const;
+  /// C of each row: g + C lambda = 0 instead of g = 0; 0 where it is rigid.
+  [[nodiscard]] std::span<const double> compliance() const { return compliance_; }
+  /// Whether any row is not rigid.
+  [[nodiscard]] bool compliant() const { return compliant_rows() > 0; }
+  [[nodiscard]] int compliant_rows() const { return compliant_rows_; }
   [[nodiscard]] std::span<const double> masses() const { return parts_.masses; }
   /// What one unit of each coordinate means: `length` for a length, 1 for an angle.
   [[nodiscard]] std::vector<double> coordinate_scales(double length) const;
@@ -88,11 +94,15 @@ class System {
   [[nodiscard]] double kinetic_energy(std::span<const double> v) const;
   /// Energy of all forces that have one.
   [[nodiscard]] double potential_energy(const Instant& at) const;
+  /// Energy of the compliant constraints, the sum of C lambda^2 / 2.
+  [[nodiscard]] double elastic_energy(std::span<const double> lambda) const;
 
   /// F . v of the constant forces together, and of every other one, by its label.
   [[nodiscard]] double constant_power(std::span<const double> v) const;
   void for_each_force_power(const Instant& at, const std::function<void(std::string, double)>& f) const;
 
+  /// The label of the force that an entry of the stiffness beyond those of the constraints belongs to.
+  [[nodiscard]] std::string force_of_stiffness(std::size_t entry) const;
   /// The label of the constraint that row r belongs to.
   [[nodiscard]] std::string row_label(int row) const;
   /// What a constraint of this row says when it is singular; may be empty.
@@ -130,6 +140,8 @@ class System {
   int holonomic_rows_ = 0;
   std::vector<int> row_start_;
   std::vector<int> w_columns_;
+  std::vector<double> compliance_;
+  int compliant_rows_ = 0;
   std::vector<Entry> stiffness_pattern_;
   std::vector<Entry> damping_pattern_;
 };

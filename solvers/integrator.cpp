@@ -66,10 +66,14 @@ struct Integrator::State {
         next(now),
         given(start.q.size()),
         past(o.t_start, start.q, start.v) {
+    if (system.compliant()) {
+      for (auto* numbers : {&springs.lambda, &springs.rate, &springs.second})
+        numbers->resize(start.lambda.size());
+    }
     record.layout = system.layout();
     record.stepper = name(o.stepper);
     record.tolerance = o.tolerance;
-    record.statistics.degrees_of_freedom = system.coordinates() - start.rows.size();
+    record.statistics.degrees_of_freedom = system.coordinates() + system.compliant_rows() - start.rows.size();
     record.statistics.redundant_equations = system.rows() - start.rows.size();
     visit(o.t_start);
   }
@@ -95,6 +99,9 @@ struct Integrator::State {
   void visit(double time) {
     next.t = time;
     std::visit([&](auto& s) { s.interpolate(time, next.q, next.v); }, stepper);
+    if (const auto* ida = std::get_if<IdaStepper>(&stepper); ida != nullptr && system.compliant()) {
+      if (ida->springs(time, springs)) manifold->follow(springs);
+    }
     recover(next);
     std::swap(now, next);
   }
@@ -120,7 +127,8 @@ struct Integrator::State {
     const auto& equations = manifold->equations();
     if (!m.unique.empty()) std::ranges::copy(manifold->unique(), m.unique.begin());
     system.constraint_forces(equations.w, m.lambda, m.forces);
-    m.energy = system.kinetic_energy(m.v) + system.potential_energy({m.t, m.q, m.v});
+    m.energy = system.kinetic_energy(m.v) + system.potential_energy({m.t, m.q, m.v}) +
+               system.elastic_energy(m.lambda);
     auto& s = record.statistics;
     s.residual_position = std::max(s.residual_position, left.size);
     s.residual_velocity = std::max(s.residual_velocity, velocity_violation(system, equations, lever).size);
@@ -239,6 +247,7 @@ struct Integrator::State {
 
   Moment now, next;
   std::vector<double> given;             // q before projection
+  Springs springs;                       // of the implicit stepper's state, if any constraint is compliant
   Past past;                             // where to begin a crossing from
   std::optional<double> crossing_until;  // while one is under way
 

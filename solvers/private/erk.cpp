@@ -276,6 +276,8 @@ void ErkStepper::count(Statistics& statistics) const {
   statistics.error_test_failures += s.failures;
   statistics.linear_algebra = s.manifold.method();
   statistics.stability_limited += s.stability_limited;
+  if (2 * s.stability_limited > s.steps)
+    statistics.advice = "stiff: stability, not accuracy, held down most steps; use Stepper::ida";
 }
 
 }  // namespace dalembert

@@ -2,6 +2,7 @@
 
 #include <dalembert/core/statistics.h>
 #include <dalembert/core/system.h>
+#include <dalembert/solvers/private/springs.h>
 #include <dalembert/solvers/private/start.h>
 #include <dalembert/solvers/private/step_failure.h>
 
@@ -19,7 +20,8 @@ namespace dalembert {
 ///   h |lambda| |W| ~ m v,    h |mu| |G| ~ m q,
 ///
 /// and is made tight, so that they do not limit the step. Forces of constraint are not read off
-/// here but recovered from (q, v) by Manifold.
+/// here but recovered from (q, v) by Manifold. (Those of compliant constraints are part of the state;
+/// from them, too, Manifold recovers.)
 class IdaStepper {
  public:
   /// The system must outlive the stepper.
@@ -34,6 +36,9 @@ class IdaStepper {
   [[nodiscard]] double time() const;
   /// The state at a time inside the last step (or at the start, before the first).
   void interpolate(double t, std::span<double> q, std::span<double> v) const;
+  /// The multipliers of compliant rows at such a time. False if the positions say all: before the first
+  /// step.
+  [[nodiscard]] bool springs(double t, Springs& out) const;
   /// Adds its counts.
   void count(Statistics& statistics) const;
 

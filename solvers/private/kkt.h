@@ -17,25 +17,33 @@ struct ActiveRows {
   [[nodiscard]] int size() const { return static_cast<int>(rows.size()); }
 };
 
+/// w M^-1 w^T of a row: the inverse of the mass that its multiplier moves.
+[[nodiscard]] double mobility(const System& system, std::span<const double> w, std::size_t row);
+
 /// The saddle-point matrix that every solve of this library is about,
 ///
 ///   [ M + d D + h H   -U^T ] [ x ]   [ a ]
-///   [ L                0   ] [ y ] = [ b ],
+///   [ L                s   ] [ y ] = [ b ],
 ///
-/// with U = W and L in W's pattern, H = -d(F + W^T lambda)/dq, D = -dF/dv.
+/// with U = W and L in W's pattern, H = -d(F + W^T lambda)/dq, D = -dF/dv, and s diagonal, not 0 in
+/// compliant rows only.
 class KktMatrix {
  public:
   /// With the blocks H and D, or with M alone.
   enum class Forces { none, linearised };
 
   KktMatrix(const System& system, const ActiveRows& rows, Forces forces);
+  /// Of some of the coordinates only, with the rows that read them and no others.
+  KktMatrix(const System& system, const ActiveRows& rows, Forces forces, std::vector<int> coordinates);
 
-  /// [M -W^T; W 0]; `w` in the pattern of the system's W. False if singular.
-  [[nodiscard]] bool factorise(std::span<const double> w);
+  /// [M -W^T; W s]; `w` in the pattern of the system's W, `s` one number per row of the system, or none for
+  /// 0. False if singular.
+  [[nodiscard]] bool factorise(std::span<const double> w, std::span<const double> s = {});
   /// The same with h H + d D added to M and `lower` for L.
   [[nodiscard]] bool factorise(std::span<const double> w, std::span<const double> lower,
-                               const System::Linearisation& forces, double h, double d);
-  /// In place: (a, b) becomes (x, y), n and then one number per active row.
+                               const System::Linearisation& forces, double h, double d,
+                               std::span<const double> s = {});
+  /// In place: (a, b) becomes (x, y), one number per coordinate and then one per row of the matrix.
   void solve(std::span<double> x) { lu_.solve(x); }
 
   [[nodiscard]] int size() const { return lu_.size(); }
@@ -43,10 +51,15 @@ class KktMatrix {
   [[nodiscard]] double reciprocal_condition() const { return lu_.reciprocal_condition(); }
 
  private:
-  void assemble(std::span<const double> w, std::span<const double> lower);
+  struct Plan;
+  KktMatrix(const System& system, const ActiveRows& rows, Plan plan);
+  [[nodiscard]] static Plan plan(const System& system, const ActiveRows& rows, Forces forces,
+                                 std::vector<int> coordinates);
+  void assemble(std::span<const double> w, std::span<const double> lower, std::span<const double> s);
 
   const System* system_;
-  std::vector<int> rows_;
+  std::vector<int> rows_, coordinates_;
+  std::vector<std::size_t> stiffness_, damping_;  // the entries of the system's patterns in the matrix
   SparseLU lu_;
   std::size_t first_force_entry_;
 };

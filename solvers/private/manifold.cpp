@@ -7,10 +7,14 @@ namespace dalembert {
 
 namespace {
 
+/// s over the mobility w M^-1 w of a row whose multiplier is given: beyond round-off.
+constexpr double unyielding = 1e20;
+
 Violation largest(const System& system, std::span<const double> residual, std::span<const double> w,
                   std::span<const double> lever) {
   Violation worst;
   for (std::size_t r = 0; r < residual.size(); ++r) {
+    if (residual[r] == 0.0) continue;
     double square = 0.0;
     for (auto k = static_cast<std::size_t>(system.row_start()[r]);
          k < static_cast<std::size_t>(system.row_start()[r + 1]); ++k) {
@@ -45,10 +49,43 @@ Manifold::Manifold(const System& system, const ActiveRows& rows, std::vector<dou
       minimum_norm_(system, rows, lever_) {
   x_.resize(static_cast<std::size_t>(kkt_.size()));
   q_before_.resize(static_cast<std::size_t>(system.coordinates()));
+  if (!system.compliant()) return;
+  for (auto* numbers : {&springs_.lambda, &springs_.rate, &springs_.second, &s_})
+    numbers->resize(static_cast<std::size_t>(system.rows()), 0.0);
+  springs_before_ = springs_;
+}
+
+void Manifold::follow(const Springs& springs) {
+  springs_ = springs;
+  following_ = true;
+}
+
+/// Makes the residuals of compliant rows those of g + C lambda.
+void Manifold::add_springs() {
+  for (std::size_t r = 0; r < springs_.lambda.size(); ++r) {
+    const double C = system_->compliance()[r];
+    if (C == 0.0) continue;
+    if (!following_) {
+      springs_.lambda[r] = -e_.g[r] / C;
+      springs_.rate[r] = -e_.psi[r] / C;
+    }
+    e_.g[r] = following_ ? e_.g[r] + C * springs_.lambda[r] : 0.0;
+    e_.psi[r] = following_ ? e_.psi[r] + C * springs_.rate[r] : 0.0;
+  }
+}
+
+bool Manifold::factorise() {
+  for (std::size_t r = 0; r < s_.size(); ++r) {
+    if (system_->compliance()[r] > 0.0)
+      s_[r] = following_ ? springs_.c * springs_.c * system_->compliance()[r]
+                         : unyielding * mobility(*system_, e_.w, r);
+  }
+  return kkt_.factorise(e_.w, s_);
 }
 
 void Manifold::evaluate(const Instant& at) {
   system_->evaluate(at, e_);
+  add_springs();
   ++evaluations_;
 }
 
@@ -69,19 +106,22 @@ Violation Manifold::project_positions(double t, std::span<double> q, std::span<c
   Violation left = position_violation(*system_, e_, lever_);
   bool matrix_serves = false;
   for (int i = 0; i < most_iterations && left.size > tolerance; ++i) {
-    if (!matrix_serves && !kkt_.factorise(e_.w)) break;
+    if (!matrix_serves && !factorise()) break;
     solve_for_position_step(q.size());
     std::ranges::copy(q, q_before_.begin());
+    springs_before_ = springs_;
     const Violation before = left;
     double fraction = 1.0;
     for (int halving = 0; halving < most_halvings; ++halving, fraction *= 0.5) {
       for (std::size_t k = 0; k < q.size(); ++k) q[k] = q_before_[k] + fraction * x_[k];
+      if (following_) add_to_springs(springs_before_.lambda, fraction, springs_.lambda);
       evaluate({t, q, v});
       left = position_violation(*system_, e_, lever_);
       if (left.size < before.size) break;
     }
     if (!(left.size < before.size)) {
       std::ranges::copy(q_before_, q.begin());
+      springs_ = springs_before_;
       evaluate({t, q, v});
       return before;
     }
@@ -89,6 +129,15 @@ Violation Manifold::project_positions(double t, std::span<double> q, std::span<c
     matrix_serves = left.size < 0.1 * before.size;
   }
   return left;
+}
+
+/// to = from + c^2 y in compliant rows, with y of the last solve.
+void Manifold::add_to_springs(const std::vector<double>& from, double fraction, std::vector<double>& to) {
+  const std::size_t n = x_.size() - rows_.rows.size();
+  for (std::size_t k = 0; k < rows_.rows.size(); ++k) {
+    const auto r = static_cast<std::size_t>(rows_.rows[k]);
+    if (system_->compliance()[r] > 0.0) to[r] = from[r] + fraction * springs_.c * springs_.c * x_[n + k];
+  }
 }
 
 /// (2), with the matrix at hand. Of the equations psi is then out of date, and F if it depends on
@@ -100,6 +149,7 @@ void Manifold::correct_velocities(std::span<double> v) {
     x_[n + r] = -e_.psi[static_cast<std::size_t>(rows_.rows[r])];
   kkt_.solve(x_);
   for (std::size_t k = 0; k < n; ++k) v[k] += x_[k];
+  if (following_) add_to_springs(springs_.rate, 1.0, springs_.rate);
 }
 
 /// (3), with the matrix and the forces at hand.
@@ -107,15 +157,19 @@ void Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
   const std::size_t n = at.q.size();
   system_->bias(at, gamma_);
   std::ranges::copy(e_.force, x_.begin());
-  for (std::size_t r = 0; r < rows_.rows.size(); ++r)
-    x_[n + r] = -gamma_[static_cast<std::size_t>(rows_.rows[r])];
+  for (std::size_t k = 0; k < rows_.rows.size(); ++k) {
+    const auto r = static_cast<std::size_t>(rows_.rows[k]);
+    x_[n + k] = -gamma_[r];
+    if (system_->compliance()[r] > 0.0)
+      x_[n + k] += s_[r] * springs_.lambda[r] - system_->compliance()[r] * springs_.second[r];
+  }
   kkt_.solve(x_);
   std::copy_n(x_.begin(), n, a.begin());
 }
 
 bool Manifold::accelerate(const Instant& at, std::span<double> a) {
   evaluate(at);
-  if (!kkt_.factorise(e_.w)) return false;
+  if (!factorise()) return false;
   solve_for_accelerations(at, a);
   return true;
 }
@@ -123,12 +177,12 @@ bool Manifold::accelerate(const Instant& at, std::span<double> a) {
 bool Manifold::land(double t, std::span<double> q, std::span<double> v, std::span<double> a) {
   evaluate({t, q, v});
   if (rows_.holonomic > 0) {
-    if (!kkt_.factorise(e_.w)) return false;
+    if (!factorise()) return false;
     solve_for_position_step(q.size());
     for (std::size_t k = 0; k < q.size(); ++k) q[k] += x_[k];
     evaluate({t, q, v});
   }
-  if (!kkt_.factorise(e_.w)) return false;
+  if (!factorise()) return false;
   correct_velocities(v);
   if (!system_->damping_pattern().empty()) evaluate({t, q, v});
   solve_for_accelerations({t, q, v}, a);
@@ -139,7 +193,7 @@ bool Manifold::solve_motion(double t, std::span<const double> q, std::span<doubl
                             std::span<double> lambda) {
   const std::size_t n = q.size();
   evaluate({t, q, v});
-  if (!kkt_.factorise(e_.w)) return false;
+  if (!factorise()) return false;
   if (!rows_.rows.empty()) {
     correct_velocities(v);
     evaluate({t, q, v});

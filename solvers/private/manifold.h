@@ -2,6 +2,7 @@
 
 #include <dalembert/solvers/private/minimum_norm.h>
 #include <dalembert/solvers/private/saddle.h>
+#include <dalembert/solvers/private/springs.h>
 
 #include <vector>
 
@@ -32,9 +33,18 @@ struct Violation {
 ///
 ///   [ M  -W^T ] [ v'     ]   [    F   ]
 ///   [ W   0   ] [ lambda ] = [ -gamma ].                                              (3)
+///
+/// A compliant row takes part with its multiplier as a variable, s = c^2 C in the lower right block:
+/// its residuals are g + C lambda, psi + C lambda', W v' + gamma + C lambda'', and y changes lambda by
+/// c^2 y. A stiff spring (s small) is treated like a rigid constraint and gets the recovered
+/// multiplier; of a soft one (s large) the stepper's own is kept. Without `follow` the multipliers are
+/// -g/C, the limit of large s.
 class Manifold {
  public:
   Manifold(const System& system, const ActiveRows& rows, std::vector<double> lever);
+
+  /// From here on the multipliers of compliant rows are these, and projected with the state.
+  void follow(const Springs& springs);
 
   /// (1), with steps halved until they bring the state closer, until the distance is at most
   /// `tolerance` or no longer shrinks. Returns what is left. Throws EquationFault.
@@ -62,6 +72,9 @@ class Manifold {
 
  private:
   void evaluate(const Instant& at);
+  void add_springs();
+  [[nodiscard]] bool factorise();
+  void add_to_springs(const std::vector<double>& from, double fraction, std::vector<double>& to);
   void solve_for_position_step(std::size_t n);
   void correct_velocities(std::span<double> v);
   void solve_for_accelerations(const Instant& at, std::span<double> a);
@@ -71,6 +84,9 @@ class Manifold {
   std::vector<double> lever_;
   System::Evaluation e_;
   std::vector<double> gamma_, x_, q_before_;
+  Springs springs_, springs_before_;
+  std::vector<double> s_;
+  bool following_ = false;
   SaddleMatrix kkt_;
   MinimumNorm minimum_norm_;
   long evaluations_ = 0;

@@ -10,76 +10,156 @@ namespace {
 /// Newton's iteration loses at most this factor in accuracy by leaving soft forces out.
 constexpr double still_soft = 0.1;
 
-/// Whether there are forces besides constant ones: entries of the stiffness besides the constraints'.
-bool has_varying_forces(const System& system) {
-  std::size_t of_constraints = 0;
-  for (const auto& c : system.layout()->constraints)
-    of_constraints += static_cast<std::size_t>(c.width * c.width);
-  return system.stiffness_pattern().size() > of_constraints;
-}
-
 ActiveRows holonomic_only(const ActiveRows& all) {
   return {{all.rows.begin(), all.rows.begin() + all.holonomic}, all.holonomic};
 }
+
+std::size_t entries_of_constraints(const System& system) {
+  std::size_t count = 0;
+  for (const auto& c : system.layout()->constraints) count += static_cast<std::size_t>(c.width * c.width);
+  return count;
+}
+
+bool any(const std::vector<char>& flags) { return std::ranges::find(flags, 1) != flags.end(); }
 
 }  // namespace
 
 NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows)
     : system_(&system),
       rows_(rows),
+      islands_(islands(system)),
+      needs_k1_(static_cast<std::size_t>(islands_.count), 0),
+      stiff_(needs_k1_),
+      coupled_(system.compliant() || (rows.holonomic > 0 && rows.holonomic < rows.size())),
       linear_(system.linearisation()),
       w_(system.w_columns().size()),
+      lower_(w_.size()),
+      s_(static_cast<std::size_t>(system.rows())),
       k2_(system, holonomic_only(rows)),
       x1_(static_cast<std::size_t>(system.coordinates() + rows.size())),
       x2_(static_cast<std::size_t>(system.coordinates() + rows.holonomic)),
-      p_(static_cast<std::size_t>(system.coordinates())) {
-  // Where it will be needed, before the first step: stepping allocates nothing.
-  if (rows.holonomic != rows.size() || has_varying_forces(system)) make_stiff();
+      p_(static_cast<std::size_t>(system.coordinates())),
+      dmu_(static_cast<std::size_t>(rows.holonomic)),
+      first_force_entry_(entries_of_constraints(system)) {
+  for (const int row : rows.rows) {
+    if (row >= system.holonomic_rows() || system.compliance()[static_cast<std::size_t>(row)] > 0.0)
+      needs_k1_[static_cast<std::size_t>(islands_.of_row(system, row))] = 1;
+  }
+  // Whatever may be needed is made before the first step: stepping allocates nothing.
+  if (const auto may_need = varying_islands(); any(may_need)) include(may_need);
 }
 
-void NewtonMatrix::make_stiff() {
-  if (k1_) return;
-  k1_.emplace(*system_, rows_, KktMatrix::Forces::linearised);
-  lower_.resize(w_.size());
+/// Per island, whether it needs K1 or has forces besides constant ones: entries of the stiffness besides
+/// the constraints'.
+std::vector<char> NewtonMatrix::varying_islands() const {
+  auto varying = needs_k1_;
+  for (const auto& entry : system_->stiffness_pattern().subspan(first_force_entry_)) {
+    const int island = islands_.of_coordinate[static_cast<std::size_t>(entry.row)];
+    varying[static_cast<std::size_t>(island)] = 1;
+  }
+  return varying;
 }
 
-/// Whether all rows are holonomic and H and D small against c^2 M and c M, by their largest row sums.
-bool NewtonMatrix::judge_soft(double c) {
-  if (rows_.holonomic != rows_.size()) return false;
+/// Makes the matrix K1 for these islands.
+void NewtonMatrix::include(const std::vector<char>& which) {
+  std::vector<int> coordinates;
+  for (int i = 0; i < system_->coordinates(); ++i) {
+    const int island = islands_.of_coordinate[static_cast<std::size_t>(i)];
+    if (which[static_cast<std::size_t>(island)]) coordinates.push_back(i);
+  }
+  ActiveRows rows;
+  std::vector<std::size_t> active;
+  for (std::size_t k = 0; k < rows_.rows.size(); ++k) {
+    if (!which[static_cast<std::size_t>(islands_.of_row(*system_, rows_.rows[k]))]) continue;
+    rows.rows.push_back(rows_.rows[k]);
+    active.push_back(k);
+    if (static_cast<int>(k) < rows_.holonomic) ++rows.holonomic;
+  }
+  KktMatrix matrix(*system_, rows, KktMatrix::Forces::linearised, coordinates);
+  const auto size = static_cast<std::size_t>(matrix.size());
+  k1_.emplace(
+      Stiff{std::move(coordinates), std::move(active), which, std::move(matrix), std::vector<double>(size)});
+}
+
+/// Finds the islands where H or D are not small against c^2 M and c M, by their largest row sums.
+void NewtonMatrix::judge(double c) {
   std::ranges::fill(p_, 0.0);
-  for (std::size_t k = 0; k < linear_.stiffness.size(); ++k) {
-    p_[static_cast<std::size_t>(system_->stiffness_pattern()[k].row)] +=
-        std::abs(linear_.stiffness[k]) / (c * c);
-  }
-  for (std::size_t k = 0; k < linear_.damping.size(); ++k) {
-    p_[static_cast<std::size_t>(system_->damping_pattern()[k].row)] += std::abs(linear_.damping[k]) / c;
-  }
-  const auto masses = system_->masses();
+  const double h = 1.0 / (c * c), d = 1.0 / c;
+  for (std::size_t k = 0; k < linear_.stiffness.size(); ++k)
+    p_[static_cast<std::size_t>(system_->stiffness_pattern()[k].row)] += h * std::abs(linear_.stiffness[k]);
+  for (std::size_t k = 0; k < linear_.damping.size(); ++k)
+    p_[static_cast<std::size_t>(system_->damping_pattern()[k].row)] += d * std::abs(linear_.damping[k]);
+  std::ranges::fill(stiff_, 0);
   for (std::size_t i = 0; i < p_.size(); ++i) {
-    if (p_[i] > still_soft * masses[i]) return false;
+    if (p_[i] > still_soft * system_->masses()[i])
+      stiff_[static_cast<std::size_t>(islands_.of_coordinate[i])] = 1;
   }
-  return true;
+}
+
+void NewtonMatrix::find_fastest_vibration() {
+  double square = 0.0;
+  for (std::size_t k = first_force_entry_; k < linear_.stiffness.size(); ++k) {
+    const auto row = static_cast<std::size_t>(system_->stiffness_pattern()[k].row);
+    if (!stiff_[static_cast<std::size_t>(islands_.of_coordinate[row])]) continue;
+    const double own = std::abs(linear_.stiffness[k]) / system_->masses()[row];
+    if (own > square) stiffest_ = k;
+    square = std::max(square, own);
+  }
+  rho_forces_ = std::sqrt(square);
+
+  square = 0.0;
+  for (std::size_t r = 0; r < s_.size(); ++r) {
+    if (system_->compliance()[r] > 0.0)
+      square = std::max(square, mobility(*system_, w_, r) / system_->compliance()[r]);
+  }
+  rho_compliant_ = std::sqrt(square);
+}
+
+std::string NewtonMatrix::stiffest_force() const { return system_->force_of_stiffness(stiffest_); }
+
+void NewtonMatrix::leave_out_soft_forces() {
+  const auto soft = [this](const System::Entry& entry) {
+    const int island = islands_.of_coordinate[static_cast<std::size_t>(entry.row)];
+    return !stiff_[static_cast<std::size_t>(island)];
+  };
+  for (std::size_t k = 0; k < linear_.stiffness.size(); ++k)
+    if (soft(system_->stiffness_pattern()[k])) linear_.stiffness[k] = 0.0;
+  for (std::size_t k = 0; k < linear_.damping.size(); ++k)
+    if (soft(system_->damping_pattern()[k])) linear_.damping[k] = 0.0;
 }
 
 bool NewtonMatrix::factorise(const Instant& at, const System::Evaluation& e, std::span<const double> lambda,
                              double c) {
   system_->linearise(at, lambda, linear_);
-  soft_ = judge_soft(c);
+  judge(c);
   std::ranges::copy(e.w, w_.begin());
   if (!k2_.factorise(w_)) return false;
-  if (soft_) return true;
-  make_stiff();
+  find_fastest_vibration();
+  k1_in_use_ = false;
+  for (std::size_t i = 0; i < stiff_.size(); ++i) {
+    if (!stiff_[i] && !needs_k1_[i]) continue;
+    k1_in_use_ = true;
+    if (k1_ && k1_->islands[i]) continue;
+    auto all = k1_ ? k1_->islands : needs_k1_;
+    std::ranges::transform(all, stiff_, all.begin(), [](char a, char b) { return a | b; });
+    include(all);
+  }
+  return !k1_in_use_ || factorise_stiff(c);
+}
+
+bool NewtonMatrix::factorise_stiff(double c) {
+  leave_out_soft_forces();
   const auto first_nonholonomic =
       static_cast<std::size_t>(system_->row_start()[static_cast<std::size_t>(system_->holonomic_rows())]);
   std::copy(w_.begin(), w_.end(), lower_.begin());
   for (std::size_t k = first_nonholonomic; k < lower_.size(); ++k) lower_[k] += linear_.psi_q[k] / c;
-  return k1_->factorise(w_, lower_, linear_, 1.0 / (c * c), 1.0 / c);
+  for (std::size_t r = 0; r < s_.size(); ++r) s_[r] = c * c * system_->compliance()[r];
+  return k1_->matrix.factorise(w_, lower_, linear_, 1.0 / (c * c), 1.0 / c, s_);
 }
 
-bool NewtonMatrix::refresh(const System::Evaluation& e) {
-  if (!soft_) return true;
+bool NewtonMatrix::refresh(const System::Evaluation& e, double c) {
   std::ranges::copy(e.w, w_.begin());
-  return k2_.factorise(w_);
+  return k2_.factorise(w_) && (!k1_in_use_ || factorise_stiff(c));
 }
 
 double NewtonMatrix::along(std::size_t row, std::span<const double> values, std::span<const double> x) const {
@@ -91,42 +171,7 @@ double NewtonMatrix::along(std::size_t row, std::span<const double> values, std:
   return sum;
 }
 
-void NewtonMatrix::solve(double c, std::span<double> b) {
-  if (soft_) {
-    solve_soft(c, b);
-  } else {
-    solve_stiff(c, b);
-  }
-}
-
-/// (5) to (7) with H = D = 0, all rows holonomic.
-void NewtonMatrix::solve_soft(double c, std::span<double> b) {
-  const auto n = static_cast<std::size_t>(system_->coordinates());
-  const auto m = static_cast<std::size_t>(rows_.size());
-  const auto b1 = b.subspan(0, n);
-  const auto b2 = b.subspan(n, n);
-  const auto b3 = b.subspan(2 * n, m);
-  const auto b4 = b.subspan(2 * n + m, m);
-  const auto masses = system_->masses();
-  for (std::size_t i = 0; i < n; ++i) x1_[i] = -b2[i] - c * b1[i];
-  for (std::size_t r = 0; r < m; ++r) x1_[n + r] = c * c * b4[r];
-  k2_.solve(x1_);
-  for (std::size_t i = 0; i < n; ++i) {
-    x2_[i] = b1[i] + masses[i] * x1_[i] / c;
-    b1[i] = x1_[i] / (c * c);
-  }
-  for (std::size_t r = 0; r < m; ++r) {
-    x2_[n + r] = b3[r] - along(static_cast<std::size_t>(rows_.rows[r]), linear_.psi_q, b1);
-  }
-  k2_.solve(x2_);
-  std::copy_n(x2_.begin(), n, b2.begin());
-  for (std::size_t r = 0; r < m; ++r) {
-    b4[r] = -x2_[n + r];  // the matrix of (7) has -G^T
-    b3[r] = x1_[n + r] - c * b4[r];
-  }
-}
-
-/// (5) to (7), given p = dv - c dq as far as it is known; leaves dq, dnu in x1_ and dv, -dmu in x2_.
+/// (5) to (7), given p and dmu as far as they are known; leaves x, dnu in x1_ and dv, -dmu in x2_.
 void NewtonMatrix::eliminate(double c, std::span<const double> b) {
   const auto n = static_cast<std::size_t>(system_->coordinates());
   const auto m = static_cast<std::size_t>(rows_.size());
@@ -135,48 +180,76 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
   const auto b2 = b.subspan(n, n);
   const auto b3 = b.subspan(2 * n, m);
   const auto b4 = b.subspan(2 * n + m, m_holonomic);
-  const auto masses = system_->masses();
+  const auto C = system_->compliance();
 
   // (5), (6)
   for (std::size_t i = 0; i < n; ++i) x1_[i] = -b2[i] - c * b1[i];
-  for (std::size_t k = 0; k < linear_.damping.size(); ++k) {
-    const auto [row, column] = system_->damping_pattern()[k];
-    x1_[static_cast<std::size_t>(row)] += linear_.damping[k] * p_[static_cast<std::size_t>(column)];
+  if (k1_in_use_) {
+    for (std::size_t k = 0; k < linear_.damping.size(); ++k) {
+      const auto [row, column] = system_->damping_pattern()[k];
+      x1_[static_cast<std::size_t>(row)] += linear_.damping[k] * p_[static_cast<std::size_t>(column)];
+    }
   }
   for (std::size_t r = 0; r < m; ++r) {
     const auto row = static_cast<std::size_t>(rows_.rows[r]);
-    x1_[n + r] = r < m_holonomic ? c * c * b4[r] : c * (b3[r] - along(row, w_, p_));
+    x1_[n + r] = r < m_holonomic ? c * c * (b4[r] + c * C[row] * dmu_[r]) : c * (b3[r] - along(row, w_, p_));
   }
-  k1_->solve(x1_);
-  const auto dq = std::span(x1_).first(n);
-  for (double& x : dq) x /= c * c;
+  if (k1_in_use_) {
+    std::size_t next = 0;
+    for (const int i : k1_->coordinates) k1_->x[next++] = x1_[static_cast<std::size_t>(i)];
+    for (const std::size_t r : k1_->active) k1_->x[next++] = x1_[n + r];
+    k1_->matrix.solve(k1_->x);
+  }
+  if (!k1_in_use_ || k1_->coordinates.size() < n) k2_.solve(std::span(x1_).first(n + m_holonomic));
+  if (k1_in_use_) {
+    std::size_t next = 0;
+    for (const int i : k1_->coordinates) x1_[static_cast<std::size_t>(i)] = k1_->x[next++];
+    for (const std::size_t r : k1_->active) x1_[n + r] = k1_->x[next++];
+  }
 
   // (7)
-  for (std::size_t i = 0; i < n; ++i) x2_[i] = b1[i] + c * masses[i] * dq[i];
+  const auto masses = system_->masses();
+  for (std::size_t i = 0; i < n; ++i) {
+    x2_[i] = b1[i] + masses[i] * x1_[i] / c;
+    x1_[i] /= c * c;
+  }
   for (std::size_t r = 0; r < m_holonomic; ++r) {
-    x2_[n + r] = b3[r] - along(static_cast<std::size_t>(rows_.rows[r]), linear_.psi_q, dq);
+    const auto row = static_cast<std::size_t>(rows_.rows[r]);
+    x2_[n + r] = b3[r] - along(row, linear_.psi_q, x1_) - c * C[row] * (x1_[n + r] - c * dmu_[r]);
   }
   k2_.solve(x2_);
 }
 
-void NewtonMatrix::solve_stiff(double c, std::span<double> b) {
+void NewtonMatrix::solve(double c, std::span<double> b) {
   const auto n = static_cast<std::size_t>(system_->coordinates());
   const auto m = static_cast<std::size_t>(rows_.size());
   const auto m_holonomic = static_cast<std::size_t>(rows_.holonomic);
   for (std::size_t i = 0; i < n; ++i) p_[i] = b[i] / system_->masses()[i];
+  std::ranges::fill(dmu_, 0.0);
   eliminate(c, b);
-  if (m > m_holonomic && m_holonomic > 0) {
+  const int passes = coupled_ ? (system_->compliant() ? 2 : 1) : 0;
+  for (int pass = 0; pass < passes; ++pass) {
     for (std::size_t i = 0; i < n; ++i) p_[i] = x2_[i] - c * x1_[i];
+    for (std::size_t r = 0; r < m_holonomic; ++r) dmu_[r] = -x2_[n + r];  // the matrix of (7) has -G^T
     eliminate(c, b);
   }
 
   std::copy_n(x1_.begin(), n, b.begin());
   std::copy_n(x2_.begin(), n, b.begin() + static_cast<std::ptrdiff_t>(n));
   for (std::size_t r = 0; r < m; ++r) {
-    const double dmu = r < m_holonomic ? -x2_[n + r] : 0.0;  // the matrix of (7) has -G^T
+    const double dmu = r < m_holonomic ? -x2_[n + r] : 0.0;
     b[2 * n + r] = x1_[n + r] - c * dmu;
     if (r < m_holonomic) b[2 * n + m + r] = dmu;
   }
+}
+
+std::string NewtonMatrix::method() const {
+  if (!k1_in_use_) return k2_.method();
+  std::size_t by_k1 = 0;
+  for (std::size_t i = 0; i < stiff_.size(); ++i) by_k1 += stiff_[i] || needs_k1_[i];
+  if (by_k1 == stiff_.size()) return "KLU";
+  return "KLU for " + std::to_string(by_k1) + " of " + std::to_string(stiff_.size()) + " islands, " +
+         k2_.method() + " for the others";
 }
 
 }  // namespace dalembert

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <dalembert/core/islands.h>
 #include <dalembert/solvers/private/saddle.h>
 
+#include <algorithm>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace dalembert {
@@ -11,39 +14,41 @@ namespace dalembert {
 ///
 ///   R1 = M (v - q') + G^T mu                     (n)
 ///   R2 = F(t,q,v) + W^T lambda - M v'            (n)
-///   R3 = psi(t,q,v)                              (m)
-///   R4 = g(t,q)                                  (m_holonomic)
+///   R3 = psi(t,q,v) + C lambda'                  (m)
+///   R4 = g(t,q) + C lambda                       (m_holonomic)
 ///
-/// in the unknowns (q, v, lambda, mu), where an integrator replaces q' and v' by c q + ..., c v + ...
-/// With H = -(F + W^T lambda)_q and D = -F_v the correction obeys
+/// in the unknowns (q, v, lambda, mu), where an integrator replaces x' by c x + ...; the compliance C is
+/// 0 in rigid and in nonholonomic rows. With H = -(F + W^T lambda)_q and D = -F_v the correction obeys
 ///
 ///   (1)  M (dv - c dq) + G^T dmu                = b1        [neglecting (G^T mu)_q: mu is round-off]
 ///   (2)  -H dq - (D + c M) dv + W^T dlambda     = b2
-///   (3)  psi_q dq + W dv                        = b3
-///   (4)  G dq                                   = b4
+///   (3)  psi_q dq + W dv + c C dlambda          = b3
+///   (4)  G dq + C dlambda                       = b4
 ///
 /// (1) gives dv = c dq + p, p = M^-1 (b1 - G^T dmu). In (2), with dnu = dlambda + c dmu on holonomic
 /// rows and dnu = dlambda on the others,
 ///
 ///   (5)  (M + D/c + H/c^2) x - W^T dnu          = -b2 - c b1 - D p,      x = c^2 dq
-///   (6)  G x = c^2 b4,   (A + psi_q/c) x        = c (b3 - A p)
+///   (6)  G x + c^2 C dnu = c^2 (b4 + c C dmu),   (A + psi_q/c) x         = c (b3 - A p)
 ///
 /// for holonomic and nonholonomic rows. Then the velocities, from (1) and the holonomic rows of (3):
 ///
-///   (7)  M dv + G^T dmu                         = b1 + c M dq,     G dv = b3 - psi_q dq
+///   (7)  M dv + G^T dmu                         = b1 + c M dq,     G dv = b3 - psi_q dq - c C dlambda
 ///
 /// Two systems of n + m instead of one of 2n + m + m_holonomic.
 ///
-/// In p, dmu is neglected at first. In D p that does no harm. In A p it does where nonholonomic rows
-/// meet holonomic ones, A M^-1 G^T not 0: a predictor leaves the manifold by c b4 - b3, dmu is as large, and
-/// each iteration would mend that error of the last in the multipliers by one as large. There (5) to (7) are
-/// solved a second time with p = dv - c dq of the first, which leaves of the error a part of order psi_q/c.
+/// At first dmu is neglected in (5) and (6). In D p that does no harm. Elsewhere it does: in A p where
+/// nonholonomic rows meet holonomic ones (A M^-1 G^T not 0), and in C dmu. A predictor leaves the manifold
+/// by c b4 - b3, dmu is as large, and each iteration would mend that error of the last in the multipliers
+/// by one as large. There (5) to (7) are solved a second time with the dmu and p of the first, which
+/// leaves of the error a part of order psi_q/c. (With C dlambda = C (dnu - c dmu) and the same dmu in (6)
+/// and (7), the matrix of (7) is that of a rigid scene.)
 ///
-/// Where forces are soft against the inertia that a step feels, |H|/c^2 + |D|/c small against M, and
-/// no row is nonholonomic, H and D are left out. Then both matrices are the same, nothing in
+/// Where forces are soft against the inertia that a step feels, |H|/c^2 + |D|/c small against M, H and D
+/// are left out. Where besides no row is nonholonomic or compliant, both matrices are the same, nothing in
 /// them depends on c, and their Schur complement W M^-1 W^T serves both; a change of the step needs no
 /// new factors. (H holds the predicted, noisy multipliers: on chains leaving it out halves the
-/// steps.)
+/// steps.) That is decided for each island of the scene by itself.
 class NewtonMatrix {
  public:
   NewtonMatrix(const System& system, const ActiveRows& rows);
@@ -56,33 +61,57 @@ class NewtonMatrix {
   void solve(double c, std::span<double> b);
 
   [[nodiscard]] long factorisations() const {
-    return k2_.factorisations() + (k1_ ? k1_->factorisations() : 0);
+    return k2_.factorisations() + (k1_ ? k1_->matrix.factorisations() : 0);
   }
   /// Brings soft factors up to date with W, which costs them little; others stay as they are.
   /// False if singular.
-  [[nodiscard]] bool refresh(const System::Evaluation& e);
-  /// Whether the last factors leave the forces' derivatives out.
-  [[nodiscard]] bool soft() const { return soft_; }
-  [[nodiscard]] const char* method() const { return soft_ ? k2_.method() : "KLU"; }
+  [[nodiscard]] bool refresh(const System::Evaluation& e, double c);
+  /// The fastest vibration that compliant rows and the forces' stiffness can have, by the size of their
+  /// entries [1 / time]; 0 if there is none that a step feels.
+  [[nodiscard]] double fastest_vibration() const { return std::max(rho_compliant_, rho_forces_); }
+  /// That of the forces alone, and which of them it is.
+  [[nodiscard]] double fastest_of_forces() const { return rho_forces_; }
+  [[nodiscard]] std::string stiffest_force() const;
+  /// Whether the last factors are those of W M^-1 W^T alone.
+  [[nodiscard]] bool soft() const { return !k1_in_use_; }
+  /// What factors the matrices, and of how many islands if it is not the same for all.
+  [[nodiscard]] std::string method() const;
 
  private:
+  /// The matrix of (5) and (6) for some of the islands.
+  struct Stiff {
+    std::vector<int> coordinates;
+    std::vector<std::size_t> active;  // its rows, by their place among all active ones
+    std::vector<char> islands;
+    KktMatrix matrix;
+    std::vector<double> x;
+  };
+
   [[nodiscard]] double along(std::size_t row, std::span<const double> values,
                              std::span<const double> x) const;
-
-  [[nodiscard]] bool judge_soft(double c);
-  void make_stiff();
-  void solve_soft(double c, std::span<double> b);
-  void solve_stiff(double c, std::span<double> b);
+  [[nodiscard]] std::vector<char> varying_islands() const;
+  void judge(double c);
+  void find_fastest_vibration();
+  void leave_out_soft_forces();
+  void include(const std::vector<char>& islands);
+  [[nodiscard]] bool factorise_stiff(double c);
   void eliminate(double c, std::span<const double> b);
 
   const System* system_;
   ActiveRows rows_;
+  Islands islands_;
+  std::vector<char> needs_k1_;  // per island: nonholonomic or compliant rows
+  std::vector<char> stiff_;     // per island: forces that a step feels
+  bool coupled_;                // dmu must not be neglected
   System::Linearisation linear_;
-  std::vector<double> w_, lower_;
-  std::optional<KktMatrix> k1_;  // if forces or rows may need it
+  std::vector<double> w_, lower_, s_;
+  std::optional<Stiff> k1_;
   SaddleMatrix k2_;
-  std::vector<double> x1_, x2_, p_;
-  bool soft_ = false;
+  std::vector<double> x1_, x2_, p_, dmu_;
+  bool k1_in_use_ = false;
+  std::size_t first_force_entry_;  // of the stiffness: constraints come first
+  std::size_t stiffest_ = 0;       // entry
+  double rho_compliant_ = 0.0, rho_forces_ = 0.0;
 };
 
 }  // namespace dalembert

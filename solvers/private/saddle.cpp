@@ -12,7 +12,9 @@ constexpr std::size_t most_products = 16;
 /// the complement never loses more than half of the digits.
 constexpr double smallest_pivot = 1e-8;
 
-bool complement_suits(const System& system, const ActiveRows& rows) {
+}  // namespace
+
+bool SaddleMatrix::complement_suits(const System& system, const ActiveRows& rows) {
   std::size_t entries = 0;
   for (const int row : rows.rows) {
     const auto r = static_cast<std::size_t>(row);
@@ -20,8 +22,6 @@ bool complement_suits(const System& system, const ActiveRows& rows) {
   }
   return SchurComplement::products(system, rows.rows) <= most_products * entries;
 }
-
-}  // namespace
 
 SaddleMatrix::SaddleMatrix(const System& system, const ActiveRows& rows) : system_(&system), rows_(rows) {
   if (complement_suits(system, rows)) {
@@ -31,12 +31,12 @@ SaddleMatrix::SaddleMatrix(const System& system, const ActiveRows& rows) : syste
   }
 }
 
-bool SaddleMatrix::factorise(std::span<const double> w) {
+bool SaddleMatrix::factorise(std::span<const double> w, std::span<const double> s) {
   ++factorisations_;
-  by_schur_ = schur_ && schur_->factorise(w) && schur_->smallest_pivot() > smallest_pivot;
+  by_schur_ = schur_ && schur_->factorise(w, s) && schur_->smallest_pivot() > smallest_pivot;
   if (by_schur_) return true;
   if (!whole_) whole_.emplace(*system_, rows_, KktMatrix::Forces::none);
-  return whole_->factorise(w);
+  return whole_->factorise(w, s);
 }
 
 void SaddleMatrix::solve(std::span<double> x) {

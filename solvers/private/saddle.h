@@ -10,7 +10,7 @@ namespace dalembert {
 /// The matrix of projections and accelerations,
 ///
 ///   [ M  -W^T ]
-///   [ W   0   ],
+///   [ W   s   ],      s diagonal, not 0 in compliant rows only,
 ///
 /// factored in the way that suits the scene: through its Schur complement W M^-1 W^T, or as a whole
 /// by LU where many constraints share a particle (the complement would be full), and wherever rows
@@ -21,8 +21,12 @@ class SaddleMatrix {
   /// Throughout its life the matrix refers to the system.
   SaddleMatrix(const System& system, const ActiveRows& rows);
 
-  /// `w` in the pattern of the system's W. False if singular.
-  [[nodiscard]] bool factorise(std::span<const double> w);
+  /// Whether the Schur complement of these rows is sparse.
+  [[nodiscard]] static bool complement_suits(const System& system, const ActiveRows& rows);
+
+  /// `w` in the pattern of the system's W, `s` one number per row of the system, or none for 0. False if
+  /// singular.
+  [[nodiscard]] bool factorise(std::span<const double> w, std::span<const double> s = {});
   /// In place: (a, b) becomes (x, y), n and then one number per active row.
   void solve(std::span<double> x);
 

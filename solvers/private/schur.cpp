@@ -64,6 +64,13 @@ SchurComplement::Plan SchurComplement::plan(const System& system, std::span<cons
     if (continues) {
       ++plan.products.back().count;
     } else {
+      const bool first_of_place =
+          plan.entries.empty() || plan.entries.back().row != p.row || plan.entries.back().column != p.column;
+      if (p.row == p.column && first_of_place) {
+        const auto row = static_cast<std::size_t>(rows[static_cast<std::size_t>(p.row)]);
+        if (system.compliance()[row] > 0.0)
+          plan.compliant.push_back({row, static_cast<int>(plan.entries.size())});
+      }
       plan.entries.push_back({p.row, p.column});
       plan.products.push_back({0, p.a, p.b, 1});
     }
@@ -77,6 +84,7 @@ SchurComplement::SchurComplement(const System& system, std::span<const int> rows
 SchurComplement::SchurComplement(const System& system, Plan plan)
     : rows_(std::move(plan.rows)),
       products_(std::move(plan.products)),
+      compliant_(std::move(plan.compliant)),
       ldl_(static_cast<int>(rows_.size()), plan.entries) {
   for (const double m : system.masses()) inverse_mass_.push_back(1.0 / m);
   for (const Row& row : rows_) {
@@ -86,9 +94,10 @@ SchurComplement::SchurComplement(const System& system, Plan plan)
   v_.resize(column_.size());
   for (std::size_t k = 0; k < products_.size(); ++k) products_[k].place = ldl_.place(k);
   std::ranges::stable_sort(products_, {}, &Product::place);
+  for (Diagonal& d : compliant_) d.place = ldl_.place(static_cast<std::size_t>(d.place));
 }
 
-bool SchurComplement::factorise(std::span<const double> w) {
+bool SchurComplement::factorise(std::span<const double> w, std::span<const double> s) {
   for (const Row& row : rows_) {
     std::size_t own = row.own;
     for (std::size_t k = row.first; k < row.last; ++k, ++own) {
@@ -106,6 +115,9 @@ bool SchurComplement::factorise(std::span<const double> w) {
     double& value = values[static_cast<std::size_t>(p.place)];
     value = p.place == last ? value + sum : sum;
     last = p.place;
+  }
+  if (!s.empty()) {
+    for (const Diagonal& d : compliant_) values[static_cast<std::size_t>(d.place)] += s[d.row];
   }
   return ldl_.factorise();
 }

@@ -11,15 +11,15 @@ namespace dalembert {
 /// Solves
 ///
 ///   [ M  -W^T ] [ x ]   [ a ]
-///   [ W   0   ] [ y ] = [ b ]                                                            (1)
+///   [ W   s   ] [ y ] = [ b ]                                                            (1)
 ///
 /// through the Schur complement of M, which is diagonal and positive:
 ///
-///   S y = b - W M^-1 a,   x = M^-1 (a + W^T y),   S = W M^-1 W^T                          (2)
+///   S y = b - W M^-1 a,   x = M^-1 (a + W^T y),   S = W M^-1 W^T + s                      (2)
 ///
-/// S has one row per constraint, is positive definite if the rows of W are independent, and for a
-/// chain it is tridiagonal: a sum of products of entries of W and V = W M^-1 that share a
-/// coordinate; which ones is settled once.
+/// s is diagonal, not 0 in compliant rows only. S has one row per constraint, is positive definite if the
+/// rows of W are independent, and for a chain it is tridiagonal: a sum of products of entries of W and V = W
+/// M^-1 that share a coordinate; which ones is settled once.
 ///
 /// The condition of S is the square of that of W M^-1/2: rows that make an angle of 1e-8 are
 /// dependent here, while (1) as a whole still tells them apart. SaddleMatrix takes care of that.
@@ -32,8 +32,9 @@ class SchurComplement {
   /// entries of W they have. Large where many constraints share a particle.
   [[nodiscard]] static std::size_t products(const System& system, std::span<const int> rows);
 
-  /// `w` in the pattern of the system's W. False if S is singular to working precision.
-  [[nodiscard]] bool factorise(std::span<const double> w);
+  /// `w` in the pattern of the system's W, `s` one number per row of the system, or none for 0. False if S is
+  /// singular to working precision.
+  [[nodiscard]] bool factorise(std::span<const double> w, std::span<const double> s = {});
   /// In place: (a, b) becomes (x, y), n and then one number per row.
   void solve(std::span<double> x);
   /// See SparseLdl: sin^2 of the smallest angle that a row makes with others.
@@ -48,8 +49,14 @@ class SchurComplement {
   struct Product {
     int place, a, b, count;
   };
+  /// Where a compliant row of the system stands on the diagonal of S.
+  struct Diagonal {
+    std::size_t row;
+    int place;
+  };
   struct Plan {
     std::vector<Row> rows;
+    std::vector<Diagonal> compliant;        // `place` is the number of an entry
     std::vector<SparseLdl::Entry> entries;  // one per product
     std::vector<Product> products;
   };
@@ -61,6 +68,7 @@ class SchurComplement {
   std::vector<int> column_;
   std::vector<double> w_, v_;
   std::vector<Product> products_;
+  std::vector<Diagonal> compliant_;
   SparseLdl ldl_;
 };
 

@@ -41,6 +41,14 @@ std::vector<double> forced_acceleration(const System& system, const System::Eval
   return a;
 }
 
+/// The equations at a state whose springs are as long as it says: compliant rows are obeyed there.
+void evaluate_relaxed(const System& system, const Instant& at, System::Evaluation& e) {
+  system.evaluate(at, e);
+  for (std::size_t r = 0; r < e.g.size(); ++r) {
+    if (system.compliance()[r] > 0.0) e.g[r] = e.psi[r] = 0.0;
+  }
+}
+
 void require_gradients(const System& system, const System::Evaluation& e, double t) {
   for (std::size_t r = 0; r + 1 < system.row_start().size(); ++r) {
     const auto first = static_cast<std::size_t>(system.row_start()[r]);
@@ -141,7 +149,7 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
     }
   }
   for (std::size_t r = 0; r < residual.size(); ++r) {
-    if (std::abs(residual[r]) <= 1e-6 * scale) continue;
+    if (system.compliance()[r] > 0.0 || std::abs(residual[r]) <= 1e-6 * scale) continue;
     throw InconsistentStart(
         system.row_label(static_cast<int>(r)) +
         " contradicts the other constraints: no accelerations satisfy all of them; remove or "
@@ -211,13 +219,13 @@ Start consistent_start(const System& system, std::span<const double> q, std::spa
               {}};
   try {
     auto e = system.evaluation();
-    system.evaluate({t, q, v}, e);
+    evaluate_relaxed(system, {t, q, v}, e);
     require_gradients(system, e, t);
     start.scales.length = length_scale(system, {t, q, v}, e, duration);
     start.scales.coordinate = system.coordinate_scales(start.scales.length);
 
     start_positions(system, start, e, options);
-    system.evaluate({t, start.q, start.v}, e);
+    evaluate_relaxed(system, {t, start.q, start.v}, e);
     start_velocities(system, start, e, options);
 
     start.scales.origin = start.q;

@@ -1,5 +1,6 @@
 #include "../equations.h"
 #include <dalembert/constraints/coincident.h>
+#include <dalembert/constraints/compliant.h>
 #include <dalembert/constraints/distance.h>
 #include <dalembert/constraints/nonholonomic.h>
 #include <dalembert/core/scene.h>
@@ -38,6 +39,9 @@ Eigen::MatrixXd full_jacobian(const System& system, const State& at, const Eigen
   J.block(2 * n, 0, m, n) = d.psi_q;
   J.block(2 * n, n, m, n) = now.W;
   J.block(2 * n + m, 0, h, n) = G;
+  const Eigen::VectorXd C = vector(system.compliance());
+  J.block(2 * n, 2 * n, m, m) = c * C.asDiagonal();
+  J.block(2 * n + m, 2 * n, h, h) = C.head(h).asDiagonal();
   return J;
 }
 
@@ -139,6 +143,38 @@ TEST_F(NewtonMatrixTest, NeglectsWhatMultipliesMuAndNothingElse) {
       newton.factorise(state.instant(), equations(system, state.instant()), {lambda.data(), m}, rate));
   newton.solve(rate, {found.data(), static_cast<std::size_t>(found.size())});
   EXPECT_GT((found - x).norm(), 1e-3 * x.norm());
+}
+
+// Each solve leaves a part (|psi_q| / c |W|)^2 of the error, about (1/50)^2; solving again for what is
+// left converges to the dense solution, whether the compliance is large or small against 1/(c^2 m).
+TEST_F(NewtonMatrixTest, ConvergesToTheFullSystemWithCompliantRows) {
+  for (const double compliance : {1e-9, 1e-4, 1.0}) {
+    Scene<3> own;
+    const auto p = own.add_particle({.mass = 1.0});
+    const auto q = own.add_particle({.mass = 2.0});
+    own.add(compliant(Distance{Fixed<3>{}, p, 1.0}, compliance));
+    own.add(Distance{p, q, 1.0});
+    const System system = own.system();
+    state.q = (Eigen::VectorXd(6) << 0.8, -0.5, 1.3, 0.4, 0.9, -0.7).finished();
+    state.v = (Eigen::VectorXd(6) << -0.3, 1.2, 0.7, 0.9, -1.1, 0.5).finished();
+    const Eigen::VectorXd lambda = Eigen::Vector2d(5.0, -3.0);
+    const Eigen::MatrixXd J = full_jacobian(system, state, lambda, rate);
+    const Eigen::VectorXd x = correction(system), b = J * x;
+    NewtonMatrix newton(system, all_rows(system));
+    ASSERT_TRUE(
+        newton.factorise(state.instant(), equations(system, state.instant()), {lambda.data(), 2}, rate));
+    Eigen::VectorXd found = Eigen::VectorXd::Zero(x.size());
+    double left = x.norm();
+    for (int i = 0; i < 5; ++i) {
+      Eigen::VectorXd correction = b - J * found;
+      newton.solve(rate, {correction.data(), static_cast<std::size_t>(correction.size())});
+      found += correction;
+      const double now = (x - found).norm();
+      EXPECT_LT(now, std::max(0.05 * left, 1e-9 * x.norm()))
+          << "compliance " << compliance << ", solve " << i;
+      left = now;
+    }
+  }
 }
 
 // Spring and damper are stiff at this rate: c^2 m = 5000, c m = 100.

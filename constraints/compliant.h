@@ -1,0 +1,51 @@
+#pragma once
+
+#include <dalembert/core/constraint.h>
+
+namespace dalembert {
+
+/// A holonomic constraint that yields, as returned by `compliant`: a stiff spring.
+///
+///   g + C lambda = 0,   lambda = -g / C = -k g         [C: length / force, k = 1/C]
+///
+/// The multiplier is the spring's force, with the sign of the rigid constraint's, and
+/// `constraint_force` reads it like any other. C = 0 is the rigid constraint itself. The sample's
+/// energy holds the spring's own, C lambda^2 / 2.
+///
+/// The same spring written as a force, F = -k g dg/dr, is right as long as its vibration is slow
+/// enough to be followed. A stiff one is not: round-off in the positions times k becomes force. Here
+/// lambda is an unknown of the implicit stepper, the equations stay regular down to C = 0, and
+/// vibrations too small and fast to matter at the tolerance are stepped over.
+template <class Rigid>
+struct Compliant {
+  static constexpr std::string_view kind = detail::kind_of<Rigid>("Holonomic");
+  static constexpr std::string_view singular = detail::singular_hint_of<Rigid>();
+  Rigid rigid;
+  double compliance;  ///< C, finite and >= 0
+
+  decltype(auto) points() const { return rigid.points(); }
+  auto operator()(const auto&... a) const requires std::is_invocable_v<const Rigid&, decltype(a)...> {
+    return rigid(a...);
+  }
+
+  [[nodiscard]] std::string fault() const {
+    if constexpr (requires { rigid.fault(); }) {
+      if (const std::string of_rigid = rigid.fault(); !of_rigid.empty()) return of_rigid;
+    }
+    if (std::isfinite(compliance) && compliance >= 0.0) return {};
+    return "compliance = " + detail::text(compliance) + ", must be finite and >= 0; 0 is rigid";
+  }
+};
+
+/// Makes any holonomic constraint a spring of stiffness 1 / compliance:
+///
+///   auto spring = scene.add(compliant(Distance{pivot, bob, 1.0}, 1.0 / stiffness));
+///
+/// Where the gradient of g has unit length, as in all of the library's own constraints, the
+/// stiffness is in newtons per metre.
+template <HolonomicConstraint C>
+[[nodiscard]] Compliant<C> compliant(C rigid, double compliance) {
+  return {std::move(rigid), compliance};
+}
+
+}  // namespace dalembert

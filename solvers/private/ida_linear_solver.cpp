@@ -1,0 +1,46 @@
+#include <dalembert/solvers/private/ida_state.h>
+
+namespace dalembert {
+
+/// A direct solver for IDA's interface whose matrix is NewtonMatrix; IDA's own is empty.
+void IdaStepper::State::make_linear_solver() {
+  matrix.reset(check(SUNMatNewEmpty(context.get())));
+  matrix->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
+  matrix->ops->zero = [](SUNMatrix) { return 0; };
+  matrix->ops->destroy = [](SUNMatrix a) { SUNMatFreeEmpty(a); };
+
+  solver.reset(check(SUNLinSolNewEmpty(context.get())));
+  solver->content = this;
+  solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
+  solver->ops->setup = [](SUNLinearSolver self, SUNMatrix) noexcept {
+    State& s = *static_cast<State*>(self->content);
+    return guarded(s, s.matrix_t, [&s] {
+      s.spread_multipliers(s.matrix_y);
+      const Instant at = s.instant(s.matrix_t, s.matrix_y);
+      const bool known = s.evaluated_at == at.t && s.evaluated == s.matrix_y;  // by the residual just before
+      if (!known) s.system->evaluate(at, s.e);
+      const bool regular = s.newton.factorise(at, s.e, s.lambda, s.matrix_c);
+      s.factored_at = at.t;
+      if (!regular) s.blame(s.matrix_t, "the constraints became dependent on each other");
+      return regular ? 0 : 1;
+    });
+  };
+  solver->ops->solve = [](SUNLinearSolver self, SUNMatrix, N_Vector x, N_Vector b, double) noexcept {
+    State& s = *static_cast<State*>(self->content);
+    double c = 0.0;
+    IDAGetCurrentCj(s.ida.get(), &c);
+    if (x != b) N_VScale(1.0, b, x);
+    return guarded(s, s.evaluated_at, [&] {
+      // IDA keeps a matrix as long as Newton converges; fresh soft factors cost less than that saves.
+      if (s.evaluated_at != s.factored_at) {
+        s.factored_at = s.evaluated_at;
+        if (!s.newton.refresh(s.e, c)) return 1;
+      }
+      s.newton.solve(c, s.entries(x));
+      return 0;
+    });
+  };
+  solver->ops->free = [](SUNLinearSolver) { return 0; };  // owned by `solver`
+}
+
+}  // namespace dalembert

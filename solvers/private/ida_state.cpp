@@ -1,0 +1,134 @@
+#include "dalembert/solvers/private/ida_state.h"
+
+#include <dalembert/solvers/private/vector_operations.h>
+
+#include <nvector/nvector_serial.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dalembert {
+
+namespace {
+
+/// The error allowed to one step, of the tolerance asked for: errors of hundreds of steps add up in
+/// the result. Chosen by the benchmark: with it every model of the catalogue errs by less than 1000
+/// times the tolerance 1e-8.
+constexpr double share_of_a_step = 0.05;
+}  // namespace
+
+IdaStepper::State::State(const System& s, const Start& start, const Options& options)
+    : system(&s),
+      rows(start.rows),
+      scales(start.scales),
+      tolerance(share_of_a_step * options.tolerance),
+      t_end(options.t_end),
+      // IDA's own first step is so short that round-off in the multipliers fails Newton's iteration.
+      first_step(
+          std::min(0.1 * std::sqrt(options.tolerance) * start.scales.time, options.t_end - options.t_start)),
+      e(s.evaluation()),
+      lambda(start.lambda),
+      impulse_row(static_cast<std::size_t>(start.rows.size())),
+      newton(s, start.rows),
+      t(options.t_start) {
+  y.reset(check(N_VNew_Serial(static_cast<sunindextype>(unknowns()), context.get())));
+  vectorise(y.get());
+  yp.reset(check(N_VClone(y.get())));
+  dense.reset(check(N_VClone(y.get())));
+  id.reset(check(N_VClone(y.get())));
+  for (N_Vector v : {y.get(), yp.get(), id.get()}) N_VConst(0.0, v);
+  const auto y0 = entries(y.get());
+  const auto yp0 = entries(yp.get());
+  std::ranges::copy(start.q, y0.begin());
+  std::ranges::copy(start.v, y0.subspan(n()).begin());
+  for (std::size_t r = 0; r < m(); ++r)
+    y0[2 * n() + r] = start.lambda[static_cast<std::size_t>(rows.rows[r])];
+  std::ranges::copy(start.v, yp0.begin());
+  std::ranges::copy(start.a, yp0.subspan(n()).begin());
+  std::fill_n(entries(id.get()).begin(), 2 * n(), 1.0);
+  system->evaluate(instant(t, y.get()), e);
+  for (std::size_t r = 0; r < m(); ++r) {
+    const auto row = static_cast<std::size_t>(rows.rows[r]);
+    if (system->compliance()[row] > 0.0) yp0[2 * n() + r] = -e.psi[row] / system->compliance()[row];
+  }
+  weigh_multipliers();
+
+  ida.reset(check(IDACreate(context.get())));
+  make_linear_solver();
+}
+
+/// IDA's multipliers, one per active row, into one per row of the system.
+void IdaStepper::State::spread_multipliers(N_Vector x) {
+  const auto active = entries(x).subspan(2 * n(), m());
+  for (std::size_t r = 0; r < m(); ++r) lambda[static_cast<std::size_t>(rows.rows[r])] = active[r];
+}
+
+void IdaStepper::State::residual(double at, N_Vector x, N_Vector xp, N_Vector r) {
+  ++evaluations;
+  const Instant now = instant(at, x);
+  system->evaluate(now, e);
+  evaluated_at = at;
+  evaluated = x;
+  const auto qp = entries(xp).subspan(0, n());
+  const auto vp = entries(xp).subspan(n(), n());
+  const auto active = entries(x).subspan(2 * n(), m());
+  const auto rates = entries(xp).subspan(2 * n(), m());
+  const auto mu = entries(x).subspan(2 * n() + m(), m_holonomic());
+  const auto r1 = entries(r).subspan(0, n());
+  const auto r2 = entries(r).subspan(n(), n());
+  const auto r3 = entries(r).subspan(2 * n(), m());
+  const auto r4 = entries(r).subspan(2 * n() + m(), m_holonomic());
+  const auto masses = system->masses();
+  for (std::size_t i = 0; i < n(); ++i) {
+    r1[i] = masses[i] * (now.v[i] - qp[i]);
+    r2[i] = e.force[i] - masses[i] * vp[i];
+  }
+  for (std::size_t k = 0; k < m(); ++k) {
+    const auto row = static_cast<std::size_t>(rows.rows[k]);
+    const bool holonomic = k < m_holonomic();
+    for (auto j = static_cast<std::size_t>(system->row_start()[row]);
+         j < static_cast<std::size_t>(system->row_start()[row + 1]); ++j) {
+      const auto i = static_cast<std::size_t>(system->w_columns()[j]);
+      r2[i] += e.w[j] * active[k];
+      if (holonomic) r1[i] += e.w[j] * mu[k];
+    }
+    const double C = system->compliance()[row];
+    r3[k] = e.psi[row] + C * rates[k];
+    if (holonomic) r4[k] = e.g[row] + C * active[k];
+  }
+}
+
+/// The multiplier that delivers the scene's speed to the masses of its row in a unit of time:
+/// speed |W| / (W M^-1 W^T), whatever the scale of the user's equation.
+void IdaStepper::State::weigh_multipliers() {
+  for (std::size_t r = 0; r < m(); ++r) {
+    const auto row = static_cast<std::size_t>(rows.rows[r]);
+    double square = 0.0;
+    for (auto k = static_cast<std::size_t>(system->row_start()[row]);
+         k < static_cast<std::size_t>(system->row_start()[row + 1]); ++k) {
+      const auto i = static_cast<std::size_t>(system->w_columns()[k]);
+      const double slope = e.w[k] * scales.coordinate[i] / scales.length;
+      square += slope * slope;
+    }
+    impulse_row[r] = scales.speed() * std::sqrt(square) / mobility(*system, e.w, row);
+  }
+}
+
+void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
+  double h = 0.0;
+  if (steps > 0) IDAGetCurrentStep(ida.get(), &h);
+  if (h == 0.0) h = first_step;
+  const auto value = entries(x);
+  const auto w = entries(weight);
+  for (std::size_t i = 0; i < n(); ++i) {
+    const double scale = scales.coordinate[i];
+    w[i] = 1.0 / scales.position_error(i, value[i], tolerance);
+    w[n() + i] = 1.0 / (tolerance * (scale / scales.time + std::abs(value[n() + i])));
+  }
+  for (std::size_t r = 0; r < m(); ++r) {
+    w[2 * n() + r] = h / (tolerance * impulse_row[r]);
+    if (r < m_holonomic()) w[2 * n() + m() + r] = h / (tolerance * impulse_row[r] * scales.time);
+  }
+}
+
+}  // namespace dalembert

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <dalembert/core/errors.h>
+#include <dalembert/solvers/private/ida.h>
+#include <dalembert/solvers/private/newton_matrix.h>
+#include <dalembert/solvers/private/order_guard.h>
+#include <dalembert/solvers/private/sundials.h>
+
+#include <ida/ida.h>
+
+#include <string>
+#include <vector>
+
+namespace dalembert {
+
+struct FreeIda {
+  void operator()(void* memory) const { IDAFree(&memory); }
+};
+
+/// IDA's memory and what its callbacks need.
+struct IdaStepper::State {
+  State(const System& system, const Start& start, const Options& options);
+
+  // The context is declared first: it dies last.
+  Owned<SUNContext, FreeContext> context = make_context();
+  Owned<N_Vector, FreeVector> y, yp, dense, id;
+  Owned<SUNMatrix, FreeMatrix> matrix;
+  Owned<SUNLinearSolver, FreeSolver> solver;
+  Owned<void*, FreeIda> ida;
+
+  const System* system;
+  ActiveRows rows;
+  Scales scales;
+  double tolerance, t_end, first_step;
+  System::Evaluation e;
+  std::vector<double> lambda;       // one per row of the system
+  std::vector<double> impulse_row;  // |lambda| h for a unit of speed, per active row
+  NewtonMatrix newton;
+  OrderGuard guard;
+  bool order_changed = false, begin_anew = false;  // by the guard, not yet done
+  double t = 0.0;
+  long steps = 0, evaluations = 0, error_tests = 0, convergence = 0;
+  long unresolved_steps = 0;  // longer than the vibration of a stiff force
+  std::string fault;          // of the last evaluation that failed,
+  double fault_time = 0.0;    // and where; no reason to stop once it has been stepped past
+
+  // What the Jacobian callback records for the factorisation.
+  double matrix_t = 0.0, matrix_c = 0.0;
+  N_Vector matrix_y = nullptr;
+  // Where `e` holds.
+  double evaluated_at = 0.0, factored_at = 0.0;
+  N_Vector evaluated = nullptr;
+
+  [[nodiscard]] std::size_t n() const { return static_cast<std::size_t>(system->coordinates()); }
+  [[nodiscard]] std::size_t m() const { return static_cast<std::size_t>(rows.size()); }
+  [[nodiscard]] std::size_t m_holonomic() const { return static_cast<std::size_t>(rows.holonomic); }
+  [[nodiscard]] std::size_t unknowns() const { return 2 * n() + m() + m_holonomic(); }
+  [[nodiscard]] std::span<double> entries(N_Vector x) const { return {N_VGetArrayPointer(x), unknowns()}; }
+  [[nodiscard]] Instant instant(double at, N_Vector x) const {
+    return {at, entries(x).subspan(0, n()), entries(x).subspan(n(), n())};
+  }
+
+  void make_linear_solver();
+  void watch_order();
+  void change_order();
+  void count_failures(long& error_tests, long& convergence) const;
+  void spread_multipliers(N_Vector x);
+  void residual(double at, N_Vector x, N_Vector xp, N_Vector r);
+  void weigh(N_Vector x, N_Vector weight);
+  void weigh_multipliers();
+  void blame(double at, std::string what) {
+    fault_time = at;
+    fault = std::move(what);
+  }
+  [[nodiscard]] std::string explain(int code) const;
+  [[nodiscard]] std::string explain_all(int code) const;
+  [[nodiscard]] std::string advice() const;
+  [[nodiscard]] std::string fault_or(const char* otherwise) const {
+    return !fault.empty() && fault_time >= t ? fault : otherwise;
+  }
+};
+
+/// Runs `f` for C: +1, recoverable, for a fault of the user's equations at a time; the step is then
+/// tried shorter. -1 for anything else.
+template <class State, class F>
+int guarded(State& state, double at, const F& f) noexcept {
+  try {
+    return f();
+  } catch (const EquationFault& error) {
+    state.blame(at, error.what());
+    return 1;
+  } catch (...) {
+    return -1;
+  }
+}
+
+}  // namespace dalembert

@@ -1,0 +1,48 @@
+#include <dalembert/solvers/private/order_guard.h>
+
+#include <gtest/gtest.h>
+
+namespace dalembert {
+namespace {
+
+/// Steps of the length that `step` gives for each order, until time `end`; the number taken.
+template <class Step>
+int steps_until(double end, double rho, OrderGuard& guard, const Step& step) {
+  int steps = 0;
+  for (double t = 0.0; t < end; ++steps) {
+    const double h = step(guard.order());
+    t += h;
+    (void)guard.watch(h, rho);
+  }
+  return steps;
+}
+
+TEST(OrderGuard, LeavesScenesWithoutVibrationsAlone) {
+  OrderGuard guard;
+  for (int i = 0; i < 10'000; ++i) EXPECT_FALSE(guard.watch(0.01, 0.0));
+  EXPECT_EQ(guard.order(), 5);
+}
+
+TEST(OrderGuard, LeavesVibrationsAloneThatOrderFiveResolves) {
+  OrderGuard guard;
+  for (int i = 0; i < 10'000; ++i) EXPECT_FALSE(guard.watch(0.01, 30.0));
+}
+
+// Order 5 stuck at h rho = 0.5, order 3 beyond its unstable range: after the trial, order 3 is kept.
+TEST(OrderGuard, FindsTheOrderThatIsNotHeldDown) {
+  OrderGuard guard;
+  const int steps = steps_until(100.0, 100.0, guard, [](int order) {
+    return order == 5 ? 0.005 : order == 3 ? 0.03 : 0.008;
+  });
+  EXPECT_LT(steps, 0.5 * 100.0 / 0.005);
+}
+
+// The trials' number grows as the logarithm of the run's length: 50 windows cost at most 6 trials of 8.
+TEST(OrderGuard, GivesUpWhereTheVibrationIsPartOfTheMotion) {
+  OrderGuard guard;
+  const int steps = steps_until(1000.0, 100.0, guard, [](int order) { return order == 5 ? 0.006 : 0.003; });
+  EXPECT_LT(steps, 1.05 * 1000.0 / 0.006);
+}
+
+}  // namespace
+}  // namespace dalembert
