@@ -1,3 +1,4 @@
+#include <dalembert/bench/leave_out.h>
 #include <dalembert/bench/own_constraint.h>
 #include <dalembert/bench/scaling.h>
 #include <dalembert/bench/table.h>
@@ -83,11 +84,25 @@ int main(int argc, char** argv) try {
   add_steppers(*own_constraint, own.steppers);
   add_report_options(*own_constraint, own.report);
 
+  bench::LeaveOut without;
+  CLI::App* leave_out = app.add_subcommand(
+      "leave-out", "Run time of scenes stated in full against the same motion without what it does not need");
+  leave_out->add_option("--size", without.size, "Beads of the chains, and number of islands")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  leave_out->add_option("--repeat", without.repeats, "Pairs of runs of which the median times count")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  leave_out->add_option("--tolerance", without.tolerance, "Between 1e-13 and 0.1")->capture_default_str();
+  add_steppers(*leave_out, without.steppers);
+  add_report_options(*leave_out, without.report);
+
   CLI11_PARSE(app, argc, argv);
   int failures = 0;
   if (*listing) list();
   if (*work_precision) failures = bench::work_precision(ladder);
   if (*own_constraint) bench::own_constraint(own);
+  if (*leave_out) failures = bench::leave_out(without);
   if (*scaling) failures = bench::scaling(sizes);
   return failures == 0 ? 0 : 1;
 } catch (const std::exception& error) {

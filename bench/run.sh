@@ -4,14 +4,14 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 case ${1:-} in
-  '') work_precision=(--repeat 5) scaling=(--size 10,100,1000,10000) ;;
-  --quick) work_precision=(--repeat 1 --tolerance 1e-4,1e-6,1e-8) scaling=(--size 10,100) ;;
+  '') work_precision=(--repeat 5) scaling=(--size 10,100,1000,10000) leave_out=() kernels=(--benchmark_min_time=0.2) ;;
+  --quick) work_precision=(--repeat 1 --tolerance 1e-4,1e-6,1e-8) scaling=(--size 10,100) leave_out=(--size 10 --repeat 1) kernels=(--benchmark_min_time=0.001) ;;
   *) echo "usage: bench/run.sh [--quick]" >&2 && exit 2 ;;
 esac
 
-cmake/dependencies.sh gnuplot-nox
+cmake/dependencies.sh gnuplot-nox libbenchmark-dev
 cmake --preset release
-cmake --build --preset release --target dalembert-bench
+cmake --build --preset release --target dalembert-benchmarks
 
 bench=build/release/bench/dalembert-bench
 report=build/report
@@ -26,5 +26,11 @@ done
 $bench scaling --stepper ida,erk --tolerance 1e-5 --t-end 0.05 --csv $report/scaling.csv "${scaling[@]}"
 
 $bench own-constraint --csv $report/own-constraint.csv
+
+$bench leave-out --stepper ida,erk --csv $report/leave-out.csv "${leave_out[@]}"
+
+kernels_bench=build/release/bench/dalembert-kernels # not built where Google Benchmark is not found
+[[ ! -x $kernels_bench ]] ||
+  $kernels_bench --benchmark_out=$report/kernels.json --benchmark_out_format=json "${kernels[@]}"
 
 echo "Report in $report/:" $report/*
