@@ -1,5 +1,6 @@
 #include <dalembert/bench/leave_out.h>
 #include <dalembert/bench/own_constraint.h>
+#include <dalembert/bench/ratios.h>
 #include <dalembert/bench/scaling.h>
 #include <dalembert/bench/table.h>
 #include <dalembert/bench/work_precision.h>
@@ -30,9 +31,22 @@ void add_report_options(CLI::App& command, bench::ReportOptions& options) {
 void add_steppers(CLI::App& command, std::vector<Stepper>& steppers) {
   const std::map<std::string, Stepper> known{{name(Stepper::ida), Stepper::ida},
                                              {name(Stepper::erk), Stepper::erk}};
-  command.add_option("--stepper", steppers, "ida, erk; ida unless given")
+  command.add_option("--stepper", steppers, "ida, erk; both unless given")
       ->delimiter(',')
       ->transform(CLI::CheckedTransformer(known).description("{ida, erk}"));
+}
+
+void add_contenders(CLI::App& command, std::vector<bench::Contender>& steppers) {
+  std::map<std::string, bench::Contender> known;
+  std::string names;
+  for (const bench::Contender contender : bench::contenders()) {
+    known.emplace(bench::name(contender), contender);
+    names += (names.empty() ? "" : ", ") + std::string(bench::name(contender));
+  }
+  std::string chosen = steppers.size() == known.size() ? "all" : bench::name(steppers.front());
+  command.add_option("--stepper", steppers, names + "; " + chosen + " unless given")
+      ->delimiter(',')
+      ->transform(CLI::CheckedTransformer(known).description("{" + names + "}"));
 }
 
 }  // namespace
@@ -50,12 +64,16 @@ int main(int argc, char** argv) try {
   work_precision->add_option("--model", ladder.models, "all, or names as in `list`")
       ->delimiter(',')
       ->capture_default_str();
-  add_steppers(*work_precision, ladder.steppers);
+  add_contenders(*work_precision, ladder.steppers);
   work_precision->add_option("--tolerance", ladder.tolerances, "Between 1e-13 and 0.1")
       ->delimiter(',')
       ->capture_default_str();
   work_precision->add_option("--repeat", ladder.repeats, "Runs of which the median time counts")
       ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  work_precision
+      ->add_option("--samples", ladder.samples,
+                   "Equally spaced, at which errors are taken; 2, the ends, times the integration alone")
       ->capture_default_str();
   add_report_options(*work_precision, ladder.report);
 
@@ -69,7 +87,7 @@ int main(int argc, char** argv) try {
       ->delimiter(',')
       ->check(CLI::Range(1, 100'000'000))
       ->capture_default_str();
-  add_steppers(*scaling, sizes.steppers);
+  add_contenders(*scaling, sizes.steppers);
   scaling->add_option("--tolerance", sizes.tolerance, "Between 1e-13 and 0.1")->capture_default_str();
   scaling->add_option("--t-end", sizes.t_end, "Length of the run [s]")->capture_default_str();
   add_report_options(*scaling, sizes.report);
@@ -96,6 +114,26 @@ int main(int argc, char** argv) try {
   leave_out->add_option("--tolerance", without.tolerance, "Between 1e-13 and 0.1")->capture_default_str();
   add_steppers(*leave_out, without.steppers);
   add_report_options(*leave_out, without.report);
+  bench::Ratios race;
+  CLI::App* ratios = app.add_subcommand(
+      "ratios", "Time to reach an error at the end of a run, against code derived by hand and against peers");
+  ratios->add_option("--scene", race.scenes, "all, or some of " + bench::known_scenes())
+      ->delimiter(',')
+      ->capture_default_str();
+  add_contenders(*ratios, race.steppers);
+  ratios->add_option("--error", race.errors, "Of position, relative to the system's length")
+      ->delimiter(',')
+      ->check(CLI::Range(1e-10, 1e-2))
+      ->capture_default_str();
+  ratios->add_option("--repeat", race.repeats, "Rounds, of which the median time counts")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  ratios
+      ->add_option("--limit", race.limit,
+                   "A stepper whose run took longer than this [s] is not tried at tighter tolerances")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  add_report_options(*ratios, race.report);
 
   CLI11_PARSE(app, argc, argv);
   int failures = 0;
@@ -103,6 +141,7 @@ int main(int argc, char** argv) try {
   if (*work_precision) failures = bench::work_precision(ladder);
   if (*own_constraint) bench::own_constraint(own);
   if (*leave_out) failures = bench::leave_out(without);
+  if (*ratios) bench::ratios(race);
   if (*scaling) failures = bench::scaling(sizes);
   return failures == 0 ? 0 : 1;
 } catch (const std::exception& error) {

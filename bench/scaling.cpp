@@ -1,7 +1,7 @@
 #include "dalembert/bench/scaling.h"
 
 #include <dalembert/bench/progress.h>
-#include <dalembert/models/chain.h>
+#include <dalembert/bench/rivals.h>
 #include <dalembert/models/error.h>
 
 #include <sys/resource.h>
@@ -43,23 +43,34 @@ double last_error(const models::Chain& chain, const Scaling& options, const mode
   return position_error(last, reference.front()) / chain.length;
 }
 
-Outcome run(const models::Chain& chain, Stepper stepper, const Scaling& options) {
+models::Observation<2> run_library(const models::Chain& chain, const Options& options, Outcome& outcome) {
+  const models::Observed<2> observed = models::observed(chain.scene());
+  const Trajectory<2> trajectory = simulate(observed.scene, options);
+  outcome.statistics = trajectory.statistics();
+  outcome.memory = peak_memory_mib();
+  return observed.observe(trajectory.sample(trajectory.size() - 1));
+}
+
+models::Observation<2> run_rival(const models::Chain& chain, Contender contender, const Options& options,
+                                 Outcome& outcome) {
+  RivalRun<2> gave = bench::run(rivals(chain), contender, options);
+  outcome.statistics = gave.statistics;
+  outcome.memory = peak_memory_mib();
+  return std::move(gave.seen.back());
+}
+
+Outcome run(const models::Chain& chain, Contender contender, const Scaling& options) {
   Outcome outcome;
-  models::Observation<2> last;
-  {
-    const models::Observed<2> observed = models::observed(chain.scene());
-    const Trajectory<2> trajectory =
-        simulate(observed.scene,
-                 {.t_end = options.t_end, .samples = 2, .tolerance = options.tolerance, .stepper = stepper});
-    last = observed.observe(trajectory.sample(trajectory.size() - 1));
-    outcome.statistics = trajectory.statistics();
-    outcome.memory = peak_memory_mib();
-  }
+  Options run{.t_end = options.t_end, .samples = 2, .tolerance = options.tolerance};
+  const std::optional<Stepper> own = stepper(contender);
+  if (own) run.stepper = *own;
+  const models::Observation<2> last =
+      own ? run_library(chain, run, outcome) : run_rival(chain, contender, run, outcome);
   outcome.error = last_error(chain, options, last);
   return outcome;
 }
 
-std::vector<std::string> row(const Scaling& options, Stepper stepper, int size, const Outcome& outcome) {
+std::vector<std::string> row(const Scaling& options, Contender stepper, int size, const Outcome& outcome) {
   const Statistics& s = outcome.statistics;
   return {options.model,
           name(stepper),
@@ -87,7 +98,7 @@ int scaling(const Scaling& options) {
   int failures = 0;
   {
     Progress progress(sizes.size() * options.steppers.size());
-    for (const Stepper stepper : options.steppers) {
+    for (const Contender stepper : options.steppers) {
       for (const int size : sizes) {
         progress.next(options.model + ", " + name(stepper) + ", size " + std::to_string(size));
         Outcome outcome;
@@ -97,13 +108,17 @@ int scaling(const Scaling& options) {
           ++failures;
           std::cerr << options.model << " of " << size << ": " << failed.what() << '\n';
           outcome.statistics = failed.trajectory<2>().statistics();
+        } catch (const RivalFailure& failed) {
+          ++failures;
+          std::cerr << options.model << " of " << size << ": " << failed.what() << '\n';
         }
         table.rows.push_back(row(options, stepper, size, outcome));
       }
     }
   }
-  report("Run time and memory against size: one run each, error of the last positions", table,
-         options.report);
+  report(std::string("Run time and memory against size: one run each, error of the last positions") +
+             remark(options.steppers),
+         table, options.report);
   return failures;
 }
 

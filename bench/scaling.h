@@ -1,7 +1,7 @@
 #pragma once
 
+#include <dalembert/bench/contender.h>
 #include <dalembert/bench/report.h>
-#include <dalembert/solvers/options.h>
 
 #include <string>
 #include <vector>
@@ -14,7 +14,7 @@ inline constexpr int largest_compared = 1000;
 struct Scaling {
   std::string model = "chain";
   std::vector<int> sizes = {10, 100, 1000};  ///< run in increasing order
-  std::vector<Stepper> steppers = {Stepper::ida};
+  std::vector<Contender> steppers = {Contender::ida};
   double tolerance = 1e-6;
   double t_end = 1.0;
   ReportOptions report;

@@ -1,12 +1,13 @@
 #include "dalembert/bench/work_precision.h"
 
+#include <dalembert/bench/contest.h>
+#include <dalembert/bench/median.h>
 #include <dalembert/bench/progress.h>
+#include <dalembert/bench/rivals.h>
 #include <dalembert/models/catalogue.h>
-#include <dalembert/models/error.h>
 
 #include <algorithm>
 #include <iostream>
-#include <limits>
 
 namespace dalembert::bench {
 
@@ -33,18 +34,7 @@ const std::string& name_of(const AnyModel& model) {
   return std::visit([](const auto& m) -> const std::string& { return m.name; }, model);
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
-Measurement failure(const Statistics& so_far) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  return {.error_position = nan, .error_force = nan, .energy_drift = nan, .statistics = so_far};
-}
-
-std::vector<std::string> row(const std::string& model, Stepper stepper, double tolerance,
+std::vector<std::string> row(const std::string& model, Contender stepper, double tolerance,
                              const Measurement& m) {
   const Statistics& s = m.statistics;
   return {model,
@@ -63,51 +53,56 @@ std::vector<std::string> row(const std::string& model, Stepper stepper, double t
 
 /// One tolerance of a ladder.
 struct Rung {
-  Measurement measured;
+  Entry entry;
   std::vector<double> run_times = {};
-  bool failed = false;
 };
 
-/// The ladder of one model, added to the table; the reference is computed once.
-class Ladder {
+/// The ladders of one model, added to the table; the reference is computed once.
+class Ladders {
  public:
-  Ladder(const WorkPrecision& options, Table& table, Progress& progress)
+  Ladders(const WorkPrecision& options, Table& table, Progress& progress)
       : options_(options), table_(table), progress_(progress) {}
 
   template <int D>
   void operator()(const Model<D>& model) {
-    const auto reference = model.observations(sample_times({.t_end = model.t_end}));
-    for (const Stepper stepper : options_.steppers) {
-      std::vector<Rung> rungs(options_.tolerances.size());
-      // The whole ladder again and again, so that what disturbs the machine for a while hits each
-      // rung once and not one rung always.
-      for (int i = 1; i <= options_.repeats; ++i) {
-        progress_.next(model.name + ", " + name(stepper) + ", run " + std::to_string(i));
-        for (std::size_t k = 0; k < rungs.size(); ++k)
-          climb<D>(model, {.t_end = model.t_end, .tolerance = options_.tolerances[k], .stepper = stepper},
-                   reference, rungs[k]);
-      }
-      for (std::size_t k = 0; k < rungs.size(); ++k) {
-        if (!rungs[k].failed) rungs[k].measured.statistics.run_time = median(rungs[k].run_times);
-        table_.rows.push_back(row(model.name, stepper, options_.tolerances[k], rungs[k].measured));
-      }
+    const Contest<D> contest{model, rivals(model)};
+    const Options run{.t_end = model.t_end, .samples = options_.samples};
+    const auto reference = model.observations(sample_times(run));
+    for (const Contender stepper : options_.steppers) {
+      if (contest.admits(stepper)) climb<D>(contest, stepper, run, reference);
     }
   }
   [[nodiscard]] int failures() const { return failures_; }
 
  private:
   template <int D>
-  void climb(const Model<D>& model, const Options& run, std::span<const models::Observation<D>> reference,
-             Rung& rung) try {
-    if (rung.failed) return;
-    rung.measured = measure<D>(model, run, reference);
-    rung.run_times.push_back(rung.measured.statistics.run_time);
-  } catch (const IntegrationFailure& failed) {
-    ++failures_;
-    std::cerr << model.name << " at tolerance " << shortest_power(run.tolerance) << ": " << failed.what()
-              << '\n';
-    rung.measured = failure(failed.trajectory<D>().statistics());
-    rung.failed = true;
+  void climb(const Contest<D>& contest, Contender stepper, Options run,
+             std::span<const models::Observation<D>> reference) {
+    const std::string& model = contest.model.name;
+    std::vector<Rung> rungs(options_.tolerances.size());
+    // The whole ladder again and again, so that what disturbs the machine for a while hits each
+    // rung once and not one rung always.
+    for (int i = 1; i <= options_.repeats; ++i) {
+      progress_.next(model + ", " + name(stepper) + ", run " + std::to_string(i));
+      for (std::size_t k = 0; k < rungs.size(); ++k) {
+        if (!rungs[k].entry.failure.empty()) continue;
+        run.tolerance = options_.tolerances[k];
+        rungs[k].entry = contest.measure(stepper, run, reference);
+        rungs[k].run_times.push_back(rungs[k].entry.measured.statistics.run_time);
+      }
+    }
+    for (std::size_t k = 0; k < rungs.size(); ++k) add_row(model, stepper, options_.tolerances[k], rungs[k]);
+  }
+  void add_row(const std::string& model, Contender stepper, double tolerance, Rung& rung) {
+    Measurement& measured = rung.entry.measured;
+    if (rung.entry.failure.empty()) {
+      measured.statistics.run_time = median(rung.run_times);
+    } else {
+      ++failures_;
+      std::cerr << model << ", " << name(stepper) << " at tolerance " << shortest_power(tolerance) << ": "
+                << rung.entry.failure << '\n';
+    }
+    table_.rows.push_back(row(model, stepper, tolerance, measured));
   }
 
   const WorkPrecision& options_;
@@ -115,6 +110,20 @@ class Ladder {
   Progress& progress_;
   int failures_ = 0;
 };
+
+/// Times that a ladder will be climbed.
+std::size_t climbs(const std::vector<AnyModel>& models, const WorkPrecision& options) {
+  std::size_t count = 0;
+  for (const Contender stepper : options.steppers) {
+    for (const AnyModel& any : models)
+      count += std::visit(
+          [&](const auto& m) {
+            return Contest{m, rivals(m)}.admits(stepper) ? 1U : 0U;
+          },
+          any);
+  }
+  return count * static_cast<std::size_t>(options.repeats);
+}
 
 }  // namespace
 
@@ -136,18 +145,19 @@ std::vector<AnyModel> select_models(const std::vector<std::string>& names) {
 int work_precision(const WorkPrecision& options) {
   const std::vector<AnyModel> selected = select_models(options.models);
   for (const double tolerance : options.tolerances) validate({.t_end = 1.0, .tolerance = tolerance});
+  (void)sample_times({.t_end = 1.0, .samples = options.samples});
   require_writable(options.report);
 
   Table table{.columns = columns, .rows = {}};
   int failures = 0;
   {
-    Progress progress(selected.size() * options.steppers.size() * static_cast<std::size_t>(options.repeats));
-    Ladder ladder(options, table, progress);
-    for (const AnyModel& model : selected) std::visit(ladder, model);
-    failures = ladder.failures();
+    Progress progress(climbs(selected, options));
+    Ladders ladders(options, table, progress);
+    for (const AnyModel& model : selected) std::visit(ladders, model);
+    failures = ladders.failures();
   }
-  report("Error against run time: largest errors of 101 samples, run time the median of " +
-             std::to_string(options.repeats),
+  report("Error against run time: largest errors of " + std::to_string(options.samples) +
+             " samples, run time the median of " + std::to_string(options.repeats) + remark(options.steppers),
          table, options.report);
   return failures;
 }

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <dalembert/bench/contender.h>
 #include <dalembert/bench/report.h>
 #include <dalembert/models/model.h>
-#include <dalembert/solvers/options.h>
 
 #include <string>
 #include <vector>
@@ -10,10 +10,11 @@
 namespace dalembert::bench {
 
 struct WorkPrecision {
-  std::vector<std::string> models = {"all"};  ///< names of the catalogue, or "all"
-  std::vector<Stepper> steppers = {Stepper::ida};
+  std::vector<std::string> models = {"all"};           ///< names of the catalogue, or "all"
+  std::vector<Contender> steppers = {Contender::ida};  ///< those that a model does not have give no row
   std::vector<double> tolerances = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
-  int repeats = 3;  ///< the run time reported is the median of so many runs
+  int samples = 101;  ///< equally spaced; 2, the ends of the run, times the integration alone
+  int repeats = 3;    ///< the run time reported is the median of so many runs
   ReportOptions report;
 };
 

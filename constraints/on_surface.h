@@ -5,6 +5,18 @@
 
 namespace dalembert {
 
+namespace detail {
+/// The equation of a surface, prepared if it can be.
+template <class Surface>
+[[nodiscard]] auto prepared(const Surface& surface) {
+  if constexpr (requires { surface.prepared(); }) {
+    return surface.prepared();
+  } else {
+    return surface;
+  }
+}
+}  // namespace detail
+
 /// Keeps a point on a surface g(r) = 0 in space, given as Plane, Sphere, Cylinder, Cone or any
 /// function of position (with time in front if the surface moves).
 ///
@@ -19,10 +31,12 @@ struct OnSurface {
       "the surface has no normal there (an apex, a centre or an axis)";
   P point;
   Surface surface;
+  decltype(detail::prepared(std::declval<const Surface&>())) equation = detail::prepared(surface);
 
   auto points() const { return std::tie(point); }
-  auto operator()(const auto&... a) const requires std::is_invocable_v<const Surface&, decltype(a)...> {
-    return surface(a...);
+  auto operator()(
+      const auto&... a) const requires std::is_invocable_v<const decltype(equation)&, decltype(a)...> {
+    return equation(a...);
   }
   [[nodiscard]] std::string fault() const {
     if constexpr (requires { surface.fault(); }) return surface.fault();

@@ -8,6 +8,7 @@
 
 /// Surfaces for OnSurface, each as its signed distance: a function of position whose gradient has
 /// unit length on the surface, so that the multiplier is the normal force, positive towards g > 0.
+/// Their equation is `prepared()`, with all that does not depend on r worked out once.
 namespace dalembert {
 
 namespace detail {
@@ -45,7 +46,10 @@ struct Plane {
   Vec<D> point = Vec<D>::Zero();
   Vec<D> normal = Vec<D>::Unit(D - 1);
 
-  auto operator()(const auto& r) const { return normal.normalized().dot(r - point); }
+  [[nodiscard]] auto prepared() const {
+    return [point = point, n = Vec<D>(normal.normalized())](const auto& r) { return n.dot(r - point); };
+  }
+  auto operator()(const auto& r) const { return prepared()(r); }
   [[nodiscard]] std::string fault() const {
     return detail::first_fault(
         {detail::place_fault(point, "point"), detail::direction_fault(normal, "normal")});
@@ -73,7 +77,12 @@ struct Cylinder {
   Vec<3> axis = Vec<3>::UnitZ();
   double radius = 1.0;
 
-  auto operator()(const auto& r) const { return axis.normalized().cross(r - point).norm() - radius; }
+  [[nodiscard]] auto prepared() const {
+    return [point = point, e = Vec<3>(axis.normalized()), radius = radius](const auto& r) {
+      return e.cross(r - point).norm() - radius;
+    };
+  }
+  auto operator()(const auto& r) const { return prepared()(r); }
   [[nodiscard]] std::string fault() const {
     return detail::first_fault({detail::place_fault(point, "point"), detail::direction_fault(axis, "axis"),
                                 detail::positive_fault(radius, "radius")});
@@ -93,11 +102,14 @@ struct Cone {
   Vec<3> axis = Vec<3>::UnitZ();
   double half_angle = 0.7853981633974483;  ///< [rad], between 0 and pi/2
 
-  auto operator()(const auto& r) const {
-    const Vec<3> e = axis.normalized();
-    const auto d = (r - apex).eval();
-    return e.dot(d) * std::sin(half_angle) - e.cross(d).norm() * std::cos(half_angle);
+  [[nodiscard]] auto prepared() const {
+    return [apex = apex, e = Vec<3>(axis.normalized()), sine = std::sin(half_angle),
+            cosine = std::cos(half_angle)](const auto& r) {
+      const auto d = (r - apex).eval();
+      return e.dot(d) * sine - e.cross(d).norm() * cosine;
+    };
   }
+  auto operator()(const auto& r) const { return prepared()(r); }
   [[nodiscard]] std::string fault() const {
     if (!(half_angle > 0.0 && half_angle < 1.5707963267948966)) {
       return "half_angle = " + detail::text(half_angle) + " rad, must lie between 0 and pi/2";

@@ -1,5 +1,6 @@
 #include "dalembert/models/cone.h"
 
+#include <dalembert/models/cone_equations.h>
 #include <dalembert/models/minimal_ode.h>
 
 #include <array>
@@ -19,22 +20,11 @@ ParticleOnCone ConeSlide::scene() const {
 }
 
 std::vector<Observation<3>> ConeSlide::reference(std::span<const double> times) const {
-  const Real sine = std::sin(Real(half_angle)), cosine = std::cos(Real(half_angle));
-  const Real h = start_radius * speed_ratio * std::sqrt(Real(gravity) * start_radius);
-  const auto equations = [&](const State& y, State& y_rate) {  // y = (r, r', phi)
-    const Real r = y[0];
-    y_rate[0] = y[1];
-    y_rate[1] = sine * sine * h * h / (r * r * r) - gravity * sine * cosine;
-    y_rate[2] = h / (r * r);
-  };
+  const ConeEquations<Real> equations(*this);
+  const auto start = equations.start();
   std::vector<Observation<3>> seen;
-  integrate(equations, State{start_radius, 0, 0}, times, [&](const State& y) {
-    const Real r = y[0], phi = y[2];
-    const Vec<3> position(static_cast<double>(r * std::cos(phi)), static_cast<double>(r * std::sin(phi)),
-                          static_cast<double>(r * cosine / sine));
-    const Real normal_force = mass * (gravity * sine + h * h / (r * r * r) * cosine);
-    seen.push_back({.positions = {position}, .forces = {static_cast<double>(normal_force)}});
-  });
+  integrate(equations, State(start.begin(), start.end()), times,
+            [&](const State& y) { seen.push_back(equations.observation(y)); });
   return seen;
 }
 

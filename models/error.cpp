@@ -8,6 +8,8 @@ namespace dalembert::models {
 
 namespace {
 
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
 void require_same(std::size_t a, std::size_t b, const char* what) {
   if (a == b) return;
   throw Error("a run and its reference differ in the number of " + std::string(what) + ": " +
@@ -38,27 +40,44 @@ double position_error(const Observation<D>& a, const Observation<D>& b) {
 }
 
 template <int D>
+Measurement compare(const Model<D>& model, std::span<const Observation<D>> seen,
+                    std::span<const Observation<D>> reference) {
+  require_same(seen.size(), reference.size(), "samples");
+  Measurement m;
+  m.energy_drift = none;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    m.error_position = larger(m.error_position, position_error(seen[i], reference[i]) / model.length);
+    m.error_force = larger(m.error_force, force_error(seen[i], reference[i]) / model.force);
+  }
+  return m;
+}
+
+template <int D>
 Measurement measure(const Model<D>& model, const Options& options,
                     std::span<const Observation<D>> reference) {
   const Observed<D> observed = model.scene();
   const Trajectory<D> run = simulate(observed.scene, options);
-  require_same(run.size(), reference.size(), "samples");
   const auto conserved = [&](std::size_t i) {
-    return observed.conserved ? observed.conserved(run.sample(i)) : std::numeric_limits<double>::quiet_NaN();
+    return observed.conserved ? observed.conserved(run.sample(i)) : none;
   };
-  Measurement m;
+  std::vector<Observation<D>> seen;
+  double drift = 0.0;
   for (std::size_t i = 0; i < run.size(); ++i) {
-    const Observation<D> seen = observed.observe(run.sample(i));
-    m.error_position = larger(m.error_position, position_error(seen, reference[i]) / model.length);
-    m.error_force = larger(m.error_force, force_error(seen, reference[i]) / model.force);
-    m.energy_drift = larger(m.energy_drift, std::abs(conserved(i) - conserved(0)) / model.energy);
+    seen.push_back(observed.observe(run.sample(i)));
+    drift = larger(drift, std::abs(conserved(i) - conserved(0)) / model.energy);
   }
+  Measurement m = compare<D>(model, seen, reference);
+  m.energy_drift = drift;
   m.statistics = run.statistics();
   return m;
 }
 
 template Measurement measure(const Model<2>&, const Options&, std::span<const Observation<2>>);
 template Measurement measure(const Model<3>&, const Options&, std::span<const Observation<3>>);
+template Measurement compare(const Model<2>&, std::span<const Observation<2>>,
+                             std::span<const Observation<2>>);
+template Measurement compare(const Model<3>&, std::span<const Observation<3>>,
+                             std::span<const Observation<3>>);
 template double position_error(const Observation<2>&, const Observation<2>&);
 template double position_error(const Observation<3>&, const Observation<3>&);
 

@@ -28,12 +28,21 @@ template <int D>
   return measure<D>(model, options, model.observations(sample_times(options)));
 }
 
+/// The errors alone, of observations that came from anywhere; the drift is NaN.
+template <int D>
+[[nodiscard]] Measurement compare(const Model<D>& model, std::span<const Observation<D>> seen,
+                                  std::span<const Observation<D>> reference);
+
 /// Largest distance between the positions of two observations of the same points [length].
 template <int D>
 [[nodiscard]] double position_error(const Observation<D>& a, const Observation<D>& b);
 
 extern template Measurement measure(const Model<2>&, const Options&, std::span<const Observation<2>>);
 extern template Measurement measure(const Model<3>&, const Options&, std::span<const Observation<3>>);
+extern template Measurement compare(const Model<2>&, std::span<const Observation<2>>,
+                                    std::span<const Observation<2>>);
+extern template Measurement compare(const Model<3>&, std::span<const Observation<3>>,
+                                    std::span<const Observation<3>>);
 extern template double position_error(const Observation<2>&, const Observation<2>&);
 extern template double position_error(const Observation<3>&, const Observation<3>&);
 

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <dalembert/bench/rival.h>
+#include <dalembert/models/error.h>
+
+#include <string>
+
+namespace dalembert::bench {
+
+/// What one run gave. If it failed, `failure` says why, and the errors are NaN.
+struct Entry {
+  models::Measurement measured;
+  std::string failure = {};
+};
+
+/// A model and all that can integrate it.
+template <int D>
+struct Contest {
+  models::Model<D> model;
+  Rivals<D> rivals = {};
+
+  [[nodiscard]] bool admits(Contender contender) const {
+    return stepper(contender) || rivals.contains(contender);
+  }
+  /// Runs one of them, whatever stepper the options name, and compares with `reference`, the observations
+  /// of the model at sample_times(options).
+  [[nodiscard]] Entry measure(Contender contender, Options options,
+                              std::span<const models::Observation<D>> reference) const;
+};
+
+extern template struct Contest<2>;
+extern template struct Contest<3>;
+
+}  // namespace dalembert::bench

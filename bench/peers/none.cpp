@@ -1,0 +1,8 @@
+#include "dalembert/bench/peers/peers.h"
+
+namespace dalembert::bench {
+
+std::vector<Contender> peers() { return {}; }
+Rivals<2> peers(double, const std::vector<models::RodAndBead>&) { return {}; }
+
+}  // namespace dalembert::bench
