@@ -220,6 +220,7 @@ struct Integrator::State {
     std::ostringstream what;
     what.precision(10);
     what << "Scene \"" << record.layout->scene << "\" stopped at t = " << time << ": " << why;
+    if (!kept->statistics.advice.empty()) what << "; " << kept->statistics.advice;
     throw IntegrationFailure(what.str(), time, std::move(kept));
   }
 

@@ -15,6 +15,9 @@ constexpr double newton_tolerance = 0.1;
 
 /// Steps longer than this over a force's own rate do not follow its vibration.
 constexpr double unresolved = 0.45;
+/// A force that would vibrate so often in the scene's own time is stiff: round-off in the positions times
+/// its stiffness disturbs the velocities.
+constexpr double stiff_rate = 1000.0;
 
 }  // namespace
 
@@ -87,10 +90,9 @@ std::string IdaStepper::State::advice() const {
          "1/stiffness, as in compliant(Distance{a, b, length}, 1.0 / stiffness)";
 }
 
-/// What stopped IDA, with advice if a stiff force may have.
-std::string IdaStepper::State::explain_all(int code) const {
-  const bool stiff = 2 * unresolved_steps > steps && steps > 0;
-  return stiff ? explain(code) + " (" + advice() + ')' : explain(code);
+/// Whether most steps were longer than the vibration of a force, or shorter because of it.
+bool IdaStepper::State::has_stiff_force() const {
+  return 2 * unresolved_steps > steps || newton.fastest_of_forces() * scales.time > stiff_rate;
 }
 
 /// After a step: changes the highest order if the guard says so. IDA has no way down but to begin anew
@@ -129,7 +131,7 @@ void IdaStepper::step(double /*wanted*/) {
   if (s.order_changed) s.change_order();
   const double before = s.t;
   const int code = IDASolve(s.ida.get(), s.t_end, &s.t, s.y.get(), s.yp.get(), IDA_ONE_STEP);
-  if (code < 0) throw StepFailure{s.explain_all(code), s.t, code == IDA_CONV_FAIL || code == IDA_LSETUP_FAIL};
+  if (code < 0) throw StepFailure{s.explain(code), s.t, code == IDA_CONV_FAIL || code == IDA_LSETUP_FAIL};
   ++s.steps;
   // In front of a fault IDA would halve and double such steps for ever.
   if (code == IDA_SUCCESS && s.t - before <= 4.0 * std::numeric_limits<double>::epsilon() * std::abs(s.t)) {
@@ -185,7 +187,7 @@ void IdaStepper::count(Statistics& statistics) const {
   statistics.linear_algebra = s.newton.method();
   statistics.error_test_failures += error_tests;
   statistics.convergence_failures += convergence;
-  if (2 * s.unresolved_steps > s.steps) statistics.advice = s.advice();
+  if (s.steps > 0 && s.has_stiff_force()) statistics.advice = s.advice();
 }
 
 }  // namespace dalembert

@@ -126,7 +126,9 @@ void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
     w[n() + i] = 1.0 / (tolerance * (scale / scales.time + std::abs(value[n() + i])));
   }
   for (std::size_t r = 0; r < m(); ++r) {
-    w[2 * n() + r] = h / (tolerance * impulse_row[r]);
+    // Of a multiplier far larger than its own masses explain (a heavy load on a light link) no more
+    // digits than the tolerance asks for.
+    w[2 * n() + r] = h / (tolerance * (impulse_row[r] + h * std::abs(value[2 * n() + r])));
     if (r < m_holonomic()) w[2 * n() + m() + r] = h / (tolerance * impulse_row[r] * scales.time);
   }
 }

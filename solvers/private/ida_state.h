@@ -73,7 +73,7 @@ struct IdaStepper::State {
     fault = std::move(what);
   }
   [[nodiscard]] std::string explain(int code) const;
-  [[nodiscard]] std::string explain_all(int code) const;
+  [[nodiscard]] bool has_stiff_force() const;
   [[nodiscard]] std::string advice() const;
   [[nodiscard]] std::string fault_or(const char* otherwise) const {
     return !fault.empty() && fault_time >= t ? fault : otherwise;

@@ -30,7 +30,6 @@ NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows)
       islands_(islands(system)),
       needs_k1_(static_cast<std::size_t>(islands_.count), 0),
       stiff_(needs_k1_),
-      coupled_(system.compliant() || (rows.holonomic > 0 && rows.holonomic < rows.size())),
       linear_(system.linearisation()),
       w_(system.w_columns().size()),
       lower_(w_.size()),
@@ -100,7 +99,6 @@ void NewtonMatrix::find_fastest_vibration() {
   double square = 0.0;
   for (std::size_t k = first_force_entry_; k < linear_.stiffness.size(); ++k) {
     const auto row = static_cast<std::size_t>(system_->stiffness_pattern()[k].row);
-    if (!stiff_[static_cast<std::size_t>(islands_.of_coordinate[row])]) continue;
     const double own = std::abs(linear_.stiffness[k]) / system_->masses()[row];
     if (own > square) stiffest_ = k;
     square = std::max(square, own);
@@ -220,6 +218,15 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
   k2_.solve(x2_);
 }
 
+/// How often to eliminate again with the dmu of the last time.
+int NewtonMatrix::repetitions() const {
+  if (!k1_in_use_) return 0;
+  if (system_->compliant()) return 2;
+  const bool mixed = rows_.holonomic > 0 && rows_.holonomic < rows_.size();
+  const bool damped = rows_.holonomic > 0 && !linear_.damping.empty();
+  return mixed || damped ? 1 : 0;
+}
+
 void NewtonMatrix::solve(double c, std::span<double> b) {
   const auto n = static_cast<std::size_t>(system_->coordinates());
   const auto m = static_cast<std::size_t>(rows_.size());
@@ -227,8 +234,7 @@ void NewtonMatrix::solve(double c, std::span<double> b) {
   for (std::size_t i = 0; i < n; ++i) p_[i] = b[i] / system_->masses()[i];
   std::ranges::fill(dmu_, 0.0);
   eliminate(c, b);
-  const int passes = coupled_ ? (system_->compliant() ? 2 : 1) : 0;
-  for (int pass = 0; pass < passes; ++pass) {
+  for (int more = repetitions(); more > 0; --more) {
     for (std::size_t i = 0; i < n; ++i) p_[i] = x2_[i] - c * x1_[i];
     for (std::size_t r = 0; r < m_holonomic; ++r) dmu_[r] = -x2_[n + r];  // the matrix of (7) has -G^T
     eliminate(c, b);

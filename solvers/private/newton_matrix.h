@@ -37,12 +37,12 @@ namespace dalembert {
 ///
 /// Two systems of n + m instead of one of 2n + m + m_holonomic.
 ///
-/// At first dmu is neglected in (5) and (6). In D p that does no harm. Elsewhere it does: in A p where
-/// nonholonomic rows meet holonomic ones (A M^-1 G^T not 0), and in C dmu. A predictor leaves the manifold
-/// by c b4 - b3, dmu is as large, and each iteration would mend that error of the last in the multipliers
-/// by one as large. There (5) to (7) are solved a second time with the dmu and p of the first, which
-/// leaves of the error a part of order psi_q/c. (With C dlambda = C (dnu - c dmu) and the same dmu in (6)
-/// and (7), the matrix of (7) is that of a rigid scene.)
+/// At first dmu is neglected in (5) and (6). A predictor leaves the manifold by c b4 - b3, dmu is as
+/// large, and neglecting it does harm where it is multiplied by much: in D p where damping is strong, in
+/// A p where nonholonomic rows meet holonomic ones (A M^-1 G^T not 0), in C dmu. Each iteration would mend that
+/// error of the last in the multipliers by one as large. There (5) to (7) are solved again with the dmu and p
+/// found, which leaves of the error a part of order psi_q/c; with C a third time. (With C dlambda =
+/// C (dnu - c dmu) and the same dmu in (6) and (7), the matrix of (7) is that of a rigid scene.)
 ///
 /// Where forces are soft against the inertia that a step feels, |H|/c^2 + |D|/c small against M, H and D
 /// are left out. Where besides no row is nonholonomic or compliant, both matrices are the same, nothing in
@@ -95,6 +95,7 @@ class NewtonMatrix {
   void leave_out_soft_forces();
   void include(const std::vector<char>& islands);
   [[nodiscard]] bool factorise_stiff(double c);
+  [[nodiscard]] int repetitions() const;
   void eliminate(double c, std::span<const double> b);
 
   const System* system_;
@@ -102,7 +103,6 @@ class NewtonMatrix {
   Islands islands_;
   std::vector<char> needs_k1_;  // per island: nonholonomic or compliant rows
   std::vector<char> stiff_;     // per island: forces that a step feels
-  bool coupled_;                // dmu must not be neglected
   System::Linearisation linear_;
   std::vector<double> w_, lower_, s_;
   std::optional<Stiff> k1_;
