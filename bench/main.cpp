@@ -1,3 +1,4 @@
+#include <dalembert/bench/extremes.h>
 #include <dalembert/bench/leave_out.h>
 #include <dalembert/bench/own_constraint.h>
 #include <dalembert/bench/ratios.h>
@@ -10,6 +11,7 @@
 
 #include <iostream>
 #include <map>
+#include <memory>
 
 namespace {
 
@@ -49,100 +51,131 @@ void add_contenders(CLI::App& command, std::vector<bench::Contender>& steppers) 
       ->transform(CLI::CheckedTransformer(known).description("{" + names + "}"));
 }
 
-}  // namespace
+/// Each command keeps its options and runs when CLI11 has parsed them; `failures` is what went wrong.
+void add_list(CLI::App& app) {
+  app.add_subcommand("list", "Name, lecture notes' number and reference of every model")->callback(list);
+}
 
-int main(int argc, char** argv) try {
-  CLI::App app{"Benchmarks of dalembert"};
-  app.require_subcommand(1);
-
-  CLI::App* listing = app.add_subcommand("list", "Name, lecture notes' number and reference of every model");
-
-  bench::WorkPrecision ladder;
-  CLI::App* work_precision = app.add_subcommand(
+void add_work_precision(CLI::App& app, int& failures) {
+  const auto options = std::make_shared<bench::WorkPrecision>();
+  CLI::App* command = app.add_subcommand(
       "work-precision",
       "Errors of motion and of forces of constraint against run time, over a ladder of tolerances");
-  work_precision->add_option("--model", ladder.models, "all, or names as in `list`")
+  command->add_option("--model", options->models, "all, or names as in `list`")
       ->delimiter(',')
       ->capture_default_str();
-  add_contenders(*work_precision, ladder.steppers);
-  work_precision->add_option("--tolerance", ladder.tolerances, "Between 1e-13 and 0.1")
+  add_contenders(*command, options->steppers);
+  command->add_option("--tolerance", options->tolerances, "Between 1e-13 and 0.1")
       ->delimiter(',')
       ->capture_default_str();
-  work_precision->add_option("--repeat", ladder.repeats, "Runs of which the median time counts")
+  command->add_option("--repeat", options->repeats, "Runs of which the median time counts")
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
-  work_precision
-      ->add_option("--samples", ladder.samples,
+  command
+      ->add_option("--samples", options->samples,
                    "Equally spaced, at which errors are taken; 2, the ends, times the integration alone")
       ->capture_default_str();
-  add_report_options(*work_precision, ladder.report);
+  add_report_options(*command, options->report);
+  command->callback([options, &failures] { failures = bench::work_precision(*options); });
+}
 
-  bench::Scaling sizes;
-  CLI::App* scaling = app.add_subcommand("scaling", "Run time and peak memory against the size of a scene");
-  scaling->add_option("--model", sizes.model, "chain")->capture_default_str();
-  scaling
-      ->add_option("--size", sizes.sizes,
+void add_scaling(CLI::App& app, int& failures) {
+  const auto options = std::make_shared<bench::Scaling>();
+  CLI::App* command = app.add_subcommand("scaling", "Run time and peak memory against the size of a scene");
+  command->add_option("--model", options->model, "chain")->capture_default_str();
+  command
+      ->add_option("--size", options->sizes,
                    "Beads; up to " + std::to_string(bench::largest_compared) +
                        " the error is that of the last positions, above it is nan")
       ->delimiter(',')
       ->check(CLI::Range(1, 100'000'000))
       ->capture_default_str();
-  add_contenders(*scaling, sizes.steppers);
-  scaling->add_option("--tolerance", sizes.tolerance, "Between 1e-13 and 0.1")->capture_default_str();
-  scaling->add_option("--t-end", sizes.t_end, "Length of the run [s]")->capture_default_str();
-  add_report_options(*scaling, sizes.report);
+  add_contenders(*command, options->steppers);
+  command->add_option("--tolerance", options->tolerance, "Between 1e-13 and 0.1")->capture_default_str();
+  command->add_option("--t-end", options->t_end, "Length of the run [s]")->capture_default_str();
+  add_report_options(*command, options->report);
+  command->callback([options, &failures] { failures = bench::scaling(*options); });
+}
 
-  bench::OwnConstraint own;
-  CLI::App* own_constraint = app.add_subcommand(
+void add_own_constraint(CLI::App& app) {
+  const auto options = std::make_shared<bench::OwnConstraint>();
+  CLI::App* command = app.add_subcommand(
       "own-constraint", "Run time of a chain whose rods are a user's lambdas against one of Distances");
-  own_constraint->add_option("--size", own.beads, "Beads")->check(CLI::PositiveNumber)->capture_default_str();
-  own_constraint->add_option("--repeat", own.repeats, "Pairs of runs of which the median ratio counts")
+  command->add_option("--size", options->beads, "Beads")->check(CLI::PositiveNumber)->capture_default_str();
+  command->add_option("--repeat", options->repeats, "Pairs of runs of which the median ratio counts")
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
-  add_steppers(*own_constraint, own.steppers);
-  add_report_options(*own_constraint, own.report);
+  add_steppers(*command, options->steppers);
+  add_report_options(*command, options->report);
+  command->callback([options] { bench::own_constraint(*options); });
+}
 
-  bench::LeaveOut without;
-  CLI::App* leave_out = app.add_subcommand(
+void add_leave_out(CLI::App& app, int& failures) {
+  const auto options = std::make_shared<bench::LeaveOut>();
+  CLI::App* command = app.add_subcommand(
       "leave-out", "Run time of scenes stated in full against the same motion without what it does not need");
-  leave_out->add_option("--size", without.size, "Beads of the chains, and number of islands")
+  command->add_option("--size", options->size, "Beads of the chains, and number of islands")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
-  leave_out->add_option("--repeat", without.repeats, "Pairs of runs of which the median times count")
+  command->add_option("--repeat", options->repeats, "Pairs of runs of which the median times count")
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
-  leave_out->add_option("--tolerance", without.tolerance, "Between 1e-13 and 0.1")->capture_default_str();
-  add_steppers(*leave_out, without.steppers);
-  add_report_options(*leave_out, without.report);
-  bench::Ratios race;
-  CLI::App* ratios = app.add_subcommand(
+  command->add_option("--tolerance", options->tolerance, "Between 1e-13 and 0.1")->capture_default_str();
+  add_steppers(*command, options->steppers);
+  add_report_options(*command, options->report);
+  command->callback([options, &failures] { failures = bench::leave_out(*options); });
+}
+
+void add_ratios(CLI::App& app) {
+  const auto options = std::make_shared<bench::Ratios>();
+  CLI::App* command = app.add_subcommand(
       "ratios", "Time to reach an error at the end of a run, against code derived by hand and against peers");
-  ratios->add_option("--scene", race.scenes, "all, or some of " + bench::known_scenes())
+  command->add_option("--scene", options->scenes, "all, or some of " + bench::known_scenes())
       ->delimiter(',')
       ->capture_default_str();
-  add_contenders(*ratios, race.steppers);
-  ratios->add_option("--error", race.errors, "Of position, relative to the system's length")
+  add_contenders(*command, options->steppers);
+  command->add_option("--error", options->errors, "Of position, relative to the system's length")
       ->delimiter(',')
       ->check(CLI::Range(1e-10, 1e-2))
       ->capture_default_str();
-  ratios->add_option("--repeat", race.repeats, "Rounds, of which the median time counts")
+  command->add_option("--repeat", options->repeats, "Rounds, of which the median time counts")
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
-  ratios
-      ->add_option("--limit", race.limit,
+  command
+      ->add_option("--limit", options->limit,
                    "A stepper whose run took longer than this [s] is not tried at tighter tolerances")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  add_report_options(*ratios, race.report);
+  add_report_options(*command, options->report);
+  command->callback([options] { bench::ratios(*options); });
+}
 
-  CLI11_PARSE(app, argc, argv);
+void add_extremes(CLI::App& app, int& failures) {
+  const auto options = std::make_shared<bench::Extremes>();
+  CLI::App* command = app.add_subcommand(
+      "extremes", "Stiff, extreme and hostile scenes: error against its limit, or the refusal that is due");
+  command->add_option("--case", options->cases, "all, or names as in the table")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_flag("--quick", options->quick, "Only the part of each sweep that takes seconds");
+  add_report_options(*command, options->report);
+  command->callback([options, &failures] { failures = bench::extremes(*options); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  CLI::App app{"Benchmarks of dalembert"};
+  app.require_subcommand(1);
   int failures = 0;
-  if (*listing) list();
-  if (*work_precision) failures = bench::work_precision(ladder);
-  if (*own_constraint) bench::own_constraint(own);
-  if (*leave_out) failures = bench::leave_out(without);
-  if (*ratios) bench::ratios(race);
-  if (*scaling) failures = bench::scaling(sizes);
+  add_list(app);
+  add_work_precision(app, failures);
+  add_scaling(app, failures);
+  add_own_constraint(app);
+  add_leave_out(app, failures);
+  add_ratios(app);
+  add_extremes(app, failures);
+  CLI11_PARSE(app, argc, argv);
   return failures == 0 ? 0 : 1;
 } catch (const std::exception& error) {
   std::cerr << "dalembert-bench: " << error.what() << '\n';

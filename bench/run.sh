@@ -5,12 +5,13 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 case ${1:-} in
   '')
-    work_precision=(--repeat 5) scaling=(--size 10,100,1000,10000) ratios=() leave_out=()
+    work_precision=(--repeat 5) scaling=(--size 10,100,1000,10000) ratios=() leave_out=() extremes=()
     kernels=(--benchmark_min_time=0.2)
     ;;
   --quick)
     work_precision=(--repeat 1 --tolerance 1e-4,1e-6,1e-8) scaling=(--size 10,100)
     ratios=(--scene plane-pendulum,cone,double-pendulum --repeat 1) leave_out=(--size 10 --repeat 1)
+    extremes=(--quick)
     kernels=(--benchmark_min_time=0.001)
     ;;
   *) echo "usage: bench/run.sh [--quick]" >&2 && exit 2 ;;
@@ -34,6 +35,11 @@ $bench ratios --csv $report/ratios.csv "${ratios[@]}"
 
 $bench scaling --stepper ida,erk,hand --tolerance 1e-5 --t-end 0.05 --csv $report/scaling.csv "${scaling[@]}"
 
+# A row that is neither right nor rightly refused fails the report, but not before all of it is there.
+edges=0
+$bench extremes --csv $report/extremes.csv "${extremes[@]}" || edges=$?
+gnuplot -e "csv='$report/extremes.csv'; report='$report'" bench/extremes.gp
+
 $bench own-constraint --csv $report/own-constraint.csv
 
 $bench leave-out --stepper ida,erk --csv $report/leave-out.csv "${leave_out[@]}"
@@ -43,3 +49,4 @@ kernels_bench=build/release/bench/dalembert-kernels # not built where Google Ben
   $kernels_bench --benchmark_out=$report/kernels.json --benchmark_out_format=json "${kernels[@]}"
 
 echo "Report in $report/:" $report/*
+exit $edges

@@ -24,6 +24,7 @@ void Record::append(const FlatSample& sample) {
 void Record::clear() {
   times.clear();
   values.clear();
+  unique.clear();
 }
 
 FlatSample Record::sample(std::size_t i) const {

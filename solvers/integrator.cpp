@@ -310,7 +310,15 @@ std::shared_ptr<const Record> Integrator::run() {
   s.record.clear();
   s.record.reserve(s.times.size(), s.sample());
   run([&s](const FlatSample& sample) { s.record.append(sample); });
-  auto record = std::make_shared<Record>(s.record);
+  // The samples are handed over, not copied: they may be most of the memory.
+  auto record = std::make_shared<Record>(std::move(s.record));
+  s.record = {.layout = record->layout,
+              .stepper = record->stepper,
+              .tolerance = record->tolerance,
+              .times = {},
+              .values = {},
+              .unique = {},
+              .statistics = record->statistics};
   record->statistics = s.statistics();
   return record;
 }

@@ -96,16 +96,17 @@ double smallest_radius(const System& system, const Instant& at, const System::Ev
 }
 
 /// The length of the scene: the box around its points; for a lone particle on a surface or curve
-/// the radius of curvature; for a free one the radius of its path, or how far it gets.
+/// the radius of curvature, unless it is so flat that the particle never gets that far; for a free one the
+/// radius of its path, or how far it gets.
 double length_scale(const System& system, const Instant& at, const System::Evaluation& e, double duration) {
   if (system.extent() > 0.0) return system.extent();
   const double radius = smallest_radius(system, at, e);
-  if (std::isfinite(radius)) return radius;
   const auto lengths = lengths_only(system);
   const double v = largest_scaled(at.v, lengths);
   const double a = largest_scaled(forced_acceleration(system, e), lengths);
-  if (v > 0.0 && a > 0.0) return v * v / a;
   const double distance = v * duration + a * duration * duration;
+  if (std::isfinite(radius)) return distance > 0.0 ? std::min(radius, distance) : radius;
+  if (v > 0.0 && a > 0.0) return v * v / a;
   return distance > 0.0 ? distance : 1.0;  // nothing moves: any length will do
 }
 

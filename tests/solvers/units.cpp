@@ -100,5 +100,26 @@ TEST(Units, TheOriginIsOfNoAccount) {
   expect_as_many(steps(hung_at(1000.0), 3.0), steps(hung_at(0.0), 3.0));
 }
 
+// Two slopes of 45 degrees meet in an arc of 1e-6 m; where the bead is let go, at x = 1, the curve's radius
+// is 1e12 m, which it never sees. It slides sqrt 2 at g/sqrt 2 in 2/sqrt g and as far up again, but for what
+// the arc takes, 1e-6 ln 1e6. The scene is as long as its weight could carry it, g t^2 = 16, in at most 1000
+// steps.
+TEST(Units, ARadiusFarBeyondTheWayOfABeadIsNotItsLength) {
+  constexpr double tolerance = 1e-8, arc = 1e-6;
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -9.81}});
+  const auto bead = scene.add_particle({.mass = 1.0, .position = {1.0, 1.0}});
+  scene.add(OnCurve{bead, [](auto r) {
+                      using std::sqrt;
+                      return r.y() - sqrt(r.x() * r.x() + arc * arc);
+                    }});
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    const auto run =
+        simulate(scene, {.t_end = 4.0 / std::sqrt(9.81), .tolerance = tolerance, .stepper = stepper});
+    EXPECT_NEAR(run.position(bead, run.size() - 1).x(), -1.0, 1000.0 * 16.0 * tolerance + 14.0 * arc);
+    EXPECT_LE(run.statistics().steps, 1000);
+  }
+}
+
 }  // namespace
 }  // namespace dalembert

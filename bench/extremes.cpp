@@ -1,0 +1,76 @@
+#include "dalembert/bench/extremes.h"
+
+#include <dalembert/bench/extremes/case.h>
+#include <dalembert/bench/progress.h>
+
+#include <algorithm>
+#include <iostream>
+
+namespace dalembert::bench {
+
+namespace {
+
+using extremes::Case;
+using extremes::Verdict;
+
+const std::vector<std::string> columns = {"case",  "parameter", "stepper",    "outcome",
+                                          "error", "steps",     "run_time_s", "limit"};
+
+std::vector<Case> select(const std::vector<std::string>& names) {
+  std::vector<Case> all;
+  for (extremes::Group& group : extremes::groups()) std::ranges::move(group.cases, std::back_inserter(all));
+  if (std::ranges::find(names, "all") != names.end()) return all;
+  for (const std::string& name : names) {
+    if (std::ranges::find(all, name, &Case::name) != all.end()) continue;
+    std::string known;
+    for (const Case& c : all) known += ' ' + c.name;
+    throw Error("no case \"" + name + "\"; there are: all" + known);
+  }
+  std::erase_if(all, [&](const Case& c) { return std::ranges::find(names, c.name) == names.end(); });
+  return all;
+}
+
+std::vector<std::string> row(const Case& extreme, double parameter, Stepper stepper, const Verdict& v) {
+  const Statistics& s = v.result.statistics;
+  return {extreme.name,           shortest_power(parameter),  name(stepper),
+          v.result.outcome,       scientific(v.result.error), std::to_string(s.steps),
+          scientific(s.run_time), scientific(v.limit)};
+}
+
+/// What went wrong, for a reader at the terminal.
+void complain(const Case& extreme, double parameter, Stepper stepper, const Verdict& v) {
+  std::cerr << extreme.name << ", " << extreme.parameter << " = " << shortest(parameter) << ", "
+            << name(stepper) << ": error " << scientific(v.result.error) << ", limit " << scientific(v.limit);
+  if (!v.result.said.empty()) std::cerr << ": " << v.result.said;
+  std::cerr << '\n';
+}
+
+}  // namespace
+
+int extremes(const Extremes& options) {
+  const std::vector<Case> cases = select(options.cases);
+  require_writable(options.report);
+  Table table{.columns = columns, .rows = {}};
+  int failures = 0;
+  {
+    Progress progress(cases.size());
+    for (const Case& extreme : cases) {
+      progress.next(extreme.name);
+      for (const Stepper stepper : extreme.steppers) {
+        for (const double parameter : options.quick ? extreme.brief : extreme.sweep) {
+          const Verdict verdict = extremes::judge(extreme, parameter, stepper);
+          table.rows.push_back(row(extreme, parameter, stepper, verdict));
+          if (verdict.right) continue;
+          complain(extreme, parameter, stepper, verdict);
+          ++failures;
+        }
+      }
+    }
+  }
+  report("Extremes: error within the limit, or the refusal that is due; " + std::to_string(failures) +
+             " rows are neither",
+         table, options.report);
+  return failures;
+}
+
+}  // namespace dalembert::bench

@@ -1,0 +1,162 @@
+#include <dalembert/bench/extremes/bounds.h>
+#include <dalembert/models/chain.h>
+#include <dalembert/models/plane_pendulum.h>
+
+#include <malloc.h>
+
+#include <cmath>
+
+namespace dalembert::extremes {
+
+namespace {
+
+/// What a run of 10,000 periods loses of energy and of phase.
+struct Drift {
+  double energy = 0.0;  ///< over m g l
+  double position = 0.0;
+  Statistics statistics{};
+};
+
+constexpr double periods = 10'000.0;
+
+Drift drift(double tolerance, Stepper stepper) {
+  const models::PlanePendulum pendulum{};
+  models::HangingRods built = pendulum.scene();
+  Drift d;
+  d.statistics = simulate(built.scene,
+                          {.t_end = periods * pendulum.period(),
+                           .samples = 101,
+                           .tolerance = tolerance,
+                           .stepper = stepper,
+                           .max_steps = 100'000'000},
+                          [&](const Sample<2>& sample) {
+                            const Vec<2> exact = pendulum.reference(sample.time()).positions[0];
+                            d.position = larger(d.position, (sample.position(built.beads[0]) - exact).norm());
+                            d.energy = larger(d.energy, std::abs(sample.energy()) / 9.81);  // 0 at the start
+                          });
+  return d;
+}
+
+/// In a step energy errs by force times error of position plus momentum times error of velocity: with T =
+/// sqrt(l/g) and v <= 1.5 l/T by at most 2.5 of those in m g l.
+Case energy_drift() {
+  return {.name = "energy-drift",
+          .parameter = "tolerance, over 10,000 periods of a pendulum",
+          .sweep = {1e-4, 1e-6, 1e-8, 1e-10},
+          .brief = {},
+          .run =
+              [](double tolerance, Stepper stepper) {
+                const Drift d = drift(tolerance, stepper);
+                return Result{.error = d.energy, .statistics = d.statistics};
+              },
+          .limit = [](const Run& run) { return 2.5 * added_up(run, run.parameter, 0.0); }};
+}
+
+/// An error of velocity displaces a pendulum by as much in every own time that is left, as it would any free
+/// mass.
+Case phase_drift() {
+  return {.name = "phase-drift",
+          .parameter = "tolerance, over 10,000 periods of a pendulum",
+          .sweep = {1e-8, 1e-10, 1e-12},
+          .brief = {},
+          .run =
+              [](double tolerance, Stepper stepper) {
+                const Drift d = drift(tolerance, stepper);
+                return Result{.error = d.position, .statistics = d.statistics};
+              },
+          .limit =
+              [](const Run& run) {
+                return added_up(run, run.parameter,
+                                periods * models::PlanePendulum{}.period() * std::sqrt(9.81));
+              }};
+}
+
+/// Ten radians of the chain's fastest vibration, 2 N sqrt(g/length); its own time is sqrt(l/g). Of a chain
+/// let go from horizontal little has moved by then, and what has is compared.
+Case long_chain() {
+  constexpr double tolerance = 1e-6;
+  const auto t_end = [](double beads) { return 10.0 / (2.0 * beads * std::sqrt(9.81)); };
+  return {
+      .name = "long-chain",
+      .parameter = "beads of a chain",
+      .sweep = {1e3, 1e4, 1e5},
+      .brief = {1e3},
+      .run =
+          [=](double beads, Stepper stepper) {
+            const models::Chain chain{.beads = static_cast<int>(beads)};
+            const Options options{
+                .t_end = t_end(beads), .samples = 3, .tolerance = tolerance, .stepper = stepper};
+            const auto reference = chain.reference(sample_times(options), 1e-10L);
+            const models::Measurement m = models::measure<2>(chain.model(), options, reference);
+            return Result{.error = m.error_position, .statistics = m.statistics};
+          },
+      .limit =
+          [=](const Run& run) { return added_up(run, tolerance, t_end(run.parameter) * std::sqrt(9.81)); }};
+}
+
+/// Bytes that this process has allocated.
+double allocated() {
+  const struct mallinfo2 info = mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd);
+}
+
+/// q, v, lambda, two constraint forces, energy and time of a pendulum.
+constexpr double bytes_per_sample = (2 + 2 + 1 + 2 + 1 + 1) * sizeof(double);
+
+/// Short steps of time, so that output is what takes the memory.
+Options many(double samples, Stepper stepper) {
+  return {.t_end = 10.0, .samples = static_cast<int>(samples), .tolerance = 1e-6, .stepper = stepper};
+}
+
+/// Memory in use at its most during a run that hands its samples on, over what all samples would take: their
+/// times alone are kept, one number of nine, twice while they are handed over.
+Case streamed_samples() {
+  return {.name = "streamed-samples",
+          .parameter = "samples handed on: memory over that of the output",
+          .sweep = {1e4, 1e5, 1e6},
+          .brief = {1e5},
+          .run =
+              [](double samples, Stepper stepper) {
+                models::HangingRods built = models::PlanePendulum{}.scene();
+                const double before = allocated();
+                double most = 0.0;
+                long seen = 0;
+                const Statistics statistics =
+                    simulate(built.scene, many(samples, stepper), [&](const Sample<2>& sample) {
+                      if (seen++ % 1000 == 0)
+                        most = larger(most, allocated() - before + 0.0 * sample.energy());
+                    });
+                const bool all = static_cast<double>(seen) == samples;
+                return Result{.error = all ? most / (samples * bytes_per_sample) : infinite,
+                              .statistics = statistics};
+              },
+          // Besides, the run itself holds less than 300 kB.
+          .limit = [](const Run& run) { return 2.0 / 9.0 + 3e5 / (run.parameter * bytes_per_sample); }};
+}
+
+/// What a kept run leaves behind and what it holds besides: the times that were asked for.
+Case kept_samples() {
+  return {.name = "kept-samples",
+          .parameter = "samples kept: memory at the end over that of the output",
+          .sweep = {1e4, 1e5, 1e6},
+          .brief = {1e5},
+          .run =
+              [](double samples, Stepper stepper) {
+                models::HangingRods built = models::PlanePendulum{}.scene();
+                const double before = allocated();
+                Simulation<2> simulation(built.scene, many(samples, stepper));
+                const Trajectory<2> run = simulation.run();
+                const bool all = static_cast<double>(run.size()) == samples;
+                return Result{.error = all ? (allocated() - before) / (samples * bytes_per_sample) : infinite,
+                              .statistics = run.statistics()};
+              },
+          .limit = [](const Run& run) { return 1.0 + 2.0 / 9.0 + 3e5 / (run.parameter * bytes_per_sample); }};
+}
+
+}  // namespace
+
+std::vector<Case> length() {
+  return {energy_drift(), phase_drift(), long_chain(), streamed_samples(), kept_samples()};
+}
+
+}  // namespace dalembert::extremes

@@ -1,0 +1,33 @@
+#include <dalembert/bench/extremes/case.h>
+
+#include <gtest/gtest.h>
+
+namespace dalembert::extremes {
+namespace {
+
+/// Every case of a group over the short part of its sweep: within its limit, or refused as is due.
+void expect_right(const std::vector<Case>& cases) {
+  for (const Case& extreme : cases) {
+    for (const Stepper stepper : extreme.steppers) {
+      for (const double parameter : extreme.brief) {
+        const Verdict v = judge(extreme, parameter, stepper);
+        EXPECT_TRUE(v.right) << extreme.name << ", " << extreme.parameter << " = " << parameter << ", "
+                             << name(stepper) << ": " << v.result.outcome << ", error " << v.result.error
+                             << ", limit " << v.limit << ' ' << v.result.said;
+      }
+    }
+  }
+}
+
+TEST(Extremes, StiffScenesAreRightOrToldToBeTooStiff) { expect_right(stiffness()); }
+TEST(Extremes, LargeRatiosOfMassAndLengthAreRight) { expect_right(ratios()); }
+TEST(Extremes, MotionsCloseToSingularOnesAreRight) { expect_right(near_singular()); }
+TEST(Extremes, LinkagesPassTheirSingularPositions) { expect_right(linkages()); }
+TEST(Extremes, FastAndBrokenDrivesAreFollowed) { expect_right(driving()); }
+TEST(Extremes, LongRunsAndLargeScenesAreRight) { expect_right(length()); }
+TEST(Extremes, UnitsAndTheOriginOfTimeAreOfNoAccount) { expect_right(units()); }
+TEST(Extremes, StartsAreAssembledOrRefusedByName) { expect_right(starts()); }
+TEST(Extremes, FailuresInMidRunSayWhenAndWhat) { expect_right(failures()); }
+
+}  // namespace
+}  // namespace dalembert::extremes
