@@ -118,16 +118,22 @@ void Scene<D>::require_finite(const Vec<D>& fixed, const std::string& label) {
 }
 
 template <int D>
-double Scene<D>::extent() const {
-  return extent_.isEmpty() ? 0.0 : extent_.diagonal().norm();
-}
-
-template <int D>
 System Scene<D>::system() const {
   if (q_.empty()) {
     throw InvalidScene("Scene \"" + layout_.scene + "\" is empty: add at least one particle");
   }
-  SystemParts parts{layout_, masses_, std::vector<double>(q_.size(), 0.0), {}, {}, {}, {}, extent()};
+  // A path that has no value at the start is refused there, by the constraint that needs it.
+  const auto extent = [box = extent_, paths = paths_](double t) {
+    auto with_paths = box;
+    for (const auto& path : paths) {
+      try {
+        if (const Vec<D> r = path(t); r.allFinite()) with_paths.extend(r);
+      } catch (...) {
+      }
+    }
+    return with_paths.isEmpty() ? 0.0 : with_paths.diagonal().norm();
+  };
+  SystemParts parts{layout_, masses_, std::vector<double>(q_.size(), 0.0), {}, {}, {}, {}, extent};
   for (const auto& particle : layout_.particles) {
     for (int k = 0; k < D; ++k) {
       parts.constant_force[static_cast<std::size_t>(particle.coordinate + k)] = particle.mass * gravity_[k];

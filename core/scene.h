@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <unordered_set>
@@ -123,6 +124,7 @@ class Scene {
     auto extent = extent_;
     std::apply([&](const auto&... point) { (admit_point(point, label, extent), ...); }, element.points());
     extent_ = extent;
+    std::apply([this](const auto&... point) { (remember_path(point), ...); }, element.points());
     names_.insert(own);
     return own;
   }
@@ -134,17 +136,18 @@ class Scene {
       for (const auto& particle : point.particles) admit_point(particle, label, extent);
     } else if constexpr (P::coordinates > 0) {
       require_own(point.scene, point.coordinate, label);
-    } else if constexpr (P::driven) {
-      const Vec<D> r = point.path(0.0).template cast<double>();
-      if (r.allFinite()) extent.extend(r);  // a path may begin later than t = 0
-    } else {
+    } else if constexpr (!P::driven) {
       require_finite(point.position, label);
       extent.extend(point.position);
     }
   }
+  template <Point P>
+  void remember_path(const P& point) {
+    if constexpr (P::driven)
+      paths_.push_back([path = point.path](double t) { return Vec<D>(path(t).template cast<double>()); });
+  }
   void require_own(std::uint64_t scene, int coordinate, const std::string& label) const;
   static void require_finite(const Vec<D>& fixed, const std::string& label);
-  [[nodiscard]] double extent() const;
 
   template <class Batch, int rows, class C>
   Constraint<rows> place(C constraint, const std::string& name) {
@@ -191,7 +194,8 @@ class Scene {
   std::vector<ForceGroup> forces_;
   std::size_t force_count_ = 0;
   std::unordered_set<std::string> names_;  // asked for membership only, never iterated
-  Eigen::AlignedBox<double, D> extent_;
+  Eigen::AlignedBox<double, D> extent_;    // of the points that stand still and of the initial positions
+  std::vector<std::function<Vec<D>(double)>> paths_;  // of the driven points
 };
 
 extern template class Scene<2>;

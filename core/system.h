@@ -20,7 +20,7 @@ struct SystemParts {
   std::vector<std::vector<int>> constraint_numbers;  ///< per batch: the scene's number of each element
   std::vector<std::unique_ptr<ForceBatch>> forces;
   std::vector<std::vector<std::string>> force_names;  ///< per batch, one per element
-  double extent;  ///< diagonal of the box around all points at the start [length]
+  std::function<double(double t)> extent;  ///< diagonal of the box around all points at the start [length]
 };
 
 /// The equations of motion of a scene as flat arrays: no dimension, no particles, no types.
@@ -66,7 +66,8 @@ class System {
   [[nodiscard]] std::span<const double> masses() const { return parts_.masses; }
   /// What one unit of each coordinate means: `length` for a length, 1 for an angle.
   [[nodiscard]] std::vector<double> coordinate_scales(double length) const;
-  [[nodiscard]] double extent() const { return parts_.extent; }
+  /// Diagonal of the box around all points, the driven ones where they are at the start of the run [length].
+  [[nodiscard]] double extent(double t_start) const { return parts_.extent(t_start); }
   [[nodiscard]] const std::shared_ptr<const Layout>& layout() const { return layout_; }
 
   /// Pattern of W by rows: row r has the entries row_start()[r] ... row_start()[r+1] - 1. A column

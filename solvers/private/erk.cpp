@@ -30,6 +30,10 @@ constexpr double after_fault = 0.25;
 constexpr double stable = 3.3;
 constexpr long stability_check_interval = 8;
 
+/// A step goes back onto the constraints by about as much as it errs. One that has to be moved by more
+/// than this many times the tolerance went wrong: over a jump of a driven point, or onto another branch.
+constexpr double most_correction = 10.0;
+
 /// The 13th stage serves the error estimate only.
 constexpr std::size_t last_stage_of_step = stages - 2;
 
@@ -65,7 +69,9 @@ struct ErkStepper::State {
   static void require(bool regular);
   void run_stages(const Node& start, double step, std::size_t last);
   void finish(const Node& start, double step, Node& end) const;
+  [[nodiscard]] double size(std::span<const double> dq, std::span<const double> dv, const Node& at) const;
   [[nodiscard]] double error(const Node& end, double step);
+  [[nodiscard]] double land();
   [[nodiscard]] double attempt(double step);
   void watch_stability(double step);
   [[nodiscard]] double shorter(double step, double factor) const;
@@ -84,7 +90,7 @@ struct ErkStepper::State {
   Node next;  // where a step goes until it is accepted
   std::array<std::vector<double>, stages> stage;
   std::array<const double*, stages> k{};
-  std::vector<double> stage_q;
+  std::vector<double> stage_q, difference;  // work
   double h;
   long steps = 0, failures = 0, stability_limited = 0;
   std::string fault;  // of the last attempt that failed
@@ -97,6 +103,7 @@ ErkStepper::State::State(const System& system, const Start& start, const Options
       t_end(options.t_end),
       manifold(system, start.rows, start.scales.lever()),
       stage_q(start.q.size()),
+      difference(2 * start.q.size()),
       // A third of the step that an error constant of 1 allows.
       h(std::min(0.3 * std::pow(options.tolerance, 1.0 / pair.order) * start.scales.time,
                  options.t_end - options.t_start)) {
@@ -139,20 +146,39 @@ void ErkStepper::State::finish(const Node& start, double step, Node& end) const 
   b.apply(step, k, n, start.va.data(), end.va.data(), n);
 }
 
-/// Root mean square of the estimated error over what the tolerance allows.
-double ErkStepper::State::error(const Node& end, double step) {
+/// Root mean square of differences of positions and velocities over what the tolerance allows.
+double ErkStepper::State::size(std::span<const double> dq, std::span<const double> dv, const Node& at) const {
   double sum = 0.0;
-  d.apply(step, k, 0, nullptr, stage_q.data(), n);
   for (std::size_t i = 0; i < n; ++i) {
-    const double e = stage_q[i] / scales.position_error(i, end.q[i], tolerance);
-    sum += e * e;
-  }
-  d.apply(step, k, n, nullptr, stage_q.data(), n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double e = stage_q[i] / (tolerance * (scales.coordinate[i] / scales.time + std::abs(end.va[i])));
-    sum += e * e;
+    const double e = dq[i] / scales.position_error(i, at.q[i], tolerance);
+    const double f = dv[i] / (tolerance * (scales.coordinate[i] / scales.time + std::abs(at.va[i])));
+    sum += e * e + f * f;
   }
   return std::sqrt(sum / (2.0 * static_cast<double>(n)));
+}
+
+/// The estimated error of a step over the tolerance.
+double ErkStepper::State::error(const Node& end, double step) {
+  const auto [dq, dv] = halves(difference);
+  d.apply(step, k, 0, nullptr, dq.data(), n);
+  d.apply(step, k, n, nullptr, dv.data(), n);
+  return size(dq, dv, end);
+}
+
+/// Puts `next` onto the constraints. The correction over the tolerance.
+double ErkStepper::State::land() {
+  const auto [dq, dv] = halves(difference);
+  const auto [v, v_dot] = halves(next.va);
+  for (std::size_t i = 0; i < n; ++i) {
+    dq[i] = -next.q[i];
+    dv[i] = -v[i];
+  }
+  require(manifold.land(next.t, next.q, v, v_dot));
+  for (std::size_t i = 0; i < n; ++i) {
+    dq[i] += next.q[i];
+    dv[i] += v[i];
+  }
+  return size(dq, dv, next);
 }
 
 /// Tries a step into `next`. Returns its error over the tolerance; infinite, with the reason in
@@ -162,12 +188,9 @@ double ErkStepper::State::attempt(double step) {
     run_stages(to, step, stages - 1);
     finish(to, step, next);
     const double e = error(next, step);
-    if (e <= 1.0) {
-      if (steps % stability_check_interval == 0) watch_stability(step);
-      const auto [v, v_dot] = halves(next.va);
-      require(manifold.land(next.t, next.q, v, v_dot));
-    }
-    return e;
+    if (e > 1.0) return e;
+    if (steps % stability_check_interval == 0) watch_stability(step);
+    return std::max(e, land() / most_correction);
   } catch (const EquationFault& error) {
     fault = error.what();
     return std::numeric_limits<double>::infinity();

@@ -39,10 +39,10 @@ namespace dalembert {
 ///
 /// At first dmu is neglected in (5) and (6). A predictor leaves the manifold by c b4 - b3, dmu is as
 /// large, and neglecting it does harm where it is multiplied by much: in D p where damping is strong, in
-/// A p where nonholonomic rows meet holonomic ones (A M^-1 G^T not 0), in C dmu. Each iteration would mend that
-/// error of the last in the multipliers by one as large. There (5) to (7) are solved again with the dmu and p
-/// found, which leaves of the error a part of order psi_q/c; with C a third time. (With C dlambda =
-/// C (dnu - c dmu) and the same dmu in (6) and (7), the matrix of (7) is that of a rigid scene.)
+/// A p where nonholonomic rows meet holonomic ones (A M^-1 G^T not 0), in C dmu. Each iteration would mend
+/// that error of the last in the multipliers by one as large. There (5) to (7) are solved again with the dmu
+/// and p found, which leaves of the error a part of order psi_q/c; with C a third time. (With C dlambda = C
+/// (dnu - c dmu) and the same dmu in (6) and (7), the matrix of (7) is that of a rigid scene.)
 ///
 /// Where forces are soft against the inertia that a step feels, |H|/c^2 + |D|/c small against M, H and D
 /// are left out. Where besides no row is nonholonomic or compliant, both matrices are the same, nothing in

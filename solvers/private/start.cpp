@@ -99,7 +99,7 @@ double smallest_radius(const System& system, const Instant& at, const System::Ev
 /// the radius of curvature, unless it is so flat that the particle never gets that far; for a free one the
 /// radius of its path, or how far it gets.
 double length_scale(const System& system, const Instant& at, const System::Evaluation& e, double duration) {
-  if (system.extent() > 0.0) return system.extent();
+  if (const double extent = system.extent(at.t); extent > 0.0) return extent;
   const double radius = smallest_radius(system, at, e);
   const auto lengths = lengths_only(system);
   const double v = largest_scaled(at.v, lengths);

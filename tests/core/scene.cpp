@@ -124,11 +124,11 @@ TEST(Scene, ARefusedElementLeavesNoTrace) {
   Scene<2> scene;
   const auto bob = scene.add_particle({.mass = 1.0});
   const std::string before = scene.system().describe();
-  const double extent = scene.system().extent();
+  const double extent = scene.system().extent(0.0);
   EXPECT_THROW(scene.add(Distance{Fixed<2>{{100.0, 0.0}}, Particle<2>{}, 1.0}), InvalidScene);
   EXPECT_THROW(scene.add(Distance{Fixed<2>{{100.0, 0.0}}, bob, -1.0}), InvalidScene);
   EXPECT_EQ(scene.system().describe(), before);
-  EXPECT_EQ(scene.system().extent(), extent);
+  EXPECT_EQ(scene.system().extent(0.0), extent);
 }
 
 TEST(Scene, AnAutomaticNameGivesWayToTheUsersOwn) {
@@ -202,7 +202,7 @@ TEST(Scene, ExtentIsTheDiagonalOfTheBoxAroundAllPoints) {
   const auto bob = scene.add_particle({.mass = 1.0, .position = {0.0, 0.0}});
   scene.add(Distance{Fixed<2>{{3.0, 0.0}}, bob, 3.0});
   scene.add(Spring{driven([](auto t) { return vec(t, 4.0); }), bob, 1.0});
-  EXPECT_DOUBLE_EQ(scene.system().extent(), 5.0);
+  EXPECT_DOUBLE_EQ(scene.system().extent(0.0), 5.0);
 }
 
 // 1/t has no value at t = 0, where a run need not begin; an infinite extent would mean that every
@@ -212,7 +212,7 @@ TEST(Scene, APathWithoutABeginningDoesNotStretchTheExtent) {
   const auto bob = scene.add_particle({.mass = 1.0, .position = {3.0, 0.0}});
   scene.add(Distance{driven([](auto t) { return vec(1.0 / t, 0.0); }), bob, 2.0});
   scene.add(Spring{Fixed<2>{{3.0, 4.0}}, bob, 1.0});
-  EXPECT_DOUBLE_EQ(scene.system().extent(), 4.0);
+  EXPECT_DOUBLE_EQ(scene.system().extent(0.0), 4.0);
 }
 
 TEST(Scene, LaterChangesDoNotReachASystemMadeBefore) {
