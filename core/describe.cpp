@@ -22,6 +22,23 @@ std::string kinds(const Batches& batches) {
   return text.empty() ? "none" : text;
 }
 
+/// How many rows of W are independent. Compliant ones take no freedom away.
+int rank_of(const System& system, std::span<const double> w) {
+  if (system.rows() == 0) return 0;
+  Eigen::MatrixXd gradients = Eigen::MatrixXd::Zero(system.coordinates(), system.rows());
+  for (int r = 0; r < system.rows(); ++r) {
+    const auto row = static_cast<std::size_t>(r);
+    if (system.compliance()[row] > 0.0) continue;
+    const auto first = static_cast<std::size_t>(system.row_start()[row]);
+    const auto last = static_cast<std::size_t>(system.row_start()[row + 1]);
+    for (std::size_t k = first; k < last; ++k) gradients(system.w_columns()[k], r) += w[k];
+    gradients.col(r).normalize();
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(gradients);
+  qr.setThreshold(1e-9);
+  return static_cast<int>(qr.rank());
+}
+
 }  // namespace
 
 std::string System::describe() const {
@@ -57,19 +74,7 @@ std::string System::describe(double t, std::span<const double> q) const {
   const std::vector<double> at_rest(q.size(), 0.0);
   auto e = evaluation();
   evaluate({t, q, at_rest}, e);
-  Eigen::MatrixXd gradients = Eigen::MatrixXd::Zero(coordinates(), rows());
-  for (int r = 0; r < rows(); ++r) {
-    const auto row = static_cast<std::size_t>(r);
-    if (compliance_[row] > 0.0) continue;  // takes no freedom away
-    for (auto k = static_cast<std::size_t>(row_start_[row]);
-         k < static_cast<std::size_t>(row_start_[row + 1]); ++k) {
-      gradients(w_columns_[k], r) += e.w[k];
-    }
-    gradients.col(r).normalize();
-  }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(gradients);
-  qr.setThreshold(1e-9);
-  const auto rank = static_cast<int>(rows() == 0 ? 0 : qr.rank());
+  const int rank = rank_of(*this, e.w);
   out << "at t = " << t << ": " << rank << " of " << rows() - compliant_rows()
       << " constraint equations independent, " << coordinates() - rank << " degrees of freedom of velocity\n";
   for (const Integrability& set : integrability(*this, t, q)) {

@@ -8,6 +8,7 @@
 #include <dalembert/solvers/private/start.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <sstream>
 #include <variant>
@@ -54,7 +55,7 @@ AnyStepper make_stepper(const System& system, const Start& start, const Options&
 }  // namespace
 
 struct Integrator::State {
-  State(System s, std::span<const double> q0, std::span<const double> v0, const Options& o)
+  State(System s, std::span<const double> q0, std::span<const double> v0, const Options& o) try
       : options(o),
         times(sample_times(o)),
         system(std::move(s)),
@@ -76,6 +77,10 @@ struct Integrator::State {
     record.statistics.degrees_of_freedom = system.coordinates() + system.compliant_rows() - start.rows.size();
     record.statistics.redundant_equations = system.rows() - start.rows.size();
     visit(o.t_start);
+  } catch (const StepFailure& failure) {  // before the first step it is a fault of the start
+    throw InconsistentStart(failure.what);
+  } catch (const EquationFault& fault) {
+    throw InconsistentStart(fault.what());
   }
 
   /// Everything that can be read at one instant.
@@ -129,6 +134,13 @@ struct Integrator::State {
     system.constraint_forces(equations.w, m.lambda, m.forces);
     m.energy = system.kinetic_energy(m.v) + system.potential_energy({m.t, m.q, m.v}) +
                system.elastic_energy(m.lambda);
+    const auto finite = [](double x) { return std::isfinite(x); };
+    if (!finite(m.energy) || !std::ranges::all_of(m.forces, finite)) {
+      throw StepFailure{
+          "the energy or a force of constraint exceeds what double precision holds; choose units in which "
+          "masses, lengths and speeds are closer to 1",
+          m.t};
+    }
     auto& s = record.statistics;
     s.residual_position = std::max(s.residual_position, left.size);
     s.residual_velocity = std::max(s.residual_velocity, velocity_violation(system, equations, lever).size);
@@ -215,6 +227,7 @@ struct Integrator::State {
   }
 
   [[noreturn]] void fail(const std::string& why, double time) {
+    time = std::max(time, now.t);  // a crossing begins a little earlier, and may fail there
     auto kept = std::make_shared<Record>(record);
     kept->statistics = statistics();
     std::ostringstream what;

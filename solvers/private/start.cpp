@@ -96,18 +96,28 @@ double smallest_radius(const System& system, const Instant& at, const System::Ev
 }
 
 /// The length of the scene: the box around its points; for a lone particle on a surface or curve
-/// the radius of curvature, unless it is so flat that the particle never gets that far; for a free one the
-/// radius of its path, or how far it gets.
+/// the radius of curvature, unless it does not get so far (what is nearly flat has no length of its
+/// own); for a free one the radius of its path, or how far it gets.
 double length_scale(const System& system, const Instant& at, const System::Evaluation& e, double duration) {
   if (const double extent = system.extent(at.t); extent > 0.0) return extent;
   const double radius = smallest_radius(system, at, e);
   const auto lengths = lengths_only(system);
   const double v = largest_scaled(at.v, lengths);
   const double a = largest_scaled(forced_acceleration(system, e), lengths);
-  const double distance = v * duration + a * duration * duration;
-  if (std::isfinite(radius)) return distance > 0.0 ? std::min(radius, distance) : radius;
+  const double reach = v * duration + a * duration * duration;
+  if (std::isfinite(radius)) return reach > 0.0 ? std::min(radius, reach) : radius;
   if (v > 0.0 && a > 0.0) return v * v / a;
-  return distance > 0.0 ? distance : 1.0;  // nothing moves: any length will do
+  return reach > 0.0 ? reach : 1.0;  // nothing moves: any length will do
+}
+
+/// Squares of lengths and their inverses occur everywhere.
+void require_size(double length) {
+  if (std::isnormal(length * length) && std::isnormal(1.0 / (length * length))) return;
+  std::ostringstream what;
+  what << "The size of this scene, " << length
+       << ", is beyond what double precision computes with; choose other units, or correct the position or "
+          "speed that makes it so";
+  throw InconsistentStart(what.str());
 }
 
 /// The shortest time in which the scene's speeds, forces or accelerations move a coordinate by its
@@ -223,6 +233,7 @@ Start consistent_start(const System& system, std::span<const double> q, std::spa
     evaluate_relaxed(system, {t, q, v}, e);
     require_gradients(system, e, t);
     start.scales.length = length_scale(system, {t, q, v}, e, duration);
+    require_size(start.scales.length);
     start.scales.coordinate = system.coordinate_scales(start.scales.length);
 
     start_positions(system, start, e, options);

@@ -138,6 +138,13 @@ TEST(System, DescriptionSaysWhatAFreeParticleLeavesOut) {
                     HasSubstr("index-2 equations: 6")));
 }
 
+TEST(System, DescriptionAtAStateOfAFreeParticleCountsAllItsFreedom) {
+  Scene<3> scene;
+  scene.add_particle({.mass = 1.0});
+  EXPECT_THAT(scene.describe(),
+              HasSubstr("0 of 0 constraint equations independent, 3 degrees of freedom of velocity"));
+}
+
 TEST(System, DescriptionSaysThatNothingDependsOnTime) {
   Scene<2> scene;
   const auto bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});

@@ -145,6 +145,23 @@ TEST(Motion, ABeadOnATurningWireIsFlungOut) {
   }
 }
 
+// On a wire so nearly straight that its radius, 1e9, says nothing of the motion: x = cos t. The
+// scene's length is what the spring's force moves the bead in the time of the run, 2^2.
+TEST(Motion, ABeadOnANearlyStraightWireOscillatesAsOnAStraightOne) {
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    Scene<2> scene;
+    const auto bead = scene.add_particle({.mass = 1.0, .position = {1.0, 0.5e-9}});
+    scene.add(OnCurve{bead, [](auto r) { return r.y() - 0.5e-9 * r.x() * r.x(); }});
+    scene.add(potential(points(bead), [](auto r) { return 0.5 * r.x() * r.x(); }));
+    const auto run =
+        simulate(scene, {.t_end = 2.0, .samples = 5, .tolerance = tolerance, .stepper = stepper});
+    for (std::size_t i = 0; i < run.size(); ++i) {
+      EXPECT_NEAR(run.position(bead, i).x(), std::cos(run.times()[i]),
+                  accumulated(run, 4.0 + 1.0, 4.0 + 1.0));
+    }
+  }
+}
+
 // Pulled along by its driven end: a bob that rides behind a pivot at constant velocity keeps it, and
 // the rod carries its weight only.
 TEST(Motion, APendulumOnAnEvenlyMovingPivotHangsStill) {

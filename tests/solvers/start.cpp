@@ -59,6 +59,24 @@ TEST(Start, ABobThatDoesNotFollowItsDrivenPivotIsAnError) {
               ThrowsMessage<InconsistentStart>(AllOf(HasSubstr("Distance \"rod\""), HasSubstr("speed 2"))));
 }
 
+// 1e200^2/2 is more than the largest double, though the speed itself is not.
+TEST(Start, AnEnergyThatOverflowsIsAnError) {
+  Scene<2> scene;
+  scene.add_particle({.mass = 1.0, .velocity = {1e200, 0.0}});
+  EXPECT_THAT([&] { (void)simulate(scene, {.t_end = 1.0}); },
+              ThrowsMessage<InconsistentStart>(AllOf(HasSubstr("double precision"), HasSubstr("units"))));
+}
+
+// The square of the distance between them is not a number that a double holds.
+TEST(Start, APositionBeyondReasonIsAnError) {
+  Scene<2> scene;
+  scene.add_particle({.mass = 1.0});
+  const auto far = scene.add_particle({.mass = 1.0, .position = {1e200, 0.0}});
+  scene.add(OnCurve{far, Plane<2>{}});
+  EXPECT_THAT([&] { (void)simulate(scene, {.t_end = 1.0}); },
+              ThrowsMessage<InconsistentStart>(AllOf(HasSubstr("size of this scene"), HasSubstr("units"))));
+}
+
 // A rod of 1 and one of 0.5 cannot span the gap of 2 between two fixed points.
 TEST(Start, RodsThatCannotSpanTheirGapAreAnError) {
   Scene<2> scene;

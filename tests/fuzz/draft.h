@@ -1,0 +1,171 @@
+#pragma once
+
+#include "plan.h"
+#include <dalembert/dalembert.h>
+
+#include <functional>
+#include <sstream>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace dalembert::fuzz {
+
+template <int D>
+using AnyPoint = std::variant<Particle<D>, BodyPoint<D>, Fixed<D>, Driven<D, SwingingPath<D>>>;
+
+/// A point, where it is at the start, and what it belongs to.
+template <int D>
+struct Place {
+  AnyPoint<D> point;
+  Vec<D> r = Vec<D>::Zero();
+  Vec<D> v = Vec<D>::Zero();
+  int owner = -1;  ///< the particle or body it stands on; none for a fixed or driven one
+  std::string text;
+};
+
+struct Wheel {
+  Rotor rotor;
+  double angle;
+  int owner;
+  std::string text;
+};
+
+/// A random scene in the making: what the elements are put on, and how their numbers are drawn. A log
+/// of what was added lets a failing scene be written down again by hand.
+template <int D>
+class Draft {
+ public:
+  Draft(Random& random, const Plan& plan);
+
+  Random& random;
+  const Plan& plan;
+  Scene<D> scene{"fuzz"};
+
+  /// A number as meant, or in an invalid scene now and then a wrong one.
+  [[nodiscard]] double number(double meant) {
+    return random.chance(plan.wrong) ? wrong_number(random, meant) : meant;
+  }
+  /// A positive number of the order of `unit`, as far as the plan's spread lets it stray.
+  [[nodiscard]] double size(double unit) { return number(unit * random.decades(-plan.spread, plan.spread)); }
+  /// The same with a direction.
+  [[nodiscard]] Vec<D> arrow(double unit) {
+    const double length = size(unit);
+    return length * random.direction<D>();
+  }
+  [[nodiscard]] Vec<D> numbers(Vec<D> meant) {
+    if (random.chance(plan.wrong)) meant[random.below(D)] = wrong_number(random, meant[0]);
+    return meant;
+  }
+  /// Empty, or in an invalid scene now and then one that may be taken.
+  [[nodiscard]] std::string name() { return random.chance(plan.wrong) ? "taken" : ""; }
+  [[nodiscard]] std::string body_name() {
+    return random.chance(plan.wrong) ? "taken" : "body" + std::to_string(next_body_++);
+  }
+  [[nodiscard]] Fuse fuse();
+
+  [[nodiscard]] Place<D> particle();  ///< adds one if there is none
+  [[nodiscard]] Place<D> mover();     ///< a particle or a point of a body
+  [[nodiscard]] Place<D> ground();    ///< a fixed or driven point
+  [[nodiscard]] Place<D> any() { return random.chance(0.6) ? mover() : ground(); }
+  /// Another than `a`, on another owner unless nothing else is to be had.
+  [[nodiscard]] Place<D> other_than(const Place<D>& a);
+  [[nodiscard]] Wheel wheel();  ///< adds one if there is none
+  [[nodiscard]] Place<D> new_particle(const Vec<D>& r);
+  void add_particle() { (void)new_particle(plan.length * random.vector<D>() + origin_); }
+  void add_body();
+  void add_rotor();
+
+  /// Whether a sensible scene has room for a constraint of so many rows on these owners; takes it.
+  [[nodiscard]] bool take(int rows, std::initializer_list<int> owners);
+
+  /// Adds to the scene what `make` returns and writes it down; what the library refuses is left out.
+  template <class Element>
+  void add(const std::string& text, const Element& element) {
+    attempt(text, [&] { scene.add(element, name()); });
+  }
+  void attempt(const std::string& text, const std::function<void()>& f);
+
+  [[nodiscard]] const std::string& log() const { return log_; }
+  /// What the library refused in a scene that is sensible: a defect, here or there.
+  [[nodiscard]] const std::string& refused() const { return refused_; }
+
+ private:
+  struct Body {
+    RigidBody<D> body;
+    Vec<D> centre, velocity;
+    Eigen::Matrix<double, D, D> axes;
+    int owner;
+  };
+  [[nodiscard]] Place<D> point_of(const Body& body);
+  [[nodiscard]] Particle<D> handle(Particle<D> meant);
+
+  Vec<D> origin_ = Vec<D>::Zero();
+  Scene<D> foreign_{"foreign"};
+  Particle<D> stranger_;
+  std::vector<Place<D>> particles_;
+  std::vector<Body> bodies_;
+  std::vector<Wheel> wheels_;
+  std::vector<int> spare_;  // degrees of freedom left, per owner
+  int next_body_ = 0;
+  std::string log_, refused_;
+};
+
+extern template class Draft<2>;
+extern template class Draft<3>;
+
+/// A vector or a number with all its digits, as one writes it in a scene.
+std::string write(double value);
+template <int D>
+std::string write(const Vec<D>& r) {
+  std::string text = "{";
+  for (int k = 0; k < D; ++k) text += (k > 0 ? ", " : "") + write(r[k]);
+  return text + "}";
+}
+inline std::string write(const Fuse& fuse) {
+  if (fuse.kind == Fuse::Kind::none) return "";
+  return " fuse " + std::to_string(static_cast<int>(fuse.kind)) + " at " + write(fuse.time);
+}
+/// `kind{a, b, ...}`
+template <class... Part>
+std::string call_text(const std::string& kind, const Part&... part) {
+  const auto as_text = [](const auto& p) {
+    if constexpr (std::is_convertible_v<decltype(p), std::string>) {
+      return std::string(p);
+    } else {
+      return write(p);
+    }
+  };
+  std::string all;
+  ((all += (all.empty() ? "" : ", ") + as_text(part)), ...);
+  return kind + "{" + all + "}";
+}
+
+/// One random element each, of the kinds in the source file of that name.
+template <int D>
+void add_rod(Draft<D>& draft);
+template <int D>
+void add_pin(Draft<D>& draft);
+template <int D>
+void add_own_holonomic(Draft<D>& draft);
+template <int D>
+void add_own_nonholonomic(Draft<D>& draft);
+template <int D>
+void add_prescribed(Draft<D>& draft);
+void add_on_curve(Draft<2>& draft);
+void add_rolling(Draft<2>& draft);
+void add_on_surface(Draft<3>& draft);
+void add_disk(Draft<3>& draft);
+void add_thin_rod(Draft<3>& draft);
+template <int D>
+void add_force(Draft<D>& draft);
+template <int D>
+void add_field(Draft<D>& draft);
+template <int D>
+void add_own_force(Draft<D>& draft);
+
+/// A whole scene.
+template <int D>
+void fill(Draft<D>& draft);
+
+}  // namespace dalembert::fuzz

@@ -1,0 +1,124 @@
+#include "workers.h"
+
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <map>
+#include <string>
+#include <system_error>
+
+namespace dalembert::fuzz {
+
+namespace {
+
+/// A scene that takes longer hangs [s of processor time, so that a busy machine does not count].
+constexpr int longest = 10;
+/// Scenes per process: starting one costs as much as a scene.
+constexpr std::size_t batch = 100;
+
+/// What a child tells its parent of one task, as lines.
+void tell(std::FILE* out, const Verdict& v) {
+  const auto line = [](std::string text) {
+    std::ranges::replace(text, '\n', ' ');
+    return text;
+  };
+  std::fprintf(out, "%s\n%s\n%s\n%s\n", v.outcome.c_str(), line(v.log.substr(0, v.log.find(' '))).c_str(),
+               line(v.message).c_str(), line(v.fault).c_str());
+  std::fflush(out);
+}
+
+[[noreturn]] void work(const std::vector<Task>& tasks, std::size_t first, std::FILE* out) {
+  for (std::size_t i = first; i < std::min(first + batch, tasks.size()); ++i) {
+    const itimerval limit{{0, 0}, {longest, 0}};
+    setitimer(ITIMER_PROF, &limit, nullptr);  // its signal ends the process
+    tell(out, judge(tasks[i].seed, tasks[i].stepper));
+  }
+  const itimerval none{};
+  setitimer(ITIMER_PROF, &none, nullptr);
+  std::fclose(out);
+  std::exit(0);  // and with it the search for leaks
+}
+
+std::string ending(int status) {
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGPROF) {
+    return "hangs: more than " + std::to_string(longest) + " s";
+  }
+  if (WIFSIGNALED(status)) return std::string("crashed: ") + strsignal(WTERMSIG(status));
+  return "ended its process with status " + std::to_string(WEXITSTATUS(status));
+}
+
+class Tally {
+ public:
+  explicit Tally(bool list) : list_(list) {}
+
+  void add(const Task& task, const std::string& outcome, const std::string& kind, const std::string& message,
+           const std::string& fault) {
+    ++outcomes_[kind + ' ' + outcome];
+    if (!fault.empty()) ++faults_;
+    if (!list_ && fault.empty()) return;
+    std::cout << (fault.empty() ? "seed " : "FAULT seed ") << task.seed << ' '
+              << dalembert::name(task.stepper) << ' ' << kind << ' ' << outcome << ": "
+              << (fault.empty() ? message : fault + " | " + message) << std::endl;
+  }
+  int report() const {
+    for (const auto& [what, count] : outcomes_) std::cout << count << ' ' << what << '\n';
+    std::cout << faults_ << " faults\n";
+    return faults_;
+  }
+
+ private:
+  bool list_;
+  int faults_ = 0;
+  std::map<std::string, int> outcomes_;
+};
+
+/// Runs tasks from `first` on in a child until a batch or the child ends; returns where to go on.
+std::size_t run_some(const std::vector<Task>& tasks, std::size_t first, Tally& tally) {
+  int ends[2];
+  if (pipe(ends) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  std::cout.flush();
+  const pid_t child = fork();
+  if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
+  if (child == 0) {
+    close(ends[0]);
+    work(tasks, first, fdopen(ends[1], "w"));
+  }
+  close(ends[1]);
+  std::FILE* in = fdopen(ends[0], "r");
+  char* text = nullptr;
+  std::size_t room = 0;
+  const auto next_line = [&](std::string& line) {
+    const ssize_t length = getline(&text, &room, in);
+    if (length <= 0) return false;
+    line.assign(text, static_cast<std::size_t>(length) - 1);
+    return true;
+  };
+  std::size_t i = first;
+  std::string outcome, kind, message, fault;
+  while (next_line(outcome) && next_line(kind) && next_line(message) && next_line(fault))
+    tally.add(tasks[i++], outcome, kind, message, fault);
+  std::free(text);
+  std::fclose(in);
+  int status = 0;
+  waitpid(child, &status, 0);
+  const std::size_t end = std::min(first + batch, tasks.size());
+  if (status == 0 && i == end) return end;
+  const Task& at_fault = tasks[std::min(i, end - 1)];  // all told: what was found at the end, a leak
+  tally.add(at_fault, "died", "", "", ending(status));
+  return std::min(i + 1, end);
+}
+
+}  // namespace
+
+int run_all(const std::vector<Task>& tasks, bool list) {
+  Tally tally(list);
+  for (std::size_t i = 0; i < tasks.size();) i = run_some(tasks, i, tally);
+  return tally.report();
+}
+
+}  // namespace dalembert::fuzz

@@ -1,0 +1,108 @@
+#include "../solvers/scenes.h"
+#include <dalembert/core/audit.h>
+
+#include <gtest/gtest.h>
+
+#include <barrier>
+#include <thread>
+#include <vector>
+
+namespace dalembert {
+namespace {
+
+/// Every number of a run, so that two can be compared by their bits (none is a NaN).
+template <int D>
+std::vector<double> numbers(const Trajectory<D>& run) {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const FlatSample s = run.sample(i).flat();
+    for (const auto part : {s.q, s.v, s.lambda, s.forces}) all.insert(all.end(), part.begin(), part.end());
+    all.push_back(s.energy);
+  }
+  return all;
+}
+
+/// A scene made, described, run and audited from the beginning: all that a thread may do at once.
+std::vector<double> run_all_kinds(Stepper stepper) {
+  const EachKind kinds;
+  (void)kinds.scene.describe();
+  const auto run = simulate(kinds.scene, {.t_end = 1.0, .samples = 11, .stepper = stepper});
+  auto all = numbers(run);
+  all.push_back(audit(kinds.scene, run.sample(run.size() - 1)).virtual_work);
+  return all;
+}
+
+/// Two bodies in space hinged to each other, one of their rods stated twice: equations are left out.
+std::vector<double> run_bodies(Stepper stepper) {
+  Scene<3> scene("bodies");
+  scene.add(UniformGravity<3>{{0.0, 0.0, -9.81}});
+  const auto body = [&scene](const char* name, double x) {
+    return add_body(scene, BodyState<3>{.mass = 1.0, .inertia = {0.02, 0.03, 0.04}, .centre = {x, 0.0, 0.0}},
+                    name);
+  };
+  const auto a = body("a", 0.5), b = body("b", 1.5);
+  scene.add(Coincident{Fixed<3>{}, a.point({-0.5, 0.0, 0.0})});
+  scene.add(Coincident{a.point({0.5, 0.0, 0.0}), b.point({-0.5, 0.0, 0.0})});
+  scene.add(Distance{a.particles[0], a.particles[1], 2.0 * std::hypot(a.arms.y(), a.arms.z())});
+  return numbers(simulate(scene, {.t_end = 1.0, .samples = 11, .stepper = stepper}));
+}
+
+/// Both started at the same moment, and again while the other is at something else.
+template <class F, class G>
+void expect_independent(const F& f, const G& g) {
+  constexpr int repeats = 3;
+  const std::vector<double> f_alone = f(), g_alone = g();
+  std::vector<std::vector<double>> f_runs(repeats), g_runs(repeats);
+  std::barrier ready(2);
+  const auto repeat = [&ready](const auto& run, auto& results) {
+    ready.arrive_and_wait();
+    for (auto& result : results) result = run();
+  };
+  {
+    const std::jthread one([&] { repeat(f, f_runs); });
+    const std::jthread other([&] { repeat(g, g_runs); });
+  }
+  for (const auto& run : f_runs) EXPECT_EQ(run, f_alone);
+  for (const auto& run : g_runs) EXPECT_EQ(run, g_alone);
+}
+
+TEST(Threads, TheSameSceneInTwoThreadsGivesTheBitsItGivesAlone) {
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    const auto run = [stepper] { return run_all_kinds(stepper); };
+    expect_independent(run, run);
+  }
+}
+
+TEST(Threads, DifferentScenesAndSteppersDoNotDisturbEachOther) {
+  expect_independent([] { return run_all_kinds(Stepper::ida); }, [] { return run_bodies(Stepper::erk); });
+  expect_independent([] { return run_all_kinds(Stepper::erk); }, [] { return run_bodies(Stepper::ida); });
+}
+
+/// Two simulations of one scene that neither changes, as its documentation of values allows.
+TEST(Threads, TwoSimulationsMayReadOneScene) {
+  const EachKind kinds;
+  const auto run = [&kinds] { return numbers(simulate(kinds.scene, {.t_end = 1.0, .samples = 11})); };
+  expect_independent(run, run);
+}
+
+/// An error of one thread stays in it.
+TEST(Threads, AFailureInOneThreadDoesNotReachTheOther) {
+  const auto fails = [] {
+    Pendulum pendulum;
+    pendulum.scene.add(force_law(points(pendulum.bob), [](auto t, auto, auto v) {
+      if (t > 0.5) throw std::runtime_error("a gale");
+      return (-0.1 * v).eval();
+    }));
+    try {
+      return numbers(simulate(pendulum.scene, {.t_end = 1.0, .samples = 11}));
+    } catch (const IntegrationFailure& failure) {
+      auto kept = numbers(failure.trajectory<2>());
+      kept.push_back(failure.time());
+      return kept;
+    }
+  };
+  expect_independent(fails, [] { return run_bodies(Stepper::ida); });
+}
+
+}  // namespace
+}  // namespace dalembert
