@@ -10,14 +10,13 @@ namespace {
 /// Newton's iteration loses at most this factor in accuracy by leaving soft forces out.
 constexpr double still_soft = 0.1;
 
-ActiveRows holonomic_only(const ActiveRows& all) {
-  return {{all.rows.begin(), all.rows.begin() + all.holonomic}, all.holonomic};
+/// Whether dmu has to be known in (5) and (6).
+bool couples(const System& system, const ActiveRows& rows) {
+  return system.compliant() || (rows.holonomic > 0 && (rows.holonomic < rows.size() || system.frictional()));
 }
 
-std::size_t entries_of_constraints(const System& system) {
-  std::size_t count = 0;
-  for (const auto& c : system.layout()->constraints) count += static_cast<std::size_t>(c.width * c.width);
-  return count;
+ActiveRows holonomic_only(const ActiveRows& all) {
+  return {{all.rows.begin(), all.rows.begin() + all.holonomic}, all.holonomic};
 }
 
 bool any(const std::vector<char>& flags) { return std::ranges::find(flags, 1) != flags.end(); }
@@ -30,7 +29,7 @@ NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows)
       islands_(islands(system)),
       needs_k1_(static_cast<std::size_t>(islands_.count), 0),
       stiff_(needs_k1_),
-      coupled_(system.compliant() || (rows.holonomic > 0 && rows.holonomic < rows.size())),
+      coupled_(couples(system, rows)),
       linear_(system.linearisation()),
       w_(system.w_columns().size()),
       lower_(w_.size()),
@@ -40,10 +39,17 @@ NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows)
       x2_(static_cast<std::size_t>(system.coordinates() + rows.holonomic)),
       p_(static_cast<std::size_t>(system.coordinates())),
       dmu_(static_cast<std::size_t>(rows.holonomic)),
-      first_force_entry_(entries_of_constraints(system)) {
+      first_force_entry_(system.stiffness_of_constraints()) {
   for (const int row : rows.rows) {
     if (row >= system.holonomic_rows() || system.compliance()[static_cast<std::size_t>(row)] > 0.0)
       needs_k1_[static_cast<std::size_t>(islands_.of_row(system, row))] = 1;
+  }
+  for (std::size_t k = 0; k < system.friction_pattern().size(); ++k) {
+    const auto [coordinate, row] = system.friction_pattern()[k];
+    needs_k1_[static_cast<std::size_t>(islands_.of_coordinate[static_cast<std::size_t>(coordinate)])] = 1;
+    const auto active = static_cast<std::size_t>(std::ranges::find(rows.rows, row) - rows.rows.begin());
+    if (active < static_cast<std::size_t>(rows.holonomic))
+      friction_.push_back({k, static_cast<std::size_t>(coordinate), active});
   }
   // Whatever may be needed is made before the first step: stepping allocates nothing.
   if (const auto may_need = varying_islands(); any(may_need)) include(may_need);
@@ -190,6 +196,7 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
       x1_[static_cast<std::size_t>(row)] += linear_.damping[k] * p_[static_cast<std::size_t>(column)];
     }
   }
+  for (const Friction& f : friction_) x1_[f.coordinate] -= c * linear_.friction[f.entry] * dmu_[f.active];
   for (std::size_t r = 0; r < m; ++r) {
     const auto row = static_cast<std::size_t>(rows_.rows[r]);
     x1_[n + r] = r < m_holonomic ? c * c * (b4[r] + c * C[row] * dmu_[r]) : c * (b3[r] - along(row, w_, p_));
