@@ -23,6 +23,7 @@
 #include <dalembert/core/audit.h>
 #include <dalembert/core/fields.h>
 #include <dalembert/core/forces.h>
+#include <dalembert/core/friction.h>
 #include <dalembert/core/integrability.h>
 #include <dalembert/core/scene.h>
 #include <dalembert/core/trajectory.h>

@@ -51,7 +51,7 @@ Audit audit(const System& system, const FlatSample& sample) {
   if (work.size() > 0) result.virtual_work = work.cwiseAbs().maxCoeff();
 
   result.forces.push_back({"constant forces", system.constant_power(sample.v)});
-  system.for_each_force_power(at, [&result](std::string name, double power) {
+  system.for_each_force_power(at, sample.lambda, [&result](std::string name, double power) {
     result.forces.push_back({std::move(name), power});
   });
   return result;

@@ -101,6 +101,41 @@ class ForceBatch {
   [[nodiscard]] virtual double energy(const Instant& at) const = 0;
 };
 
+/// The multipliers of a scene, and at which row those that each element of a batch reads begin.
+struct Multipliers {
+  std::span<const double> all;
+  std::span<const int> first_row;
+};
+
+/// What all forces of one type that read multipliers have in common.
+struct MultiplierForceShape {
+  std::string_view kind;
+  int width;  ///< coordinates that each of them reads and acts on
+  int rows;   ///< multipliers that each of them reads, those of one constraint
+};
+
+/// All force elements of one type that depend on multipliers: F(t, q, v, lambda).
+class MultiplierForceBatch {
+ public:
+  virtual ~MultiplierForceBatch() = default;
+  [[nodiscard]] virtual std::unique_ptr<MultiplierForceBatch> clone() const = 0;
+  [[nodiscard]] virtual MultiplierForceShape shape() const = 0;
+  [[nodiscard]] virtual std::size_t size() const = 0;
+  [[nodiscard]] virtual std::span<const int> coordinates() const = 0;
+  /// The scene's number of the constraint that each of them reads.
+  [[nodiscard]] virtual std::span<const int> constraints() const = 0;
+
+  /// Adds the forces to F.
+  virtual void add_force(const Instant& at, const Multipliers& lambda, std::span<double> F) const = 0;
+  /// dF/dlambda: for each force and each multiplier it reads, `width` numbers.
+  virtual void slope(const Instant& at, const Multipliers& lambda, std::span<double> out) const = 0;
+  /// dF/dq and dF/dv as for other forces, at fixed multipliers.
+  virtual void linearise(const Instant& at, const Multipliers& lambda, std::span<double> stiffness,
+                         std::span<double> damping) const = 0;
+  /// F . v of each force.
+  virtual void power(const Instant& at, const Multipliers& lambda, std::span<double> out) const = 0;
+};
+
 /// The elements of a batch and the coordinates they read.
 template <class Element>
 class Elements {

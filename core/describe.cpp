@@ -53,7 +53,8 @@ std::string System::describe() const {
       << "degrees of freedom: " << n - holonomic_rows() + compliant_rows() << " of position, "
       << n - rows() + compliant_rows() << " of velocity (if the constraints are independent)\n"
       << "islands that do not act on each other: " << islands(*this).count << '\n'
-      << "forces: " << kinds(parts_.forces) << " besides constant ones\n"
+      << "forces: " << kinds(parts_.forces) << " besides constant ones"
+      << (frictional() ? ", and " + kinds(parts_.frictions) + " that read multipliers" : "") << '\n'
       << "unknowns of the stabilised index-2 equations: " << 2 * n + rows() + holonomic_rows() << '\n';
   const auto left_out = [&out](bool is, const char* what) {
     if (is) out << "left out: " << what << '\n';
@@ -63,6 +64,7 @@ std::string System::describe() const {
   left_out(rows() > 0 && !compliant(), "compliance: all constraints are rigid");
   left_out(stiffness_pattern_.empty(), "the stiffness block: no force or constraint varies with position");
   left_out(damping_pattern_.empty(), "the damping block: no force depends on velocities");
+  left_out(!frictional() && rows() > 0, "friction: no force reads a multiplier");
   left_out(holonomic_rows() == 0, "the position multipliers mu: there is no holonomic constraint");
   left_out(rows() == 0, "the constraint forces: there is no constraint");
   return out.str();

@@ -32,6 +32,28 @@ template <std::size_t I, class T>
   }
 }
 
+template <std::size_t I, class S, class E, class Law>
+void collect_force_on(const Law& law, VecOf<S, PointFacts<E>::inputs>& all) {
+  using P = std::tuple_element_t<I, PointTuple<E>>;
+  if constexpr (P::inputs > 0) {
+    const auto& force = force_on<I>(law);
+    static_assert(is_plain<std::remove_cvref_t<decltype(force)>>,
+                  "return plain vectors, not Eigen expressions: append .eval()");
+    all.template segment<P::inputs>(PointFacts<E>::first_input[I]) = force.template cast<S>();
+  }
+}
+
+/// What a force law returned, as the force on each input of the element.
+template <class S, class E, class Law>
+[[nodiscard]] VecOf<S, PointFacts<E>::inputs> forces_on_inputs(const Law& law) {
+  VecOf<S, PointFacts<E>::inputs> all;
+  const auto collect = [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (collect_force_on<I, S, E>(law, all), ...);
+  };
+  collect(std::make_index_sequence<PointFacts<E>::count>{});
+  return all;
+}
+
 /// Adds the entries of `f` to those of F at the given places.
 template <int N>
 void scatter(const Vec<N>& f, std::span<const int> places, std::span<double> F) {
@@ -121,9 +143,8 @@ class PotentialBatch final : public ForceBatch {
 /// Forces of one type given by their law F(t, r, v).
 template <LawForce E>
 class LawBatch final : public ForceBatch {
-  using Facts = PointFacts<E>;
-  static constexpr int inputs = Facts::inputs;
-  static constexpr int width = Facts::coordinates;
+  static constexpr int inputs = PointFacts<E>::inputs;
+  static constexpr int width = PointFacts<E>::coordinates;
   static constexpr bool takes_time =
       applicable_with_time<detail::ForceOf<E>, detail::Probe<E>, detail::ProbeMotion<E>>;
 
@@ -179,23 +200,7 @@ class LawBatch final : public ForceBatch {
     const S t(at.t);
     const auto motion =
         std::tuple_cat(positions<S>(e, t, at, lift_r), velocities<S>(e, t, at, lift_v, inputs));
-    const auto law = call<takes_time>(detail::ForceOf<E>{e}, t, motion);
-    VecOf<S, inputs> all;
-    const auto collect = [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (collect_on<S, I>(law, all), ...);
-    };
-    collect(std::make_index_sequence<Facts::count>{});
-    return all;
-  }
-  template <class S, std::size_t I, class Law>
-  static void collect_on(const Law& law, VecOf<S, inputs>& all) {
-    using P = std::tuple_element_t<I, PointTuple<E>>;
-    if constexpr (P::inputs > 0) {
-      const auto& force = detail::force_on<I>(law);
-      static_assert(is_plain<std::remove_cvref_t<decltype(force)>>,
-                    "return plain vectors, not Eigen expressions: append .eval()");
-      all.template segment<P::inputs>(Facts::first_input[I]) = force.template cast<S>();
-    }
+    return detail::forces_on_inputs<S, E>(call<takes_time>(detail::ForceOf<E>{e}, t, motion));
   }
 
   Elements<E> elements_;

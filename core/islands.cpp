@@ -38,6 +38,10 @@ Islands islands(const System& system) {
   }
   for (const auto& entry : system.stiffness_pattern()) sets.join(entry.row, entry.column);
   for (const auto& entry : system.damping_pattern()) sets.join(entry.row, entry.column);
+  for (const auto& entry : system.friction_pattern()) {
+    const auto first = static_cast<std::size_t>(system.row_start()[static_cast<std::size_t>(entry.column)]);
+    sets.join(entry.row, system.w_columns()[first]);
+  }
 
   Islands islands{0, std::vector<int>(static_cast<std::size_t>(n))};
   for (int i = 0; i < n; ++i) {

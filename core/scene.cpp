@@ -111,6 +111,16 @@ void Scene<D>::require_own(std::uint64_t scene, int coordinate, const std::strin
 }
 
 template <int D>
+void Scene<D>::require_constraint(std::uint64_t scene, int index, int rows, const std::string& label) const {
+  if (scene == layout_.id && index >= 0 && index < static_cast<int>(layout_.constraints.size()) &&
+      layout_.constraints[static_cast<std::size_t>(index)].rows == rows)
+    return;
+  throw InvalidScene(label + ": the constraint whose multiplier it reads " +
+                     (scene == 0 || scene == layout_.id ? "was never added" : "belongs to another scene") +
+                     "; use the handle that add of scene \"" + layout_.scene + "\" returned");
+}
+
+template <int D>
 void Scene<D>::require_finite(const Vec<D>& fixed, const std::string& label) {
   if (!fixed.allFinite()) {
     throw InvalidScene(label + ": its fixed point " + text<D>(fixed) + " must be finite");
@@ -146,6 +156,10 @@ System Scene<D>::system() const {
   for (const auto& group : forces_) {
     parts.forces.push_back(group.batch->clone());
     parts.force_names.push_back(group.names);
+  }
+  for (const auto& group : frictions_) {
+    parts.frictions.push_back(group.batch->clone());
+    parts.friction_names.push_back(group.names);
   }
   return System(std::move(parts));
 }

@@ -3,6 +3,7 @@
 #include <dalembert/core/errors.h>
 #include <dalembert/core/force.h>
 #include <dalembert/core/forces.h>
+#include <dalembert/core/friction_batch.h>
 #include <dalembert/core/handles.h>
 #include <dalembert/core/holonomic_batch.h>
 #include <dalembert/core/nonholonomic_batch.h>
@@ -78,12 +79,18 @@ class Scene {
   template <PotentialForce E>
   void add(E force, const std::string& name = {}) {
     const std::string own = admit(force, detail::kind_of<E>("Potential"), name, force_count_);
-    place_force<PotentialBatch<E>>(std::move(force), own);
+    place_force<PotentialBatch<E>>(forces_, std::move(force), own);
   }
   template <LawForce E>
   void add(E force, const std::string& name = {}) {
     const std::string own = admit(force, detail::kind_of<E>("ForceLaw"), name, force_count_);
-    place_force<LawBatch<E>>(std::move(force), own);
+    place_force<LawBatch<E>>(forces_, std::move(force), own);
+  }
+  /// Adds a force that reads a multiplier; throws also if its constraint is not one of this scene.
+  template <FrictionForce E>
+  void add(E force, const std::string& name = {}) {
+    const std::string own = admit(force, detail::kind_of<E>("Friction"), name, force_count_);
+    place_force<FrictionBatch<E>>(frictions_, std::move(force), own);
   }
 
   [[nodiscard]] const std::string& name() const { return layout_.scene; }
@@ -102,8 +109,9 @@ class Scene {
     std::unique_ptr<ConstraintBatch> batch;
     std::vector<int> numbers;
   };
+  template <class Batch>
   struct ForceGroup {
-    std::unique_ptr<ForceBatch> batch;
+    std::unique_ptr<Batch> batch;
     std::vector<std::string> names;
   };
 
@@ -120,6 +128,10 @@ class Scene {
     if constexpr (requires { element.fault(); }) {
       const std::string fault = element.fault();
       if (!fault.empty()) throw InvalidScene(label + ": " + fault);
+    }
+    if constexpr (ReadsMultiplier<Element>) {
+      const auto& read = element.constraint();
+      require_constraint(read.scene, read.index, rows_read<Element>, label);
     }
     auto extent = extent_;
     std::apply([&](const auto&... point) { (admit_point(point, label, extent), ...); }, element.points());
@@ -147,6 +159,7 @@ class Scene {
       paths_.push_back([path = point.path](double t) { return Vec<D>(path(t).template cast<double>()); });
   }
   void require_own(std::uint64_t scene, int coordinate, const std::string& label) const;
+  void require_constraint(std::uint64_t scene, int index, int rows, const std::string& label) const;
   static void require_finite(const Vec<D>& fixed, const std::string& label);
 
   template <class Batch, int rows, class C>
@@ -172,10 +185,10 @@ class Scene {
     return {number, layout_.id};
   }
 
-  template <class Batch, class E>
-  void place_force(E force, const std::string& name) {
+  template <class Batch, class Base, class E>
+  void place_force(std::vector<ForceGroup<Base>>& groups, E force, const std::string& name) {
     ++force_count_;
-    for (ForceGroup& g : forces_) {
+    for (auto& g : groups) {
       if (auto* same = dynamic_cast<Batch*>(g.batch.get())) {
         same->add(std::move(force));
         g.names.push_back(name);
@@ -184,14 +197,15 @@ class Scene {
     }
     auto fresh = std::make_unique<Batch>();
     fresh->add(std::move(force));
-    forces_.push_back({std::move(fresh), {name}});
+    groups.push_back({std::move(fresh), {name}});
   }
 
   Layout layout_;
   std::vector<double> q_, v_, masses_;
   Vec<D> gravity_ = Vec<D>::Zero();
   std::vector<ConstraintGroup> constraints_;
-  std::vector<ForceGroup> forces_;
+  std::vector<ForceGroup<ForceBatch>> forces_;
+  std::vector<ForceGroup<MultiplierForceBatch>> frictions_;
   std::size_t force_count_ = 0;
   std::unordered_set<std::string> names_;  // asked for membership only, never iterated
   Eigen::AlignedBox<double, D> extent_;    // of the points that stand still and of the initial positions

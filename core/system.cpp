@@ -17,8 +17,15 @@ std::span<T> part(std::vector<T>& all, std::size_t first, std::size_t count) {
   return std::span(all).subspan(first, count);
 }
 
-/// A pattern's dense blocks, rows first, one per element.
-void append_blocks(std::span<const int> coordinates, std::size_t width, std::vector<System::Entry>& pattern) {
+}  // namespace
+
+std::string System::at_time(double t) {
+  std::ostringstream out;
+  out << " (t = " << std::setprecision(10) << t << ')';
+  return out.str();
+}
+
+void System::append_blocks(std::span<const int> coordinates, std::size_t width, std::vector<Entry>& pattern) {
   for (std::size_t first = 0; first < coordinates.size(); first += width) {
     for (const int row : coordinates.subspan(first, width)) {
       for (const int column : coordinates.subspan(first, width)) pattern.push_back({row, column});
@@ -26,17 +33,11 @@ void append_blocks(std::span<const int> coordinates, std::size_t width, std::vec
   }
 }
 
-std::string at_time(double t) {
-  std::ostringstream out;
-  out << " (t = " << std::setprecision(10) << t << ')';
-  return out.str();
-}
-
-}  // namespace
-
 System::System(SystemParts parts) : parts_(std::move(parts)) {
   place_constraints();
+  stiffness_of_constraints_ = stiffness_pattern_.size();
   place_forces();
+  place_frictions();
   layout_ = std::make_shared<const Layout>(std::move(parts_.layout));
 }
 
@@ -113,7 +114,7 @@ System::Evaluation System::evaluation() const {
 
 System::Linearisation System::linearisation() const {
   return {std::vector<double>(w_columns_.size()), std::vector<double>(stiffness_pattern_.size()),
-          std::vector<double>(damping_pattern_.size())};
+          std::vector<double>(damping_pattern_.size()), std::vector<double>(friction_pattern_.size())};
 }
 
 template <class F>
@@ -172,6 +173,7 @@ void System::linearise(const Instant& at, std::span<const double> lambda, Linear
     batch.linearise(at, part(out.stiffness, first.stiffness, entries),
                     part(out.damping, first.damping, shape.dissipative ? entries : 0));
   });
+  if (frictional()) linearise_frictions(at, lambda, out);
 }
 
 void System::constraint_forces(std::span<const double> w, std::span<const double> lambda,
@@ -209,16 +211,22 @@ double System::constant_power(std::span<const double> v) const {
   return std::inner_product(v.begin(), v.end(), parts_.constant_force.begin(), 0.0);
 }
 
-void System::for_each_force_power(const Instant& at,
+void System::for_each_force_power(const Instant& at, std::span<const double> lambda,
                                   const std::function<void(std::string, double)>& f) const {
   for (std::size_t b = 0; b < parts_.forces.size(); ++b) {
     std::vector<double> power(parts_.forces[b]->size());
     parts_.forces[b]->power(at, power);
     for (std::size_t i = 0; i < power.size(); ++i) f(force_label(b, i), power[i]);
   }
+  for (std::size_t b = 0; b < parts_.frictions.size(); ++b) {
+    std::vector<double> power(parts_.frictions[b]->size());
+    parts_.frictions[b]->power(at, {lambda, friction_places_[b].first_row}, power);
+    for (std::size_t i = 0; i < power.size(); ++i) f(friction_label(b, i), power[i]);
+  }
 }
 
 std::string System::force_of_stiffness(std::size_t entry) const {
+  if (frictional() && entry >= friction_places_.front().stiffness) return friction_of_stiffness(entry);
   const auto next = std::ranges::upper_bound(force_offsets_, entry, {}, &Offsets::stiffness);
   const auto batch = static_cast<std::size_t>(next - force_offsets_.begin()) - 1;
   const int width = parts_.forces[batch]->shape().width;

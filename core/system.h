@@ -21,6 +21,8 @@ struct SystemParts {
   std::vector<std::unique_ptr<ForceBatch>> forces;
   std::vector<std::vector<std::string>> force_names;  ///< per batch, one per element
   std::function<double(double t)> extent;  ///< diagonal of the box around all points at the start [length]
+  std::vector<std::unique_ptr<MultiplierForceBatch>> frictions{};
+  std::vector<std::vector<std::string>> friction_names{};  ///< per batch, one per element
 };
 
 /// The equations of motion of a scene as flat arrays: no dimension, no particles, no types.
@@ -30,12 +32,13 @@ struct SystemParts {
 /// Rows of holonomic constraints come first, with psi = dg/dt; rows of nonholonomic ones follow,
 /// with psi = a(t,q,v). At acceleration level W v' + gamma = 0 with gamma = psi_q v + psi_t.
 /// The force of constraint on coordinate i is Z_i = (W^T lambda)_i. A compliant holonomic constraint
-/// obeys g + C lambda = 0 in place of g = 0: a spring whose force is its multiplier.
+/// obeys g + C lambda = 0 in place of g = 0: a spring whose force is its multiplier. Forces that read
+/// multipliers, F_f(t,q,v,lambda), join F in (1); what is called friction here is any of them.
 class System {
  public:
   /// Everything a residual needs at one instant.
   struct Evaluation {
-    std::vector<double> force;  ///< F, n
+    std::vector<double> force;  ///< F without friction, n
     std::vector<double> g;      ///< position residual, m_holonomic
     std::vector<double> psi;    ///< velocity residual, m
     std::vector<double> w;      ///< W, in the order of its pattern
@@ -43,8 +46,9 @@ class System {
   /// Everything the Newton matrix needs besides W.
   struct Linearisation {
     std::vector<double> psi_q;      ///< d psi/dq, in W's pattern
-    std::vector<double> stiffness;  ///< d(F + W^T lambda)/dq, in the order of its pattern
-    std::vector<double> damping;    ///< dF/dv, in the order of its pattern
+    std::vector<double> stiffness;  ///< d(F + F_f + W^T lambda)/dq, in the order of its pattern
+    std::vector<double> damping;    ///< d(F + F_f)/dv, in the order of its pattern
+    std::vector<double> friction;   ///< dF_f/dlambda, in the order of its pattern
   };
   struct Entry {
     int row;
@@ -77,17 +81,28 @@ class System {
   /// Places of the entries of Linearisation; places may repeat, their entries add.
   [[nodiscard]] std::span<const Entry> stiffness_pattern() const { return stiffness_pattern_; }
   [[nodiscard]] std::span<const Entry> damping_pattern() const { return damping_pattern_; }
+  /// The first entries of the stiffness are those of constraints; so many.
+  [[nodiscard]] std::size_t stiffness_of_constraints() const { return stiffness_of_constraints_; }
+  /// Places of dF_f/dlambda: a coordinate and a row. Empty if no force reads a multiplier.
+  [[nodiscard]] std::span<const Entry> friction_pattern() const { return friction_pattern_; }
+  [[nodiscard]] bool frictional() const { return !friction_pattern_.empty(); }
 
   /// Work space of the right sizes; the functions below allocate nothing.
   [[nodiscard]] Evaluation evaluation() const;
   [[nodiscard]] Linearisation linearisation() const;
 
-  /// F, g, psi and W. Throws EquationFault if a constraint or force throws or is not finite.
+  /// F without friction, g, psi and W. Throws EquationFault if a constraint or force throws or is not
+  /// finite.
   void evaluate(const Instant& at, Evaluation& out) const;
   /// gamma, m numbers. Throws like `evaluate`.
   void bias(const Instant& at, std::span<double> gamma) const;
   /// Derivatives for the multipliers lambda (m numbers). Throws like `evaluate`.
   void linearise(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
+
+  /// Adds F_f for the multipliers lambda to F. Throws like `evaluate`.
+  void add_friction(const Instant& at, std::span<const double> lambda, std::span<double> F) const;
+  /// dF_f/dlambda, in the order of its pattern. Throws like `evaluate`.
+  void friction_slope(const Instant& at, std::span<const double> lambda, std::span<double> out) const;
 
   /// The force W^T lambda of every constraint on every coordinate it acts on, by Layout's slots.
   void constraint_forces(std::span<const double> w, std::span<const double> lambda,
@@ -100,10 +115,13 @@ class System {
 
   /// F . v of the constant forces together, and of every other one, by its label.
   [[nodiscard]] double constant_power(std::span<const double> v) const;
-  void for_each_force_power(const Instant& at, const std::function<void(std::string, double)>& f) const;
+  void for_each_force_power(const Instant& at, std::span<const double> lambda,
+                            const std::function<void(std::string, double)>& f) const;
 
   /// The label of the force that an entry of the stiffness beyond those of the constraints belongs to.
   [[nodiscard]] std::string force_of_stiffness(std::size_t entry) const;
+  /// The label of the force that an entry of dF_f/dlambda belongs to.
+  [[nodiscard]] std::string force_of_friction(std::size_t entry) const;
   /// The label of the constraint that row r belongs to.
   [[nodiscard]] std::string row_label(int row) const;
   /// What a constraint of this row says when it is singular; may be empty.
@@ -117,8 +135,16 @@ class System {
   [[nodiscard]] std::string describe(double t, std::span<const double> q) const;
 
  private:
+  /// When, for the end of an error.
+  [[nodiscard]] static std::string at_time(double t);
+  /// A pattern's dense blocks, rows first, one per element.
+  static void append_blocks(std::span<const int> coordinates, std::size_t width, std::vector<Entry>& pattern);
   void place_constraints();
   void place_forces();
+  void place_frictions();
+  void linearise_frictions(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
+  [[nodiscard]] std::string friction_label(std::size_t batch, std::size_t element) const;
+  [[nodiscard]] std::string friction_of_stiffness(std::size_t entry) const;
   [[nodiscard]] std::string force_label(std::size_t batch, std::size_t element) const;
   [[nodiscard]] const Layout::Constraint& constraint_of_row(int row, std::size_t& batch) const;
 
@@ -126,12 +152,20 @@ class System {
   void on_constraints(double t, const F& f) const;
   template <class F>
   void on_forces(double t, const F& f) const;
+  template <class F>
+  void on_frictions(const Instant& at, std::span<const double> lambda, const F& f) const;
 
   /// Where a batch's part of each array begins; for constraints also how long it is.
   struct Offsets {
     std::size_t row, w, stiffness, damping;
     bool holonomic = false;
     std::size_t row_count = 0, w_count = 0;
+  };
+
+  /// Where a batch of frictions stands, and at which row the multipliers of each element begin.
+  struct FrictionPlace {
+    std::size_t slope, stiffness, damping, slope_count, block_count;
+    std::vector<int> first_row;
   };
 
   SystemParts parts_;
@@ -145,6 +179,9 @@ class System {
   int compliant_rows_ = 0;
   std::vector<Entry> stiffness_pattern_;
   std::vector<Entry> damping_pattern_;
+  std::size_t stiffness_of_constraints_ = 0;
+  std::vector<FrictionPlace> friction_places_;
+  std::vector<Entry> friction_pattern_;
 };
 
 }  // namespace dalembert

@@ -55,16 +55,27 @@ inline Values values(const System& system, const State& s) {
   return {vector(e.force), vector(e.g), vector(e.psi), vector(gamma), by_rows(system, e.w)};
 }
 
+/// The forces that read multipliers.
+inline Eigen::VectorXd friction(const System& system, const State& s, const Eigen::VectorXd& lambda) {
+  Eigen::VectorXd F = Eigen::VectorXd::Zero(system.coordinates());
+  system.add_friction(s.instant(), {lambda.data(), static_cast<std::size_t>(lambda.size())},
+                      {F.data(), static_cast<std::size_t>(F.size())});
+  return F;
+}
+
 struct Derivatives {
-  Eigen::MatrixXd psi_q, stiffness, damping;
+  Eigen::MatrixXd psi_q, stiffness, damping, friction;
 };
 
 inline Derivatives derivatives(const System& system, const State& s, const Eigen::VectorXd& lambda) {
   auto d = system.linearisation();
   system.linearise(s.instant(), {lambda.data(), static_cast<std::size_t>(lambda.size())}, d);
   const int n = system.coordinates();
+  Eigen::MatrixXd by_lambda = Eigen::MatrixXd::Zero(n, system.rows());
+  for (std::size_t k = 0; k < d.friction.size(); ++k)
+    by_lambda(system.friction_pattern()[k].row, system.friction_pattern()[k].column) += d.friction[k];
   return {by_rows(system, d.psi_q), by_entries(n, system.stiffness_pattern(), d.stiffness),
-          by_entries(n, system.damping_pattern(), d.damping)};
+          by_entries(n, system.damping_pattern(), d.damping), by_lambda};
 }
 
 /// Every derivative that a System gives, against central differences of what it is the derivative of.
@@ -73,6 +84,16 @@ inline void expect_consistent(const System& system, const State& at, const Eigen
   const Derivatives d = derivatives(system, at, lambda);
   const Eigen::Index holonomic = system.holonomic_rows();
   for (Eigen::Index j = 0; j < at.q.size(); ++j) {
+    const auto force_moved = [&](double s) {
+      State to = at;
+      to.q[j] += s;
+      return Eigen::VectorXd(values(system, to).F + friction(system, to, lambda));
+    };
+    const auto force_kicked = [&](double s) {
+      State to = at;
+      to.v[j] += s;
+      return Eigen::VectorXd(values(system, to).F + friction(system, to, lambda));
+    };
     const auto moved = [&](double s) {
       State to = at;
       to.q[j] += s;
@@ -87,12 +108,18 @@ inline void expect_consistent(const System& system, const State& at, const Eigen
     expect_slope(slope([&](double s) { return moved(s).g; }), now.W.col(j).head(holonomic), "g_q" + column);
     expect_slope(slope([&](double s) { return kicked(s).psi; }), now.W.col(j), "psi_v" + column);
     expect_slope(slope([&](double s) { return moved(s).psi; }), d.psi_q.col(j), "psi_q" + column);
-    expect_slope(slope([&](double s) {
-                   const Values to = moved(s);
-                   return Eigen::VectorXd(to.F + to.W.transpose() * lambda);
-                 }),
-                 d.stiffness.col(j), "(F + W^T lambda)_q" + column);
-    expect_slope(slope([&](double s) { return kicked(s).F; }), d.damping.col(j), "F_v" + column);
+    expect_slope(
+        slope([&](double s) { return Eigen::VectorXd(force_moved(s) + moved(s).W.transpose() * lambda); }),
+        d.stiffness.col(j), "(F + W^T lambda)_q" + column);
+    expect_slope(slope(force_kicked), d.damping.col(j), "F_v" + column);
+  }
+  for (Eigen::Index r = 0; r < lambda.size(); ++r) {
+    const auto pressed = [&](double s) {
+      Eigen::VectorXd to = lambda;
+      to[r] += s;
+      return friction(system, at, to);
+    };
+    expect_slope(slope(pressed), d.friction.col(r), "F_lambda, row " + std::to_string(r));
   }
   const auto later = [&](double s) { return values(system, {at.t + s, at.q + s * at.v, at.v}); };
   expect_slope(slope([&](double s) { return later(s).g; }), now.psi.head(holonomic), "psi = dg/dt");

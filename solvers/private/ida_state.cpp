@@ -67,6 +67,10 @@ void IdaStepper::State::residual(double at, N_Vector x, N_Vector xp, N_Vector r)
   ++evaluations;
   const Instant now = instant(at, x);
   system->evaluate(now, e);
+  if (system->frictional()) {
+    spread_multipliers(x);
+    system->add_friction(now, lambda, e.force);
+  }
   evaluated_at = at;
   evaluated = x;
   const auto qp = entries(xp).subspan(0, n());

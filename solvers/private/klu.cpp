@@ -34,7 +34,9 @@ struct SparseLU::State {
   std::unique_ptr<klu_numeric, FreeNumeric> numeric{nullptr, {&common}};
   double condition_when_pivoted = 0.0;
   long factorisations = 0;
+  std::vector<char> seen;  // for sign_of_permutation
 
+  [[nodiscard]] int sign_of_permutation(const int* permutation);
   void compress(std::span<const Entry> entries);
   bool pivot();
 };
@@ -42,6 +44,7 @@ struct SparseLU::State {
 SparseLU::SparseLU(int size, std::span<const Entry> entries) : state_(std::make_unique<State>()) {
   klu_defaults(&state_->common);
   state_->size = size;
+  state_->seen.resize(static_cast<std::size_t>(size));
   state_->compress(entries);
   state_->symbolic.reset(klu_analyze(size, state_->column_start.data(), state_->row.data(), &state_->common));
 }
@@ -103,6 +106,34 @@ void SparseLU::solve(std::span<double> x) {
 }
 
 double SparseLU::reciprocal_condition() const { return state_->condition_when_pivoted; }
+
+/// Each cycle of even length changes it.
+int SparseLU::State::sign_of_permutation(const int* permutation) {
+  std::ranges::fill(seen, 0);
+  int sign = 1;
+  for (int start = 0; start < size; ++start) {
+    int length = 0;
+    for (int i = start; !seen[static_cast<std::size_t>(i)]; i = permutation[i]) {
+      seen[static_cast<std::size_t>(i)] = 1;
+      ++length;
+    }
+    if (length > 0 && length % 2 == 0) sign = -sign;
+  }
+  return sign;
+}
+
+/// KLU has P R A Q = L U + F with R diagonal and positive, L's diagonal 1 and F above the diagonal blocks.
+int SparseLU::sign_of_determinant() {
+  State& s = *state_;
+  if (!s.numeric) return 0;
+  int sign = s.sign_of_permutation(s.numeric->Pnum) * s.sign_of_permutation(s.symbolic->Q);
+  const auto* pivot = static_cast<const double*>(s.numeric->Udiag);
+  for (int i = 0; i < s.size; ++i) {
+    if (pivot[i] == 0.0) return 0;
+    if (pivot[i] < 0.0) sign = -sign;
+  }
+  return sign;
+}
 
 long SparseLU::factorisations() const { return state_->factorisations; }
 

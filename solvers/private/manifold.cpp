@@ -49,6 +49,7 @@ Manifold::Manifold(const System& system, const ActiveRows& rows, std::vector<dou
       minimum_norm_(system, rows, lever_) {
   x_.resize(static_cast<std::size_t>(kkt_.size()));
   q_before_.resize(static_cast<std::size_t>(system.coordinates()));
+  if (system.frictional()) friction_.emplace(system, rows);
   if (!system.compliant()) return;
   for (auto* numbers : {&springs_.lambda, &springs_.rate, &springs_.second, &s_})
     numbers->resize(static_cast<std::size_t>(system.rows()), 0.0);
@@ -74,12 +75,16 @@ void Manifold::add_springs() {
   }
 }
 
-bool Manifold::factorise() {
+void Manifold::weigh_springs() {
   for (std::size_t r = 0; r < s_.size(); ++r) {
     if (system_->compliance()[r] > 0.0)
       s_[r] = following_ ? springs_.c * springs_.c * system_->compliance()[r]
                          : unyielding * mobility(*system_, e_.w, r);
   }
+}
+
+bool Manifold::factorise() {
+  weigh_springs();
   return kkt_.factorise(e_.w, s_);
 }
 
@@ -152,8 +157,8 @@ void Manifold::correct_velocities(std::span<double> v) {
   if (following_) add_to_springs(springs_.rate, 1.0, springs_.rate);
 }
 
-/// (3), with the matrix and the forces at hand.
-void Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
+/// (3), with the matrix and the forces at hand. Friction has a matrix of its own.
+bool Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
   const std::size_t n = at.q.size();
   system_->bias(at, gamma_);
   std::ranges::copy(e_.force, x_.begin());
@@ -163,15 +168,23 @@ void Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
     if (system_->compliance()[r] > 0.0)
       x_[n + k] += s_[r] * springs_.lambda[r] - system_->compliance()[r] * springs_.second[r];
   }
-  kkt_.solve(x_);
+  if (!friction_) {
+    kkt_.solve(x_);
+  } else if (!friction_->solve(at, e_.w, s_, x_)) {
+    return false;
+  }
   std::copy_n(x_.begin(), n, a.begin());
+  return true;
 }
 
 bool Manifold::accelerate(const Instant& at, std::span<double> a) {
   evaluate(at);
-  if (!factorise()) return false;
-  solve_for_accelerations(at, a);
-  return true;
+  if (friction_) {
+    weigh_springs();
+  } else if (!factorise()) {
+    return false;
+  }
+  return solve_for_accelerations(at, a);
 }
 
 bool Manifold::land(double t, std::span<double> q, std::span<double> v, std::span<double> a) {
@@ -185,8 +198,7 @@ bool Manifold::land(double t, std::span<double> q, std::span<double> v, std::spa
   if (!factorise()) return false;
   correct_velocities(v);
   if (!system_->damping_pattern().empty()) evaluate({t, q, v});
-  solve_for_accelerations({t, q, v}, a);
-  return true;
+  return solve_for_accelerations({t, q, v}, a);
 }
 
 bool Manifold::solve_motion(double t, std::span<const double> q, std::span<double> v, std::span<double> a,
@@ -198,13 +210,17 @@ bool Manifold::solve_motion(double t, std::span<const double> q, std::span<doubl
     correct_velocities(v);
     evaluate({t, q, v});
   }
-  solve_for_accelerations({t, q, v}, a);
+  if (!solve_for_accelerations({t, q, v}, a)) return false;
   std::ranges::fill(lambda, 0.0);
   for (std::size_t r = 0; r < rows_.rows.size(); ++r)
     lambda[static_cast<std::size_t>(rows_.rows[r])] = x_[n + r];
   const bool finite = std::ranges::all_of(x_, [](double x) { return std::isfinite(x); });
   if (finite && minimum_norm_.needed()) {
     minimum_norm_.spread([this](std::span<double> x) { kkt_.solve(x); }, e_.w, lambda);
+  }
+  if (finite && friction_) {
+    friction_->require_determined(unique());
+    friction_->require_unique({t, q, v}, e_.w, s_);
   }
   return finite;
 }

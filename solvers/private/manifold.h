@@ -1,9 +1,11 @@
 #pragma once
 
+#include <dalembert/solvers/private/friction.h>
 #include <dalembert/solvers/private/minimum_norm.h>
 #include <dalembert/solvers/private/saddle.h>
 #include <dalembert/solvers/private/springs.h>
 
+#include <optional>
 #include <vector>
 
 namespace dalembert {
@@ -33,6 +35,8 @@ struct Violation {
 ///
 ///   [ M  -W^T ] [ v'     ]   [    F   ]
 ///   [ W   0   ] [ lambda ] = [ -gamma ].                                              (3)
+///
+/// Where forces read multipliers (3) is that of FrictionSolver, with its errors.
 ///
 /// A compliant row takes part with its multiplier as a variable, s = c^2 C in the lower right block:
 /// its residuals are g + C lambda, psi + C lambda', W v' + gamma + C lambda'', and y changes lambda by
@@ -67,17 +71,20 @@ class Manifold {
   /// The equations at the state last visited.
   [[nodiscard]] const System::Evaluation& equations() const { return e_; }
   [[nodiscard]] long evaluations() const { return evaluations_; }
-  [[nodiscard]] long factorisations() const { return kkt_.factorisations(); }
+  [[nodiscard]] long factorisations() const {
+    return kkt_.factorisations() + (friction_ ? friction_->factorisations() : 0);
+  }
   [[nodiscard]] const char* method() const { return kkt_.method(); }
 
  private:
   void evaluate(const Instant& at);
   void add_springs();
+  void weigh_springs();
   [[nodiscard]] bool factorise();
   void add_to_springs(const std::vector<double>& from, double fraction, std::vector<double>& to);
   void solve_for_position_step(std::size_t n);
   void correct_velocities(std::span<double> v);
-  void solve_for_accelerations(const Instant& at, std::span<double> a);
+  [[nodiscard]] bool solve_for_accelerations(const Instant& at, std::span<double> a);
 
   const System* system_;
   ActiveRows rows_;
@@ -89,6 +96,7 @@ class Manifold {
   bool following_ = false;
   SaddleMatrix kkt_;
   MinimumNorm minimum_norm_;
+  std::optional<FrictionSolver> friction_;  // if any force reads a multiplier
   long evaluations_ = 0;
 };
 

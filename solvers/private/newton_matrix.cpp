@@ -14,12 +14,6 @@ ActiveRows holonomic_only(const ActiveRows& all) {
   return {{all.rows.begin(), all.rows.begin() + all.holonomic}, all.holonomic};
 }
 
-std::size_t entries_of_constraints(const System& system) {
-  std::size_t count = 0;
-  for (const auto& c : system.layout()->constraints) count += static_cast<std::size_t>(c.width * c.width);
-  return count;
-}
-
 bool any(const std::vector<char>& flags) { return std::ranges::find(flags, 1) != flags.end(); }
 
 }  // namespace
@@ -39,10 +33,17 @@ NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows)
       x2_(static_cast<std::size_t>(system.coordinates() + rows.holonomic)),
       p_(static_cast<std::size_t>(system.coordinates())),
       dmu_(static_cast<std::size_t>(rows.holonomic)),
-      first_force_entry_(entries_of_constraints(system)) {
+      first_force_entry_(system.stiffness_of_constraints()) {
   for (const int row : rows.rows) {
     if (row >= system.holonomic_rows() || system.compliance()[static_cast<std::size_t>(row)] > 0.0)
       needs_k1_[static_cast<std::size_t>(islands_.of_row(system, row))] = 1;
+  }
+  for (std::size_t k = 0; k < system.friction_pattern().size(); ++k) {
+    const auto [coordinate, row] = system.friction_pattern()[k];
+    needs_k1_[static_cast<std::size_t>(islands_.of_coordinate[static_cast<std::size_t>(coordinate)])] = 1;
+    const auto active = static_cast<std::size_t>(std::ranges::find(rows.rows, row) - rows.rows.begin());
+    if (active < static_cast<std::size_t>(rows.holonomic))
+      friction_.push_back({k, static_cast<std::size_t>(coordinate), active});
   }
   // Whatever may be needed is made before the first step: stepping allocates nothing.
   if (const auto may_need = varying_islands(); any(may_need)) include(may_need);
@@ -188,6 +189,7 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
       x1_[static_cast<std::size_t>(row)] += linear_.damping[k] * p_[static_cast<std::size_t>(column)];
     }
   }
+  for (const Friction& f : friction_) x1_[f.coordinate] -= c * linear_.friction[f.entry] * dmu_[f.active];
   for (std::size_t r = 0; r < m; ++r) {
     const auto row = static_cast<std::size_t>(rows_.rows[r]);
     x1_[n + r] = r < m_holonomic ? c * c * (b4[r] + c * C[row] * dmu_[r]) : c * (b3[r] - along(row, w_, p_));
@@ -222,9 +224,9 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
 int NewtonMatrix::repetitions() const {
   if (!k1_in_use_) return 0;
   if (system_->compliant()) return 2;
-  const bool mixed = rows_.holonomic > 0 && rows_.holonomic < rows_.size();
-  const bool damped = rows_.holonomic > 0 && !linear_.damping.empty();
-  return mixed || damped ? 1 : 0;
+  const bool nonholonomic = rows_.holonomic < rows_.size();
+  const bool dmu_matters = nonholonomic || !linear_.damping.empty() || !friction_.empty();
+  return rows_.holonomic > 0 && dmu_matters ? 1 : 0;
 }
 
 void NewtonMatrix::solve(double c, std::span<double> b) {

@@ -13,7 +13,7 @@ namespace dalembert {
 /// Solves the linear systems of Newton's iteration for the stabilised index-2 equations
 ///
 ///   R1 = M (v - q') + G^T mu                     (n)
-///   R2 = F(t,q,v) + W^T lambda - M v'            (n)
+///   R2 = F(t,q,v,lambda) + W^T lambda - M v'     (n)
 ///   R3 = psi(t,q,v) + C lambda'                  (m)
 ///   R4 = g(t,q) + C lambda                       (m_holonomic)
 ///
@@ -43,6 +43,9 @@ namespace dalembert {
 /// that error of the last in the multipliers by one as large. There (5) to (7) are solved again with the dmu
 /// and p found, which leaves of the error a part of order psi_q/c; with C a third time. (With C dlambda = C
 /// (dnu - c dmu) and the same dmu in (6) and (7), the matrix of (7) is that of a rigid scene.)
+///
+/// Where forces read multipliers, W^T in (2) and (5) is W^T + F_lambda, and -c F_lambda dmu joins the right
+/// of (5).
 ///
 /// Where forces are soft against the inertia that a step feels, |H|/c^2 + |D|/c small against M, H and D
 /// are left out. Where besides no row is nonholonomic or compliant, both matrices are the same, nothing in
@@ -98,11 +101,17 @@ class NewtonMatrix {
   [[nodiscard]] int repetitions() const;
   void eliminate(double c, std::span<const double> b);
 
+  /// An entry of F_lambda in a holonomic row.
+  struct Friction {
+    std::size_t entry, coordinate, active;
+  };
+
   const System* system_;
   ActiveRows rows_;
   Islands islands_;
-  std::vector<char> needs_k1_;  // per island: nonholonomic or compliant rows
+  std::vector<char> needs_k1_;  // per island: nonholonomic or compliant rows, or friction
   std::vector<char> stiff_;     // per island: forces that a step feels
+  std::vector<Friction> friction_;
   System::Linearisation linear_;
   std::vector<double> w_, lower_, s_;
   std::optional<Stiff> k1_;

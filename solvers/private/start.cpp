@@ -86,7 +86,7 @@ double smallest_radius(const System& system, const Instant& at, const System::Ev
   system.linearise(at, unit, without);
   double curvature = 0.0;
   const auto length = lengths_only(system);
-  for (std::size_t k = 0; k < with.stiffness.size(); ++k) {
+  for (std::size_t k = 0; k < system.stiffness_of_constraints(); ++k) {
     const auto [row, column] = system.stiffness_pattern()[k];
     if (length[static_cast<std::size_t>(row)] == 0.0 || length[static_cast<std::size_t>(column)] == 0.0)
       continue;

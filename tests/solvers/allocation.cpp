@@ -30,6 +30,21 @@ TEST(Allocation, DoesNotHappenWhileAdvancing) {
   EXPECT_EQ(allocations(), before);
 }
 
+TEST(Allocation, DoesNotHappenWhileSteppingWithFriction) {
+  EachKind each;
+  each.scene.add(friction_law(
+      each.upper_rod, points(each.upper, each.bead), [](auto lambda, auto, auto, auto v_u, auto v_b) {
+        return std::tuple{(-0.1 * abs(lambda) * v_u).eval(), (-0.01 * lambda * v_b).eval()};
+      }));
+  for (const auto stepper : {Stepper::ida, Stepper::erk}) {
+    Simulation<2> simulation(each.scene, {.t_end = 10.0, .stepper = stepper});
+    const long before = allocations();
+    for (int i = 0; i < 10; ++i) simulation.step();
+    simulation.advance_to(simulation.time() + 0.5);
+    EXPECT_EQ(allocations(), before) << name(stepper);
+  }
+}
+
 TEST(Allocation, DoesNotHappenWhileReading) {
   const EachKind each;
   const Simulation<2> simulation(each.scene, {.t_end = 1.0});

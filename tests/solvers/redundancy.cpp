@@ -56,6 +56,31 @@ TEST_F(TwinRods, LeaveAnotherConstraintsForceUnique) {
   EXPECT_NEAR(-at.multiplier(below), 10.0, 1e-13);
 }
 
+TEST_F(TwinRods, RefuseFrictionThatReadsAShareOfTheirsNamingBoth) {
+  const auto one = scene.add(Distance{Fixed<2>{}, bob, 1.0}, "one");
+  const auto two = scene.add(Distance{Fixed<2>{}, bob, 1.0}, "two");
+  scene.add(friction_law(one, points(bob), [](auto lambda, auto, auto v) { return (lambda * v).eval(); }),
+            "rust");
+  for (const auto stepper : {Stepper::ida, Stepper::erk}) {
+    EXPECT_THAT([&] { (void)simulate(scene, {.t_end = 1.0, .stepper = stepper}); },
+                ThrowsMessage<InconsistentStart>(AllOf(HasSubstr("FrictionLaw \"rust\""),
+                                                       HasSubstr("Distance \"one\""),
+                                                       HasSubstr("does not determine"))));
+  }
+  (void)two;
+}
+
+// Below the twin rods hangs a rod whose tension, 10, is unique: friction may read that.
+TEST_F(TwinRods, LetFrictionReadAUniqueMultiplierElsewhere) {
+  scene.add(Distance{Fixed<2>{}, bob, 1.0});
+  scene.add(Distance{Fixed<2>{}, bob, 1.0});
+  const auto other = scene.add_particle({.mass = 1.0, .position = {0.0, -2.0}});
+  const auto below = scene.add(Distance{bob, other, 1.0});
+  scene.add(friction_law(below, points(other),
+                         [](auto lambda, auto, auto v) { return (-0.1 * abs(lambda) * v).eval(); }));
+  EXPECT_NEAR(-Simulation<2>(scene, {.t_end = 1.0}).multiplier(below), 10.0, 1e-13);
+}
+
 // Rods of length 1 from (0, 0) and from (0, 0.5) cannot both hold the bob at (0, -1).
 TEST_F(TwinRods, ThatContradictEachOtherInLengthAreRefusedByName) {
   scene.add(Distance{Fixed<2>{}, bob, 1.0}, "one");

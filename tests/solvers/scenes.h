@@ -30,11 +30,12 @@ struct EachKind {
   Particle<2> rider = scene.add_particle({.mass = 0.5, .position = {3.0, 0.0}}, "rider");
   Particle<2> skate =
       scene.add_particle({.mass = 1.0, .position = {0.0, 2.0}, .velocity = {1.0, 0.0}}, "skate");
+  Constraint<1> upper_rod;
 
   EachKind() {
     scene.add(UniformGravity<2>{{0.0, -9.81}});
-    scene.add(Distance{driven([](auto t) { return vec(0.1 - 0.1 * cos(3.0 * t), 0.0); }), upper, 1.0},
-              "upper rod");
+    upper_rod = scene.add(
+        Distance{driven([](auto t) { return vec(0.1 - 0.1 * cos(3.0 * t), 0.0); }), upper, 1.0}, "upper rod");
     scene.add(Distance{upper, lower, 1.0}, "lower rod");
     scene.add(Coincident{bead, rider}, "pin");
     scene.add(

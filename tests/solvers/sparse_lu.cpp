@@ -105,6 +105,29 @@ TEST(SparseLU, RecognisesAMatrixThatIsSingularByItsPattern) {
   EXPECT_FALSE(lu.factorise());
 }
 
+// Rows in any order: a cyclic shift of four changes the sign, two exchanges do not; nor does KLU's own
+// choice of pivots, blocks (a triangle) and scales.
+TEST(SparseLU, KnowsTheSignOfItsDeterminant) {
+  const Eigen::Matrix4d triangle = general().triangularView<Eigen::Upper>();
+  for (const Eigen::Matrix4d& a : {Eigen::Matrix4d(general()), triangle}) {
+    for (const auto& order : {Eigen::Vector4i(0, 1, 2, 3), Eigen::Vector4i(1, 2, 3, 0),
+                              Eigen::Vector4i(1, 0, 3, 2), Eigen::Vector4i(2, 1, 0, 3)}) {
+      for (const double scale : {1.0, -1e6}) {
+        Eigen::Matrix4d b;
+        for (int i = 0; i < 4; ++i) b.row(i) = a.row(order[i]);
+        b.row(2) *= scale;
+        SparseLU lu(4, full(4));
+        set(lu, b);
+        ASSERT_TRUE(lu.factorise());
+        EXPECT_EQ(lu.sign_of_determinant(), b.determinant() > 0.0 ? 1 : -1) << b;
+        set(lu, 2.0 * b);
+        ASSERT_TRUE(lu.factorise());  // with the same pivots
+        EXPECT_EQ(lu.sign_of_determinant(), b.determinant() > 0.0 ? 1 : -1) << b;
+      }
+    }
+  }
+}
+
 TEST(SparseLU, RecoversFromASingularMatrix) {
   SparseLU lu(4, full(4));
   set(lu, general());
