@@ -5,6 +5,7 @@
 #include <dalembert/solvers/private/erk.h>
 #include <dalembert/solvers/private/ida.h>
 #include <dalembert/solvers/private/manifold.h>
+#include <dalembert/solvers/private/outgrown.h>
 #include <dalembert/solvers/private/start.h>
 
 #include <algorithm>
@@ -226,13 +227,26 @@ struct Integrator::State {
     }
   }
 
+  /// The constraint whose force has grown without bound where the stepper stands, if there is one.
+  [[nodiscard]] std::string outgrown() {
+    try {
+      std::visit([&](auto& s) { s.interpolate(s.time(), next.q, next.v); }, stepper);
+      if (!manifold->solve_motion(stepper_time(), next.q, next.v, next.a, next.lambda)) return {};
+      return outgrown_constraint(system, start.scales, manifold->equations().w, next.lambda);
+    } catch (const std::exception&) {
+      return {};  // the run is stopping: what stops it is known already
+    }
+  }
+
   [[noreturn]] void fail(const std::string& why, double time) {
     time = std::max(time, now.t);  // a crossing begins a little earlier, and may fail there
+    const std::string suspect = outgrown();
     auto kept = std::make_shared<Record>(record);
     kept->statistics = statistics();
     std::ostringstream what;
     what.precision(10);
     what << "Scene \"" << record.layout->scene << "\" stopped at t = " << time << ": " << why;
+    if (!suspect.empty()) what << "; " << suspect;
     if (!kept->statistics.advice.empty()) what << "; " << kept->statistics.advice;
     throw IntegrationFailure(what.str(), time, std::move(kept));
   }

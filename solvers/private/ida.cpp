@@ -101,7 +101,7 @@ void IdaStepper::State::watch_order() {
   double h = 0.0;
   check(IDAGetLastStep(ida.get(), &h), "IDAGetLastStep");
   const int before = guard.order();
-  order_changed = guard.watch(h, newton.fastest_vibration());
+  order_changed = guard.watch(h, newton.fastest_compliant());
   if (h * newton.fastest_of_forces() > unresolved) ++unresolved_steps;
   begin_anew = order_changed && guard.order() < before;
 }

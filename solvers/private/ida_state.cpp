@@ -1,5 +1,6 @@
 #include "dalembert/solvers/private/ida_state.h"
 
+#include <dalembert/solvers/private/outgrown.h>
 #include <dalembert/solvers/private/vector_operations.h>
 
 #include <nvector/nvector_serial.h>
@@ -29,7 +30,7 @@ IdaStepper::State::State(const System& s, const Start& start, const Options& opt
       e(s.evaluation()),
       lambda(start.lambda),
       impulse_row(static_cast<std::size_t>(start.rows.size())),
-      newton(s, start.rows),
+      newton(s, start.rows, start.scales.time),
       t(options.t_start) {
   y.reset(check(N_VNew_Serial(static_cast<sunindextype>(unknowns()), context.get())));
   vectorise(y.get());
@@ -51,7 +52,8 @@ IdaStepper::State::State(const System& s, const Start& start, const Options& opt
     const auto row = static_cast<std::size_t>(rows.rows[r]);
     if (system->compliance()[row] > 0.0) yp0[2 * n() + r] = -e.psi[row] / system->compliance()[row];
   }
-  weigh_multipliers();
+  for (std::size_t r = 0; r < m(); ++r)
+    impulse_row[r] = impulse_of_row(*system, scales, e.w, static_cast<std::size_t>(rows.rows[r]));
 
   ida.reset(check(IDACreate(context.get())));
   make_linear_solver();
@@ -99,22 +101,6 @@ void IdaStepper::State::residual(double at, N_Vector x, N_Vector xp, N_Vector r)
     const double C = system->compliance()[row];
     r3[k] = e.psi[row] + C * rates[k];
     if (holonomic) r4[k] = e.g[row] + C * active[k];
-  }
-}
-
-/// The multiplier that delivers the scene's speed to the masses of its row in a unit of time:
-/// speed |W| / (W M^-1 W^T), whatever the scale of the user's equation.
-void IdaStepper::State::weigh_multipliers() {
-  for (std::size_t r = 0; r < m(); ++r) {
-    const auto row = static_cast<std::size_t>(rows.rows[r]);
-    double square = 0.0;
-    for (auto k = static_cast<std::size_t>(system->row_start()[row]);
-         k < static_cast<std::size_t>(system->row_start()[row + 1]); ++k) {
-      const auto i = static_cast<std::size_t>(system->w_columns()[k]);
-      const double slope = e.w[k] * scales.coordinate[i] / scales.length;
-      square += slope * slope;
-    }
-    impulse_row[r] = scales.speed() * std::sqrt(square) / mobility(*system, e.w, row);
   }
 }
 

@@ -34,7 +34,7 @@ struct IdaStepper::State {
   double tolerance, t_end, first_step;
   System::Evaluation e;
   std::vector<double> lambda;       // one per row of the system
-  std::vector<double> impulse_row;  // |lambda| h for a unit of speed, per active row
+  std::vector<double> impulse_row;  // per active row
   NewtonMatrix newton;
   OrderGuard guard;
   bool order_changed = false, begin_anew = false;  // by the guard, not yet done
@@ -67,7 +67,6 @@ struct IdaStepper::State {
   void spread_multipliers(N_Vector x);
   void residual(double at, N_Vector x, N_Vector xp, N_Vector r);
   void weigh(N_Vector x, N_Vector weight);
-  void weigh_multipliers();
   void blame(double at, std::string what) {
     fault_time = at;
     fault = std::move(what);

@@ -18,9 +18,10 @@ bool any(const std::vector<char>& flags) { return std::ranges::find(flags, 1) !=
 
 }  // namespace
 
-NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows)
+NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows, double time)
     : system_(&system),
       rows_(rows),
+      time_(time),
       islands_(islands(system)),
       needs_k1_(static_cast<std::size_t>(islands_.count), 0),
       stiff_(needs_k1_),
@@ -81,14 +82,16 @@ void NewtonMatrix::include(const std::vector<char>& which) {
       Stiff{std::move(coordinates), std::move(active), which, std::move(matrix), std::vector<double>(size)});
 }
 
-/// Finds the islands where H or D are not small against c^2 M and c M, by their largest row sums.
+/// Finds the islands where H or D are not small, by their largest row sums.
 void NewtonMatrix::judge(double c) {
   std::ranges::fill(p_, 0.0);
-  const double h = 1.0 / (c * c), d = 1.0 / c;
-  for (std::size_t k = 0; k < linear_.stiffness.size(); ++k)
-    p_[static_cast<std::size_t>(system_->stiffness_pattern()[k].row)] += h * std::abs(linear_.stiffness[k]);
+  const double of_constraints = 1.0 / (c * c), of_forces = std::max(1.0 / (c * c), time_ / c);
+  for (std::size_t k = 0; k < linear_.stiffness.size(); ++k) {
+    p_[static_cast<std::size_t>(system_->stiffness_pattern()[k].row)] +=
+        (k < first_force_entry_ ? of_constraints : of_forces) * std::abs(linear_.stiffness[k]);
+  }
   for (std::size_t k = 0; k < linear_.damping.size(); ++k)
-    p_[static_cast<std::size_t>(system_->damping_pattern()[k].row)] += d * std::abs(linear_.damping[k]);
+    p_[static_cast<std::size_t>(system_->damping_pattern()[k].row)] += std::abs(linear_.damping[k]) / c;
   std::ranges::fill(stiff_, 0);
   for (std::size_t i = 0; i < p_.size(); ++i) {
     if (p_[i] > still_soft * system_->masses()[i])

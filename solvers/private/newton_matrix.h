@@ -48,13 +48,16 @@ namespace dalembert {
 /// of (5).
 ///
 /// Where forces are soft against the inertia that a step feels, |H|/c^2 + |D|/c small against M, H and D
-/// are left out. Where besides no row is nonholonomic or compliant, both matrices are the same, nothing in
-/// them depends on c, and their Schur complement W M^-1 W^T serves both; a change of the step needs no
-/// new factors. (H holds the predicted, noisy multipliers: on chains leaving it out halves the
+/// are left out. Of the forces' own stiffness |H| T/c must be small as well, with the scene's time T: IDA
+/// measures a first correction dq by L, the H dq/(c M) that it leaves to the second by L/T, and would take
+/// the second for divergence. Where besides no row is nonholonomic or compliant, both matrices are the same,
+/// nothing in them depends on c, and their Schur complement W M^-1 W^T serves both; a change of the step
+/// needs no new factors. (H holds the predicted, noisy multipliers: on chains leaving it out halves the
 /// steps.) That is decided for each island of the scene by itself.
 class NewtonMatrix {
  public:
-  NewtonMatrix(const System& system, const ActiveRows& rows);
+  /// `time` is the scene's own, as in Scales.
+  NewtonMatrix(const System& system, const ActiveRows& rows, double time);
 
   /// Factors at a state, with the equations there; `lambda` has one number per row of the system.
   /// False if singular. Throws EquationFault.
@@ -69,10 +72,9 @@ class NewtonMatrix {
   /// Brings soft factors up to date with W, which costs them little; others stay as they are.
   /// False if singular.
   [[nodiscard]] bool refresh(const System::Evaluation& e, double c);
-  /// The fastest vibration that compliant rows and the forces' stiffness can have, by the size of their
-  /// entries [1 / time]; 0 if there is none that a step feels.
-  [[nodiscard]] double fastest_vibration() const { return std::max(rho_compliant_, rho_forces_); }
-  /// That of the forces alone, and which of them it is.
+  /// The fastest vibration of compliant rows, by the size of their entries [1 / time]; 0 if there are none.
+  [[nodiscard]] double fastest_compliant() const { return rho_compliant_; }
+  /// That of the forces' stiffness, and which force has it.
   [[nodiscard]] double fastest_of_forces() const { return rho_forces_; }
   [[nodiscard]] std::string stiffest_force() const;
   /// Whether the last factors are those of W M^-1 W^T alone.
@@ -108,6 +110,7 @@ class NewtonMatrix {
 
   const System* system_;
   ActiveRows rows_;
+  double time_;
   Islands islands_;
   std::vector<char> needs_k1_;  // per island: nonholonomic or compliant rows, or friction
   std::vector<char> stiff_;     // per island: forces that a step feels

@@ -9,8 +9,9 @@ namespace {
 /// Order 5 resolves a vibration that matters with steps h rho below the first (0.2 to 0.4 at tolerances
 /// 1e-4 to 1e-8); beyond the second no order is unstable.
 constexpr double resolved = 0.45, passed_over = 9.4;
-/// Windows of each phase, and the longest wait for a trial. At h rho = 0.6 order 2 damps by 0.97 a step.
-constexpr int damping = 4, trying = 2, keeping = 20, longest_patience = 1000;
+/// Windows of each phase, how much longer to wait after each trial that did not pay, and at most. At h rho =
+/// 0.6 order 2 damps by 0.97 a step.
+constexpr int damping = 2, trying = 1, more_patience = 8, longest_patience = 1000;
 
 }  // namespace
 
@@ -19,7 +20,9 @@ bool OrderGuard::watch(double h, double rho) {
   turned_ += h * rho;
   if (++steps_ < window) return false;
   const int before = order_;
-  if (--windows_left_ <= 0) end_window(advance_, turned_ / window);
+  // What the last trial ended with may last only until the vibration has grown again.
+  const bool collapsed = phase_ == Phase::free && 2.0 * advance_ < by_third_;
+  if (--windows_left_ <= 0 || collapsed) end_window(advance_, turned_ / window);
   steps_ = 0;
   advance_ = turned_ = 0.0;
   return order_ != before;
@@ -38,17 +41,18 @@ void OrderGuard::end_window(double advance, double turned) {
       if (turned > resolved && turned < passed_over) begin(Phase::damping, 2, damping);
       return;
     case Phase::damping:
+      by_second_ = advance;
       return begin(Phase::at_third, 3, trying);
     case Phase::at_third:
       by_third_ = advance;
-      if (by_third_ > by_fifth_) return begin(Phase::kept, 3, keeping);
-      return begin(Phase::at_second, 2, trying);
-    case Phase::at_second:
-      if (advance > std::max(by_third_, by_fifth_)) return begin(Phase::kept, 2, keeping);
-      patience_ = std::min(2 * patience_, longest_patience);
+      if (by_third_ > std::max(by_fifth_, by_second_)) return begin(Phase::kept, 3, 1);
+      if (by_second_ > by_fifth_) return begin(Phase::kept, 2, 1);
+      patience_ = std::min(more_patience * patience_, longest_patience);
       return begin(Phase::free, highest, patience_);
     case Phase::kept:
-      patience_ = 1;
+      if (advance >= by_fifth_ && turned > resolved && turned < passed_over)
+        return begin(Phase::kept, order_, 1);
+      patience_ = advance >= by_fifth_ ? 1 : std::min(more_patience * patience_, longest_patience);
       return begin(Phase::free, highest, patience_);
   }
 }

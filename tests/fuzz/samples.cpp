@@ -158,7 +158,7 @@ std::string fault_of_run(const Draft<D>& draft, const Trajectory<D>& run, std::o
   const std::string times = fault_of_times(run.times(), sample_times(draft.plan.options), failed_at);
   if (!times.empty()) return times;
   const System system = draft.scene.system();
-  double length = std::max(system.extent(), draft.plan.length), speed = 0.0;
+  double length = std::max(system.extent(draft.plan.options.t_start), draft.plan.length), speed = 0.0;
   for (std::size_t i = 0; i < run.size(); ++i) {
     const FlatSample s = run.sample(i).flat();
     if (!finite(s.q) || !finite(s.v)) return "a position or velocity is not finite";

@@ -37,7 +37,21 @@ TEST(OrderGuard, FindsTheOrderThatIsNotHeldDown) {
   EXPECT_LT(steps, 0.5 * 100.0 / 0.005);
 }
 
-// The trials' number grows as the logarithm of the run's length: 50 windows cost at most 6 trials of 8.
+// Order 3 pays until the vibration has grown: from t = 20 on it is worse than order 5 was.
+TEST(OrderGuard, GivesUpAnOrderThatNoLongerPays) {
+  OrderGuard guard;
+  double t = 0.0;
+  int at_third_late = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const double h = guard.order() == 5 ? 0.005 : guard.order() == 3 && t < 20.0 ? 0.03 : 0.002;
+    t += h;
+    (void)guard.watch(h, 100.0);
+    if (t > 25.0 && guard.order() != 5) ++at_third_late;
+  }
+  EXPECT_LT(at_third_late, 4 * 3 * 50);  // trials only, of two windows at order 2 and one at order 3
+}
+
+// The trials' number grows as the logarithm of the run's length: after 1, 8, 64, ... windows, 3 windows each.
 TEST(OrderGuard, GivesUpWhereTheVibrationIsPartOfTheMotion) {
   OrderGuard guard;
   const int steps = steps_until(1000.0, 100.0, guard, [](int order) { return order == 5 ? 0.006 : 0.003; });

@@ -191,7 +191,7 @@ TEST(NewtonMatrix, SolvesItsEquationsWithoutSoftForces) {
   const auto m = p.system.rows();
   const std::vector<double> lambda(static_cast<std::size_t>(m), 0.0);  // so that H = 0
   const double c = 50.0;
-  NewtonMatrix newton(p.system, p.rows);
+  NewtonMatrix newton(p.system, p.rows, 1.0);
   ASSERT_TRUE(newton.factorise({0.0, scene.initial_positions(), v}, p.e, lambda, c));
   ASSERT_TRUE(newton.soft());
   const std::vector<double> b = random_numbers(2 * n + 2 * m);
@@ -222,12 +222,14 @@ TEST(NewtonMatrix, KeepsStiffForces) {
   scene.add(Distance{Fixed<2>{{0.0, 0.0}}, a, 1.0});
   scene.add(Spring{a, b, 1e6, 1.0});
   const Prepared p(scene);
-  NewtonMatrix newton(p.system, p.rows);
+  NewtonMatrix newton(p.system, p.rows, 1.0);
   const std::vector<double> lambda{0.0};
   const Instant at{0.0, scene.initial_positions(), scene.initial_velocities()};
   ASSERT_TRUE(newton.factorise(at, p.e, lambda, 100.0));  // k/(m c^2) = 100
   EXPECT_FALSE(newton.soft());
-  ASSERT_TRUE(newton.factorise(at, p.e, lambda, 1e5));  // 1e-4
+  ASSERT_TRUE(newton.factorise(at, p.e, lambda, 1e5));  // 1e-4, but 10 in relation to the time: k T/(m c)
+  EXPECT_FALSE(newton.soft());
+  ASSERT_TRUE(newton.factorise(at, p.e, lambda, 1e8));  // 0.01
   EXPECT_TRUE(newton.soft());
 }
 
