@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <limits>
 #include <sstream>
 #include <variant>
 
@@ -24,6 +25,9 @@ constexpr double output_distance = 1e-15;
 /// Constraints that were left out because they followed from others at the start must still do so:
 /// to this fraction of the scene's length.
 constexpr double tolerated_contradiction = 1e-8;
+
+/// Times known no better than to this part of the scene's own are worth a word when a run stops.
+constexpr double coarse_time = 1e-10;
 
 /// Processor time of this thread [s]: what a busy machine does meanwhile does not count.
 double processor_time() {
@@ -247,6 +251,10 @@ struct Integrator::State {
     what.precision(10);
     what << "Scene \"" << record.layout->scene << "\" stopped at t = " << time << ": " << why;
     if (!suspect.empty()) what << "; " << suspect;
+    const double resolution = std::numeric_limits<double>::epsilon() * std::abs(time);
+    if (resolution > coarse_time * start.scales.time) {
+      what << "; double precision tells times here only to " << resolution << ": let time begin at 0";
+    }
     if (!kept->statistics.advice.empty()) what << "; " << kept->statistics.advice;
     throw IntegrationFailure(what.str(), time, std::move(kept));
   }

@@ -56,8 +56,15 @@ template <int D, class Measure>
   }
 }
 
+/// A run that stability or double precision may not allow: if `may_be_refused` it may stop with an
+/// IntegrationFailure that says `why`, which is then no error.
+[[nodiscard]] Result unless_refused(const std::function<Result()>& run, bool may_be_refused,
+                                    std::string_view why);
+
 /// A stiff scene in the explicit stepper, whose steps are held down by stability: it may reach the end, or
-/// must say that max_steps are used up, which is then no error.
-[[nodiscard]] Result unless_too_stiff(const std::function<Result()>& run, Stepper stepper);
+/// must say that max_steps are used up.
+[[nodiscard]] inline Result unless_too_stiff(const std::function<Result()>& run, Stepper stepper) {
+  return unless_refused(run, stepper == Stepper::erk, "max_steps");
+}
 
 }  // namespace dalembert::extremes

@@ -121,7 +121,7 @@ Case discontinuous_force() {
   return {.name = "discontinuous-force",
           .parameter = "switches of a pushing force in 8 s",
           .sweep = {8.0, 64.0, 512.0},
-          .brief = {512.0},
+          .brief = {8.0, 64.0},
           .run =
               [](double switches, Stepper stepper) {
                 return Switched{t_end / switches}.compared({.t_end = t_end,
@@ -171,7 +171,7 @@ Case jolted_pivot() {
       .name = "jolted-pivot",
       .parameter = "speed that a pivot takes on in an instant [m/s]",
       .sweep = {1e-3, 1e-1, 1.0, 10.0},
-      .brief = {},
+      .brief = {1.0},
       .run =
           [](double u, Stepper stepper) {
             return jolted(u, {.t_end = t_end, .samples = 11, .tolerance = tolerance, .stepper = stepper});

@@ -40,7 +40,7 @@ Case capture() {
   return {.name = "capture",
           .parameter = "speed of a pursuer over its prey's, run beyond capture",
           .sweep = {1.1, 1.5, 2.0, 3.0, 10.0},
-          .brief = {1.5, 3.0},
+          .brief = {1.5, 3.0, 10.0},
           .run =
               [](double ratio, Stepper stepper) {
                 const models::PursuitCurve chase{.pursuer_speed = ratio};
@@ -63,7 +63,7 @@ Case out_of_reach() {
       .name = "out-of-reach",
       .parameter = "speed of a point that draws two rods apart [m/s]",
       .sweep = {0.1, 1.0, 10.0},
-      .brief = {},
+      .brief = {1.0},
       .run =
           [](double u, Stepper stepper) {
             Scene<2> scene("out-of-reach");
@@ -112,7 +112,7 @@ Case collision() {
       .name = "collision",
       .parameter = "tolerance at which a particle falls into a centre of force",
       .sweep = {1e-4, 1e-6, 1e-8, 1e-10},
-      .brief = {1e-6},
+      .brief = {1e-4, 1e-8},
       .run =
           [](double tolerance, Stepper stepper) {
             Scene<2> scene("collision");

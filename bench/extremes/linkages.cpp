@@ -30,7 +30,7 @@ Case four_bar() {
   return {.name = "four-bar",
           .parameter = "loops, over 20 s at tolerance 1e-8",
           .sweep = {1.0, 2.0, 10.0, 40.0},
-          .brief = {1.0, 2.0},
+          .brief = {1.0, 2.0, 10.0, 40.0},
           .run =
               [](double loops, Stepper stepper) {
                 return of_first_joint(static_cast<int>(loops),
@@ -44,7 +44,7 @@ Case four_bar_tight() {
   return {.name = "four-bar-tight",
           .parameter = "loops, over 10 s at tolerance 1e-10",
           .sweep = {1.0, 2.0, 10.0},
-          .brief = {2.0},
+          .brief = {2.0, 10.0},
           .run =
               [](double loops, Stepper stepper) {
                 return of_first_joint(static_cast<int>(loops),

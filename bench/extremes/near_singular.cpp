@@ -46,7 +46,7 @@ Case upright() {
       .name = "upright",
       .parameter = "angle from upright at which a pendulum is let go [rad]",
       .sweep = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12},
-      .brief = {1e-4, 1e-10},
+      .brief = {1e-4, 1e-12},
       .run =
           [=](double d, Stepper stepper) {
             const double t_end = (std::log(2.0 * std::numbers::pi / d) + 2.0) / std::sqrt(9.81);
@@ -101,7 +101,7 @@ Case cone_apex() {
   return {.name = "cone-apex",
           .parameter = "angular momentum at which a cone's apex is passed [m^2/s]",
           .sweep = {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6},
-          .brief = {1e-1, 1e-3},
+          .brief = {1e-1, 1e-6},
           .run =
               [](double h, Stepper stepper) {
                 const models::ConeSlide slide{.speed_ratio = h / std::sqrt(9.81)};
@@ -143,7 +143,7 @@ Case cusp() {
   return {.name = "cusp",
           .parameter = "curvature at the bottom of a bead's curve [1/m]",
           .sweep = {1e1, 1e2, 1e3, 1e4, 1e5, 1e6},
-          .brief = {1e2, 1e4},
+          .brief = {1e2, 1e6},
           .run =
               [](double curvature, Stepper stepper) {
                 const double b = 1.0 / curvature;

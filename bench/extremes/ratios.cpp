@@ -46,7 +46,7 @@ Case mass_ratio() {
   return {.name = "mass-ratio",
           .parameter = "lower over upper mass of a double pendulum",
           .sweep = {1e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6, 1e8},
-          .brief = {1e-8, 1e-4, 1e4},
+          .brief = {1e-8, 1e-4, 1e4, 1e8},
           .run =
               [](double ratio, Stepper stepper) {
                 // The smaller mass is 1 kg.
@@ -65,33 +65,40 @@ Case mass_ratio() {
 
 /// The tolerance is relative to the whole: an error e of position is one of e/r in the angle of a rod of the
 /// part r of the other, and so in the tensions and all that they move. With tolerances in proportion, down to
-/// the tightest, tensions are compared too. From half a radian the short rod swings, and amplifies nothing.
+/// the tightest, tensions are compared too; of the implicit stepper, whose steps would have to be right to 20
+/// units of round-off, that may be too much. From half a radian the short rod swings, and amplifies nothing.
 Case length_ratio() {
   const auto part = [](double ratio) { return std::min(ratio, 1.0 / ratio); };
   const auto tight = [=](double ratio) { return std::clamp(1e-7 * part(ratio), 1e-13, 1e-8); };
-  return {.name = "length-ratio",
-          .parameter = "lower over upper rod of a double pendulum",
-          .sweep = {1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6},
-          .brief = {1e-4, 1.0, 1e4},
-          .run =
-              [=](double ratio, Stepper stepper) {
-                const models::DoublePendulum pendulum{.length1 = std::min(1.0, 1.0 / ratio),
-                                                      .length2 = std::min(1.0, ratio),
-                                                      .angle1 = 0.5,
-                                                      .angle2 = 0.5};
-                return compared<2>(
-                    pendulum.model(),
-                    {.t_end = 1.0, .tolerance = tight(ratio), .stepper = stepper, .max_steps = most_steps});
-              },
-          .limit =
-              [=](const Run& run) {
-                return of_tensions * added_up(run, tight(run.parameter), own_times(1.0, 1.0)) /
-                       part(run.parameter);
-              }};
+  return {
+      .name = "length-ratio",
+      .parameter = "lower over upper rod of a double pendulum",
+      .sweep = {1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6},
+      .brief = {1e-6, 1.0, 1e4},
+      .run =
+          [=](double ratio, Stepper stepper) {
+            const models::DoublePendulum pendulum{.length1 = std::min(1.0, 1.0 / ratio),
+                                                  .length2 = std::min(1.0, ratio),
+                                                  .angle1 = 0.5,
+                                                  .angle2 = 0.5};
+            return unless_refused(
+                [&] {
+                  return compared<2>(
+                      pendulum.model(),
+                      {.t_end = 1.0, .tolerance = tight(ratio), .stepper = stepper, .max_steps = most_steps});
+                },
+                stepper == Stepper::ida && part(ratio) <= 1e-6, "looser tolerance");
+          },
+      .limit =
+          [=](const Run& run) {
+            return of_tensions * added_up(run, tight(run.parameter), own_times(1.0, 1.0)) /
+                   part(run.parameter);
+          }};
 }
 
 /// The light links of mass m, 1/5 of the string each, vibrate at sqrt(5 M/m) of the pendulum's frequency with
-/// amplitudes of m/M: they amplify no error of the motion.
+/// amplitudes of m/M: they amplify no error of the motion. The tensions on a link are M/m of its weight;
+/// where double precision does not tell their difference to the tolerance, a run may be refused.
 Case heavy_on_light_chain() {
   return {.name = "heavy-on-light-chain",
           .parameter = "mass at the end of five light links over that of a link",
@@ -99,11 +106,15 @@ Case heavy_on_light_chain() {
           .brief = {1e1, 1e4},
           .run =
               [](double ratio, Stepper stepper) {
-                return compared<2>(ChainOfMasses::heavy_at_the_end(5, ratio).model(),
-                                   {.t_end = duration(ratio),
-                                    .tolerance = tolerance,
-                                    .stepper = stepper,
-                                    .max_steps = most_steps});
+                return unless_refused(
+                    [&] {
+                      return compared<2>(ChainOfMasses::heavy_at_the_end(5, ratio).model(),
+                                         {.t_end = duration(ratio),
+                                          .tolerance = tolerance,
+                                          .stepper = stepper,
+                                          .max_steps = most_steps});
+                    },
+                    epsilon * ratio > tolerance, "the multiplier of Distance");
               },
           .limit =
               [](const Run& run) {

@@ -30,8 +30,9 @@ Observed<2> watched(Scene<2> scene, Particle<2> particle) {
           }};
 }
 
-Model<2> planar(double length, std::function<Observed<2>()> scene,
-                std::function<std::vector<Observation<2>>(std::span<const double>)> observations) {
+using Observations = std::function<std::vector<Observation<2>>(std::span<const double>)>;
+
+Model<2> planar(double length, std::function<Observed<2>()> scene, Observations observations) {
   return {.name = "",
           .notes = "",
           .reference = "",
@@ -43,34 +44,64 @@ Model<2> planar(double length, std::function<Observed<2>()> scene,
           .observations = std::move(observations)};
 }
 
-}  // namespace
+Scene<2> spring_scene() {
+  Scene<2> built("spring-pendulum");
+  built.add(UniformGravity<2>{{0.0, -g}});
+  return built;
+}
 
-Model<2> SpringPendulum::model(bool with_rigid) const {
-  const auto scene = [k = stiffness] {
-    Scene<2> built("spring-pendulum");
-    built.add(UniformGravity<2>{{0.0, -g}});
-    const auto bob = built.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
-    built.add(Spring{Fixed<2>{}, bob, k, 1.0});
-    return watched(std::move(built), bob);
-  };
-  const auto on_spring = [k = stiffness](std::span<const double> times) {
+/// A bob on a spring, with its tension.
+Observations on_spring(double k) {
+  return [k](std::span<const double> times) {
     std::vector<Observation<2>> seen;
     const auto equations = [k](const State& y, State& rate) {  // y = (r, r', phi, phi')
       rate = {y[1], y[0] * y[3] * y[3] + Real(g) * std::cos(y[2]) - k * (y[0] - 1), y[3],
               -(Real(g) * std::sin(y[2]) + 2 * y[1] * y[3]) / y[0]};
     };
     models::integrate(equations, State{1, 0, std::numbers::pi_v<Real> / 2, 0}, times, [&](const State& y) {
-      seen.push_back({.positions = {at_angle(y[0], y[2])}, .forces = {}});
+      seen.push_back({.positions = {at_angle(y[0], y[2])}, .forces = {static_cast<double>(k * (y[0] - 1))}});
     });
     return seen;
   };
-  const auto on_rod = [](std::span<const double> times) {
-    auto seen = models::at_each<2>(models::PlanePendulum{}, times);
+}
+
+Observations on_rod() {
+  return [](std::span<const double> times) { return models::at_each<2>(models::PlanePendulum{}, times); };
+}
+
+Observations without_forces(Observations observations) {
+  return [all = std::move(observations)](std::span<const double> times) {
+    auto seen = all(times);
     for (Observation<2>& at : seen) at.forces.clear();
     return seen;
   };
-  if (with_rigid) return planar(1.0, scene, on_rod);
-  return planar(1.0, scene, on_spring);
+}
+
+}  // namespace
+
+Model<2> SpringPendulum::as_force(bool with_rigid) const {
+  const auto scene = [k = stiffness] {
+    Scene<2> built = spring_scene();
+    const auto bob = built.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
+    built.add(Spring{Fixed<2>{}, bob, k, 1.0});
+    return watched(std::move(built), bob);
+  };
+  return planar(1.0, scene, without_forces(with_rigid ? on_rod() : on_spring(stiffness)));
+}
+
+Model<2> SpringPendulum::as_constraint(bool with_rigid) const {
+  const auto scene = [k = stiffness] {
+    Scene<2> built = spring_scene();
+    const auto bob = built.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
+    const auto rod = built.add(compliant(Distance{Fixed<2>{}, bob, 1.0}, 1.0 / k));
+    return Observed<2>{std::move(built), [bob, rod](const Sample<2>& sample) {
+                         return Observation<2>{.positions = {sample.position(bob)},
+                                               .forces = {-sample.multiplier(rod)}};
+                       }};
+  };
+  Model<2> model = planar(1.0, scene, with_rigid ? on_rod() : on_spring(stiffness));
+  model.force = g;  // its weight
+  return model;
 }
 
 double CreepingPendulum::error_of_reference() const { return creeps() ? 3.0 * g / (drag * drag) : 0.0; }

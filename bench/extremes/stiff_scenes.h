@@ -9,9 +9,12 @@ namespace dalembert::extremes {
 ///
 ///   r'' = r phi'^2 + g cos phi - (k/m)(r - l),    r phi'' = -g sin phi - 2 r' phi'.
 struct SpringPendulum {
-  double stiffness;
-  /// Compared with these equations, or with the pendulum on a rigid rod.
-  [[nodiscard]] models::Model<2> model(bool with_rigid) const;
+  double stiffness;  ///< infinite is a rigid rod
+
+  /// With the spring given as a force, compared with these equations or with the pendulum on a rigid rod.
+  [[nodiscard]] models::Model<2> as_force(bool with_rigid) const;
+  /// With the spring given as a compliant constraint; its tension is compared too.
+  [[nodiscard]] models::Model<2> as_constraint(bool with_rigid) const;
 };
 
 /// A pendulum of 1 m and 1 kg in a viscous liquid, c its drag: l phi'' = -g sin phi - (c/m) l phi'. With much

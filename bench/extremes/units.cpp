@@ -80,32 +80,37 @@ Case late_start() {
 }
 
 /// The same pendulum on a pivot that moves along x at a constant speed, which no force tells from one at
-/// rest.
+/// rest. At 1e9 s the pivot's place is known to 1e-8 m, less well than the implicit stepper's steps have to
+/// be: it may refuse.
 Case late_drive() {
   return {.name = "late-drive",
           .parameter = "t_start of a pendulum whose pivot passes the origin then [s]",
           .sweep = {0.0, 1e3, 1e6, 1e9},
-          .brief = {0.0},
+          .brief = {1e6, 1e9},
           .run =
               [](double t0, Stepper stepper) {
-                Scene<2> scene("late-drive");
-                scene.add(UniformGravity<2>{{0.0, -9.81}});
-                const auto bob =
-                    scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}, .velocity = {pivot_speed, 0.0}});
-                const auto pivot = driven([t0](auto t) { return vec(pivot_speed * (t - t0), 0.0); });
-                scene.add(Distance{pivot, bob, 1.0});
-                const Trajectory<2> run = simulate(scene, {.t_end = t0 + late_duration,
-                                                           .t_start = t0,
-                                                           .tolerance = late_tolerance,
-                                                           .stepper = stepper});
-                double error = 0.0;
-                for (std::size_t i = 0; i < run.size(); ++i) {
-                  const double t = run.times()[i] - t0;
-                  const Vec<2> exact =
-                      models::PlanePendulum{}.reference(t).positions[0] + Vec<2>(pivot_speed * t, 0.0);
-                  error = larger(error, (run.position(bob, i) - exact).norm());
-                }
-                return Result{.error = error, .statistics = run.statistics()};
+                return unless_refused(
+                    [&] {
+                      Scene<2> scene("late-drive");
+                      scene.add(UniformGravity<2>{{0.0, -9.81}});
+                      const auto bob = scene.add_particle(
+                          {.mass = 1.0, .position = {1.0, 0.0}, .velocity = {pivot_speed, 0.0}});
+                      const auto pivot = driven([t0](auto t) { return vec(pivot_speed * (t - t0), 0.0); });
+                      scene.add(Distance{pivot, bob, 1.0});
+                      const Trajectory<2> run = simulate(scene, {.t_end = t0 + late_duration,
+                                                                 .t_start = t0,
+                                                                 .tolerance = late_tolerance,
+                                                                 .stepper = stepper});
+                      double error = 0.0;
+                      for (std::size_t i = 0; i < run.size(); ++i) {
+                        const double t = run.times()[i] - t0;
+                        const Vec<2> exact =
+                            models::PlanePendulum{}.reference(t).positions[0] + Vec<2>(pivot_speed * t, 0.0);
+                        error = larger(error, (run.position(bob, i) - exact).norm());
+                      }
+                      return Result{.error = error, .statistics = run.statistics()};
+                    },
+                    t0 >= 1e9, "time begin at 0");
               },
           .limit =
               [](const Run& run) {

@@ -83,6 +83,11 @@ void Manifold::weigh_springs() {
   }
 }
 
+bool Manifold::nearly_singular() const {
+  constexpr double close = 1e-2;  // sin^2 of an angle
+  return rows_.holonomic > 0 && kkt_.smallest_pivot() < close;
+}
+
 bool Manifold::factorise() {
   weigh_springs();
   return kkt_.factorise(e_.w, s_);

@@ -65,6 +65,9 @@ class Manifold {
   /// step of (1) leaves is the square of what it found. False if singular.
   [[nodiscard]] bool land(double t, std::span<double> q, std::span<double> v, std::span<double> a);
 
+  /// Whether rows were close to dependent where the matrix was factored last.
+  [[nodiscard]] bool nearly_singular() const;
+
   /// Per row of the system, whether its last multiplier is determined by the motion.
   [[nodiscard]] std::span<const char> unique() const { return minimum_norm_.unique(); }
 

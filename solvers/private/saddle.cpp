@@ -10,7 +10,7 @@ constexpr std::size_t most_products = 16;
 
 /// Rows that make a smaller angle than the root of this are left to LU on the whole matrix, so that
 /// the complement never loses more than half of the digits.
-constexpr double smallest_pivot = 1e-8;
+constexpr double least_pivot = 1e-8;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ SaddleMatrix::SaddleMatrix(const System& system, const ActiveRows& rows) : syste
 
 bool SaddleMatrix::factorise(std::span<const double> w, std::span<const double> s) {
   ++factorisations_;
-  by_schur_ = schur_ && schur_->factorise(w, s) && schur_->smallest_pivot() > smallest_pivot;
+  by_schur_ = schur_ && schur_->factorise(w, s) && schur_->smallest_pivot() > least_pivot;
   if (by_schur_) return true;
   if (!whole_) whole_.emplace(*system_, rows_, KktMatrix::Forces::none);
   return whole_->factorise(w, s);

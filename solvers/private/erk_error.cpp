@@ -1,0 +1,91 @@
+#include <dalembert/solvers/private/erk_state.h>
+
+#include <cmath>
+
+namespace dalembert {
+
+namespace {
+
+/// Steps of h rho beyond this are held down by stability: |R(iy)| exceeds 1 by a thousandth at
+/// y = 3.3, by a twentieth at 4.4, and |R(-x)| exceeds 1 at x = 5.9 (from the table of the pair).
+constexpr double stable = 3.3;
+
+}  // namespace
+
+/// Root mean square of differences of positions and velocities over what the tolerance allows.
+double ErkStepper::State::size(std::span<const double> dq, std::span<const double> dv, const Node& at) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double e = dq[i] / scales.position_error(i, at.q[i], tolerance);
+    const double f = dv[i] / (tolerance * (scales.coordinate[i] / scales.time + std::abs(at.va[i])));
+    sum += e * e + f * f;
+  }
+  return std::sqrt(sum / (2.0 * static_cast<double>(n)));
+}
+
+/// The estimated error of a step over the tolerance.
+double ErkStepper::State::error(const Node& end, double step) {
+  const auto [dq, dv] = halves(difference);
+  d.apply(step, k, 0, nullptr, dq.data(), n);
+  d.apply(step, k, n, nullptr, dv.data(), n);
+  return std::max(size(dq, dv, end), error_of_springs(dq));
+}
+
+/// A compliant constraint multiplies errors of position by its stiffness: its force w dq/C is to be as good,
+/// of the force that moves its masses by the scene's length in the scene's time.
+double ErkStepper::State::error_of_springs(std::span<const double> dq) const {
+  double most = 0.0;
+  for (std::size_t r = 0; r < force_of_spring.size(); ++r) {
+    if (force_of_spring[r] == 0.0) continue;
+    double stretch = 0.0;
+    for (auto j = static_cast<std::size_t>(system->row_start()[r]);
+         j < static_cast<std::size_t>(system->row_start()[r + 1]); ++j)
+      stretch += manifold.equations().w[j] * dq[static_cast<std::size_t>(system->w_columns()[j])];
+    most = std::max(most, std::abs(stretch) / (system->compliance()[r] * tolerance * force_of_spring[r]));
+  }
+  return most;
+}
+
+/// Puts `next` onto the constraints. The correction over the tolerance.
+double ErkStepper::State::land() {
+  const auto [dq, dv] = halves(difference);
+  const auto [v, v_dot] = halves(next.va);
+  for (std::size_t i = 0; i < n; ++i) {
+    dq[i] = -next.q[i];
+    dv[i] = -v[i];
+  }
+  require(manifold.land(next.t, next.q, v, v_dot));
+  for (std::size_t i = 0; i < n; ++i) {
+    dq[i] += next.q[i];
+    dv[i] += v[i];
+  }
+  return size(dq, dv, next);
+}
+
+/// What the derivatives of the last stage and those at the end of a step differ by, times the step, in
+/// parts of the scene's size.
+double ErkStepper::State::disagreement(double step) {
+  for (std::size_t i = 0; i < 2 * n; ++i) difference[i] = step * (k[stages - 1][i] - next.va[i]);
+  const auto [dq, dv] = halves(difference);
+  return tolerance * size(dq, dv, next);
+}
+
+/// The last two stages lie at the same time; the ratio of their derivatives' difference to their
+/// own is the largest rate rho that the step has excited (Hairer, Wanner, Solving ODEs II, IV.2).
+void ErkStepper::State::watch_stability(double step) {
+  const double T2 = scales.time * scales.time;
+  double rates = 0.0, states = 0.0;
+  last_difference.apply(step, k, 0, nullptr, stage_q.data(), n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double dv = k[stages - 1][i] - k[stages - 2][i];
+    const double da = k[stages - 1][n + i] - k[stages - 2][n + i];
+    rates += dv * dv + T2 * da * da;
+    states += stage_q[i] * stage_q[i] + T2 * dv * dv;
+  }
+  const double round_off = 100.0 * std::numeric_limits<double>::epsilon() * scales.length;
+  if (states > round_off * round_off && step * step * rates > stable * stable * states) {
+    stability_limited += stability_check_interval;
+  }
+}
+
+}  // namespace dalembert

@@ -1,0 +1,91 @@
+#include "dalembert/solvers/private/erk_state.h"
+
+#include <dalembert/solvers/private/outgrown.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dalembert {
+
+namespace {
+
+constexpr auto& pair = verner87;
+constexpr int stages = pair.stages;
+
+/// The 13th stage serves the error estimate only.
+constexpr std::size_t last_stage_of_step = stages - 2;
+
+/// Of the stages 12 and 13, both at t + h.
+std::array<double, stages> difference_of_last_rows() {
+  std::array<double, stages> d{};
+  for (std::size_t j = 0; j < d.size(); ++j) d[j] = pair.a[12][j] - pair.a[11][j];
+  return d;
+}
+
+}  // namespace
+
+ErkStepper::State::State(const System& s, const Start& start, const Options& options)
+    : system(&s),
+      n(start.q.size()),
+      scales(start.scales),
+      tolerance(options.tolerance),
+      t_end(options.t_end),
+      manifold(s, start.rows, start.scales.lever()),
+      a(pair.a.begin(), pair.a.end()),
+      last_difference(difference_of_last_rows()),
+      stage_q(start.q.size()),
+      difference(2 * start.q.size()),
+      // A third of the step that an error constant of 1 allows.
+      h(std::min(0.3 * std::pow(options.tolerance, 1.0 / pair.order) * start.scales.time,
+                 options.t_end - options.t_start)) {
+  for (Node* node : {&from, &to, &middle, &next}) {
+    node->t = options.t_start;
+    node->q = start.q;
+    node->va = start.v;
+    node->va.insert(node->va.end(), start.a.begin(), start.a.end());
+  }
+  for (std::size_t i = 1; i < stage.size(); ++i) {
+    stage[i].resize(2 * n);
+    k[i] = stage[i].data();
+  }
+  if (!system->compliant()) return;
+  auto e = system->evaluation();
+  system->evaluate({options.t_start, start.q, start.v}, e);
+  for (std::size_t r = 0; r < start.lambda.size(); ++r) {
+    const bool spring = system->compliance()[r] > 0.0;
+    force_of_spring.push_back(spring ? impulse_of_row(*system, scales, e.w, r) / scales.time : 0.0);
+  }
+}
+
+void ErkStepper::State::require(bool regular) {
+  if (!regular) throw EquationFault("the constraints became dependent on each other");
+}
+
+void ErkStepper::State::run_stages(const Node& start, double step, std::size_t last) {
+  k[0] = start.va.data();
+  for (std::size_t i = 1; i <= last; ++i) {
+    a[i].apply(step, k, 0, start.q.data(), stage_q.data(), n);
+    a[i].apply(step, k, n, start.va.data(), stage[i].data(), n);
+    const auto [v, v_dot] = halves(stage[i]);
+    require(manifold.accelerate({start.t + pair.c[i] * step, stage_q, v}, v_dot));
+  }
+}
+
+void ErkStepper::State::finish(const Node& start, double step, Node& end) const {
+  end.t = start.t + step;
+  b.apply(step, k, 0, start.q.data(), end.q.data(), n);
+  b.apply(step, k, n, start.va.data(), end.va.data(), n);
+}
+
+/// Half a step of the method itself from where the last step began.
+void ErkStepper::State::find_middle() {
+  if (has_middle) return;
+  const double half = 0.5 * (to.t - from.t);
+  run_stages(from, half, last_stage_of_step);
+  finish(from, half, middle);
+  const auto [v, v_dot] = halves(middle.va);
+  require(manifold.accelerate({middle.t, middle.q, v}, v_dot));
+  has_middle = true;
+}
+
+}  // namespace dalembert

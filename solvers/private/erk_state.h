@@ -1,0 +1,76 @@
+#pragma once
+
+#include <dalembert/core/errors.h>
+#include <dalembert/solvers/private/combination.h>
+#include <dalembert/solvers/private/erk.h>
+#include <dalembert/solvers/private/manifold.h>
+#include <dalembert/solvers/private/verner.h>
+
+#include <array>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dalembert {
+
+/// The pair and what a step of it needs.
+struct ErkStepper::State {
+  static constexpr const ButcherTable<13>& pair = verner87;
+  static constexpr int stages = pair.stages;
+  static constexpr long stability_check_interval = 8;  // steps
+
+  State(const System& system, const Start& start, const Options& options);
+
+  /// An instant between two steps: positions, and velocities and accelerations in one piece, as the
+  /// first stage of the next step.
+  struct Node {
+    double t = 0.0;
+    std::vector<double> q, va;
+  };
+
+  /// Velocities and accelerations.
+  [[nodiscard]] std::pair<std::span<double>, std::span<double>> halves(std::vector<double>& x) const {
+    return {std::span(x).first(n), std::span(x).subspan(n)};
+  }
+  static void require(bool regular);
+  /// Stages 2 to `last` of a step from `start`: a stage's velocity is written where its derivative is kept.
+  void run_stages(const Node& start, double step, std::size_t last);
+  void finish(const Node& start, double step, Node& end) const;
+  void find_middle();
+
+  [[nodiscard]] double size(std::span<const double> dq, std::span<const double> dv, const Node& at) const;
+  [[nodiscard]] double error(const Node& end, double step);
+  [[nodiscard]] double error_of_springs(std::span<const double> dq) const;
+  [[nodiscard]] double land();
+  [[nodiscard]] double disagreement(double step);
+  void watch_stability(double step);
+
+  [[nodiscard]] double attempt(double step);
+  [[nodiscard]] bool stride();
+  [[nodiscard]] double shorter(double step, double factor) const;
+  [[nodiscard]] double step_towards(double wanted) const;
+
+  const System* system;
+  std::size_t n;
+  Scales scales;
+  double tolerance, t_end;
+  Manifold manifold;
+  std::vector<Combination<stages>> a;
+  Combination<stages> b{pair.b}, d{pair.d}, last_difference;
+  Node from, to;  // the last step; before the first, both are the start
+  Node middle;    // of that step, if `has_middle`
+  bool has_middle = false;
+  Node next;  // where a step goes until it is accepted
+  std::array<std::vector<double>, stages> stage;
+  std::array<const double*, stages> k{};
+  std::vector<double> stage_q, difference;  // work
+  std::vector<double> force_of_spring;      // per row, 0 in rigid ones; empty if all are
+  double h;
+  double usual = h;                                               // step
+  double strode_from = -std::numeric_limits<double>::infinity();  // the last time
+  long steps = 0, failures = 0, stability_limited = 0;
+  std::string fault;  // of the last attempt that failed
+};
+
+}  // namespace dalembert
