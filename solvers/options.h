@@ -22,9 +22,10 @@ struct Options {
   double sample_interval = 0.0;  ///< or a sample every so often, from t_start [time]
   std::vector<double> times{};   ///< or samples at these very times, increasing, within the run
 
-  /// Relative accuracy: the steps are chosen so that each errs by a twentieth of tolerance times the
-  /// scene's own length in position, and that length over the scene's time in velocity. Between 1e-13
-  /// and 1e-1. The error of the result grows with the length of the run; the benchmarks show how much.
+  /// Relative accuracy: the steps are chosen so that each errs by the tolerance (of `ida`, whose steps are
+  /// many, by a twentieth of it) times the scene's own length in position, and that length over the scene's
+  /// time in velocity. Between 1e-13 and 1e-1. The error of the result grows with the length of the run; the
+  /// benchmarks show how much.
   double tolerance = 1e-6;
   Stepper stepper = Stepper::ida;
   long max_steps = 10'000'000;  ///< give up after so many steps
