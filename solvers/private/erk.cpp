@@ -50,7 +50,7 @@ double ErkStepper::State::attempt(double step) {
   try {
     run_stages(to, step, stages - 1);
     finish(to, step, next);
-    const double e = error(next, step) * (step < far_too_short * usual ? unreliable : 1.0);
+    const double e = error(step) * (step < far_too_short * usual ? unreliable : 1.0);
     if (e > 1.0) return e;
     if (steps % stability_check_interval == 0) watch_stability(step);
     return std::max({e, land() / most_correction, disagreement(step) / most_disagreement});

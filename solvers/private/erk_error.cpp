@@ -12,23 +12,29 @@ constexpr double stable = 3.3;
 
 }  // namespace
 
-/// Root mean square of differences of positions and velocities over what the tolerance allows.
-double ErkStepper::State::size(std::span<const double> dq, std::span<const double> dv, const Node& at) const {
-  double sum = 0.0;
+/// What a unit of error in each position and velocity counts against the tolerance at a state.
+void ErkStepper::State::weigh(const Node& at) {
   for (std::size_t i = 0; i < n; ++i) {
-    const double e = dq[i] / scales.position_error(i, at.q[i], tolerance);
-    const double f = dv[i] / (tolerance * (scales.coordinate[i] / scales.time + std::abs(at.va[i])));
-    sum += e * e + f * f;
+    weight[i] = 1.0 / scales.position_error(i, at.q[i], tolerance);
+    weight[n + i] = 1.0 / (tolerance * (scales.coordinate[i] / scales.time + std::abs(at.va[i])));
   }
-  return std::sqrt(sum / (2.0 * static_cast<double>(n)));
 }
 
-/// The estimated error of a step over the tolerance.
-double ErkStepper::State::error(const Node& end, double step) {
-  const auto [dq, dv] = halves(difference);
-  d.apply(step, k, 0, nullptr, dq.data(), n);
-  d.apply(step, k, n, nullptr, dv.data(), n);
-  return std::max(size(dq, dv, end), error_of_springs(dq));
+/// Root mean square of `difference`, weighed.
+double ErkStepper::State::size() const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < difference.size(); ++i) {
+    const double e = difference[i] * weight[i];
+    sum += e * e;
+  }
+  return std::sqrt(sum / static_cast<double>(difference.size()));
+}
+
+/// The estimated error of a step to `next` over the tolerance.
+double ErkStepper::State::error(double step) {
+  weigh(next);
+  d.apply(step, k, difference.data(), 2 * n);
+  return std::max(size(), error_of_springs(std::span(difference).first(n)));
 }
 
 /// A compliant constraint multiplies errors of position by its stiffness: its force w dq/C is to be as good,
@@ -59,15 +65,14 @@ double ErkStepper::State::land() {
     dq[i] += next.q[i];
     dv[i] += v[i];
   }
-  return size(dq, dv, next);
+  return size();
 }
 
 /// What the derivatives of the last stage and those at the end of a step differ by, times the step, in
 /// parts of the scene's size.
 double ErkStepper::State::disagreement(double step) {
-  for (std::size_t i = 0; i < 2 * n; ++i) difference[i] = step * (k[stages - 1][i] - next.va[i]);
-  const auto [dq, dv] = halves(difference);
-  return tolerance * size(dq, dv, next);
+  for (std::size_t i = 0; i < difference.size(); ++i) difference[i] = step * (k[stages - 1][i] - next.va[i]);
+  return tolerance * size();
 }
 
 /// The last two stages lie at the same time; the ratio of their derivatives' difference to their
@@ -75,7 +80,7 @@ double ErkStepper::State::disagreement(double step) {
 void ErkStepper::State::watch_stability(double step) {
   const double T2 = scales.time * scales.time;
   double rates = 0.0, states = 0.0;
-  last_difference.apply(step, k, 0, nullptr, stage_q.data(), n);
+  last_difference.apply(step, k, stage_q.data(), n);
   for (std::size_t i = 0; i < n; ++i) {
     const double dv = k[stages - 1][i] - k[stages - 2][i];
     const double da = k[stages - 1][n + i] - k[stages - 2][n + i];

@@ -35,6 +35,7 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
       last_difference(difference_of_last_rows()),
       stage_q(start.q.size()),
       difference(2 * start.q.size()),
+      weight(difference.size()),
       // A third of the step that an error constant of 1 allows.
       h(std::min(0.3 * std::pow(options.tolerance, 1.0 / pair.order) * start.scales.time,
                  options.t_end - options.t_start)) {
@@ -64,8 +65,7 @@ void ErkStepper::State::require(bool regular) {
 void ErkStepper::State::run_stages(const Node& start, double step, std::size_t last) {
   k[0] = start.va.data();
   for (std::size_t i = 1; i <= last; ++i) {
-    a[i].apply(step, k, 0, start.q.data(), stage_q.data(), n);
-    a[i].apply(step, k, n, start.va.data(), stage[i].data(), n);
+    a[i].move(step, k, start.q.data(), stage_q.data(), start.va.data(), stage[i].data(), n);
     const auto [v, v_dot] = halves(stage[i]);
     require(manifold.accelerate({start.t + pair.c[i] * step, stage_q, v}, v_dot));
   }
@@ -73,8 +73,7 @@ void ErkStepper::State::run_stages(const Node& start, double step, std::size_t l
 
 void ErkStepper::State::finish(const Node& start, double step, Node& end) const {
   end.t = start.t + step;
-  b.apply(step, k, 0, start.q.data(), end.q.data(), n);
-  b.apply(step, k, n, start.va.data(), end.va.data(), n);
+  b.move(step, k, start.q.data(), end.q.data(), start.va.data(), end.va.data(), n);
 }
 
 /// Half a step of the method itself from where the last step began.

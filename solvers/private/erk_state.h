@@ -39,8 +39,9 @@ struct ErkStepper::State {
   void finish(const Node& start, double step, Node& end) const;
   void find_middle();
 
-  [[nodiscard]] double size(std::span<const double> dq, std::span<const double> dv, const Node& at) const;
-  [[nodiscard]] double error(const Node& end, double step);
+  void weigh(const Node& at);
+  [[nodiscard]] double size() const;
+  [[nodiscard]] double error(double step);
   [[nodiscard]] double error_of_springs(std::span<const double> dq) const;
   [[nodiscard]] double land();
   [[nodiscard]] double disagreement(double step);
@@ -64,8 +65,9 @@ struct ErkStepper::State {
   Node next;  // where a step goes until it is accepted
   std::array<std::vector<double>, stages> stage;
   std::array<const double*, stages> k{};
-  std::vector<double> stage_q, difference;  // work
-  std::vector<double> force_of_spring;      // per row, 0 in rigid ones; empty if all are
+  std::vector<double> stage_q;             // work
+  std::vector<double> difference, weight;  // of positions and velocities
+  std::vector<double> force_of_spring;     // per row, 0 in rigid ones; empty if all are
   double h;
   double usual = h;                                               // step
   double strode_from = -std::numeric_limits<double>::infinity();  // the last time
