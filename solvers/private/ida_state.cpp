@@ -102,6 +102,7 @@ void IdaStepper::State::residual(double at, N_Vector x, N_Vector xp, N_Vector r)
     r3[k] = e.psi[row] + C * rates[k];
     if (holonomic) r4[k] = e.g[row] + C * active[k];
   }
+  for (const std::size_t k : rows.slack) r3[k] = mu[k];
 }
 
 void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {

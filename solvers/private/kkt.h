@@ -13,6 +13,9 @@ namespace dalembert {
 struct ActiveRows {
   std::vector<int> rows;
   int holonomic = 0;
+  /// Places in `rows` of compliant rows whose gradients depend on those of others: springs side by side. The
+  /// others put positions and velocities onto the constraints; g + C lambda = 0 gives these their forces.
+  std::vector<std::size_t> slack{};
 
   [[nodiscard]] int size() const { return static_cast<int>(rows.size()); }
 };

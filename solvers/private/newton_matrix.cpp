@@ -10,8 +10,19 @@ namespace {
 /// Newton's iteration loses at most this factor in accuracy by leaving soft forces out.
 constexpr double still_soft = 0.1;
 
-ActiveRows holonomic_only(const ActiveRows& all) {
-  return {{all.rows.begin(), all.rows.begin() + all.holonomic}, all.holonomic};
+/// The places of the rows that carry mu: the holonomic ones that are not slack.
+std::vector<std::size_t> carrying_rows(const ActiveRows& all) {
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(all.holonomic); ++k) {
+    if (!std::ranges::binary_search(all.slack, k)) places.push_back(k);
+  }
+  return places;
+}
+
+ActiveRows those_at(const std::vector<std::size_t>& places, const ActiveRows& all) {
+  ActiveRows rows{{}, static_cast<int>(places.size())};
+  for (const std::size_t k : places) rows.rows.push_back(all.rows[k]);
+  return rows;
 }
 
 bool any(const std::vector<char>& flags) { return std::ranges::find(flags, 1) != flags.end(); }
@@ -29,9 +40,10 @@ NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows, double 
       w_(system.w_columns().size()),
       lower_(w_.size()),
       s_(static_cast<std::size_t>(system.rows())),
-      k2_(system, holonomic_only(rows)),
+      carrying_(carrying_rows(rows)),
+      k2_(system, those_at(carrying_, rows)),
       x1_(static_cast<std::size_t>(system.coordinates() + rows.size())),
-      x2_(static_cast<std::size_t>(system.coordinates() + rows.holonomic)),
+      x2_(static_cast<std::size_t>(k2_.size())),
       p_(static_cast<std::size_t>(system.coordinates())),
       dmu_(static_cast<std::size_t>(rows.holonomic)),
       first_force_entry_(system.stiffness_of_constraints()) {
@@ -173,7 +185,17 @@ double NewtonMatrix::along(std::size_t row, std::span<const double> values, std:
   return sum;
 }
 
-/// (5) to (7), given p and dmu as far as they are known; leaves x, dnu in x1_ and dv, -dmu in x2_.
+/// The matrix of (5) and (6) where forces are soft: of x1_, what belongs to islands without slack rows.
+void NewtonMatrix::solve_by_k2() {
+  const auto n = static_cast<std::size_t>(system_->coordinates());
+  std::copy_n(x1_.begin(), n, x2_.begin());
+  for (std::size_t j = 0; j < carrying_.size(); ++j) x2_[n + j] = x1_[n + carrying_[j]];
+  k2_.solve(x2_);
+  std::copy_n(x2_.begin(), n, x1_.begin());
+  for (std::size_t j = 0; j < carrying_.size(); ++j) x1_[n + carrying_[j]] = x2_[n + j];
+}
+
+/// (5) to (7), given p and dmu as far as they are known; leaves x, dnu in x1_, dv in x2_, and dmu.
 void NewtonMatrix::eliminate(double c, std::span<const double> b) {
   const auto n = static_cast<std::size_t>(system_->coordinates());
   const auto m = static_cast<std::size_t>(rows_.size());
@@ -203,7 +225,7 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
     for (const std::size_t r : k1_->active) k1_->x[next++] = x1_[n + r];
     k1_->matrix.solve(k1_->x);
   }
-  if (!k1_in_use_ || k1_->coordinates.size() < n) k2_.solve(std::span(x1_).first(n + m_holonomic));
+  if (!k1_in_use_ || k1_->coordinates.size() < n) solve_by_k2();
   if (k1_in_use_) {
     std::size_t next = 0;
     for (const int i : k1_->coordinates) x1_[static_cast<std::size_t>(i)] = k1_->x[next++];
@@ -216,11 +238,13 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
     x2_[i] = b1[i] + masses[i] * x1_[i] / c;
     x1_[i] /= c * c;
   }
-  for (std::size_t r = 0; r < m_holonomic; ++r) {
+  for (std::size_t j = 0; j < carrying_.size(); ++j) {
+    const std::size_t r = carrying_[j];
     const auto row = static_cast<std::size_t>(rows_.rows[r]);
-    x2_[n + r] = b3[r] - along(row, linear_.psi_q, x1_) - c * C[row] * (x1_[n + r] - c * dmu_[r]);
+    x2_[n + j] = b3[r] - along(row, linear_.psi_q, x1_) - c * C[row] * (x1_[n + r] - c * dmu_[r]);
   }
   k2_.solve(x2_);
+  for (std::size_t j = 0; j < carrying_.size(); ++j) dmu_[carrying_[j]] = -x2_[n + j];  // the matrix has -G^T
 }
 
 /// How often to eliminate again with the dmu of the last time.
@@ -241,14 +265,13 @@ void NewtonMatrix::solve(double c, std::span<double> b) {
   eliminate(c, b);
   for (int more = repetitions(); more > 0; --more) {
     for (std::size_t i = 0; i < n; ++i) p_[i] = x2_[i] - c * x1_[i];
-    for (std::size_t r = 0; r < m_holonomic; ++r) dmu_[r] = -x2_[n + r];  // the matrix of (7) has -G^T
     eliminate(c, b);
   }
 
   std::copy_n(x1_.begin(), n, b.begin());
   std::copy_n(x2_.begin(), n, b.begin() + static_cast<std::ptrdiff_t>(n));
   for (std::size_t r = 0; r < m; ++r) {
-    const double dmu = r < m_holonomic ? -x2_[n + r] : 0.0;
+    const double dmu = r < m_holonomic ? dmu_[r] : 0.0;
     b[2 * n + r] = x1_[n + r] - c * dmu;
     if (r < m_holonomic) b[2 * n + m + r] = dmu;
   }

@@ -37,6 +37,8 @@ namespace dalembert {
 ///
 /// Two systems of n + m instead of one of 2n + m + m_holonomic.
 ///
+/// Slack rows (see ActiveRows) take part in (5) and (6) only; in place of (3) they have mu = 0.
+///
 /// At first dmu is neglected in (5) and (6). A predictor leaves the manifold by c b4 - b3, dmu is as
 /// large, and neglecting it does harm where it is multiplied by much: in D p where damping is strong, in
 /// A p where nonholonomic rows meet holonomic ones (A M^-1 G^T not 0), in C dmu. Each iteration would mend
@@ -101,6 +103,7 @@ class NewtonMatrix {
   void include(const std::vector<char>& islands);
   [[nodiscard]] bool factorise_stiff(double c);
   [[nodiscard]] int repetitions() const;
+  void solve_by_k2();
   void eliminate(double c, std::span<const double> b);
 
   /// An entry of F_lambda in a holonomic row.
@@ -118,6 +121,7 @@ class NewtonMatrix {
   System::Linearisation linear_;
   std::vector<double> w_, lower_, s_;
   std::optional<Stiff> k1_;
+  std::vector<std::size_t> carrying_;  // mu: places in rows_
   SaddleMatrix k2_;
   std::vector<double> x1_, x2_, p_, dmu_;
   bool k1_in_use_ = false;

@@ -93,12 +93,35 @@ TEST(Compliant, SpringsSideBySideShareTheLoad) {
   for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
     const auto run = simulate(scene, {.t_end = 1.0, .tolerance = 1e-8, .stepper = stepper});
     EXPECT_EQ(run.statistics().redundant_equations, 0);
+    EXPECT_EQ(run.statistics().singular_positions, 0);
     EXPECT_EQ(run.statistics().degrees_of_freedom, 3);
     const std::size_t last = run.size() - 1;
     EXPECT_NEAR(run.multiplier(soft, last), -0.25 * g, g * of_a_run * 1e-8);
     EXPECT_NEAR(run.multiplier(hard, last), -0.75 * g, g * of_a_run * 1e-8);
     EXPECT_NEAR(run.multiplier(idle, last), 0.0, g * of_a_run * 1e-8);
     EXPECT_NEAR(run.multiplier(rod, last), -2.0 * g, g * of_a_run * 1e-8);
+  }
+}
+
+// A bob amid three stiff springs, whose gradients cannot be independent in the plane, against the same
+// springs as forces. Started with an energy of about 1 at rest in their centre; the stiffest vibrates at 100.
+TEST(Compliant, SpringsMoreThanTheirBobHasFreedomVibrateAsForcesDo) {
+  const Vec<2> feet[] = {{1.0, 0.0}, {-0.5, 0.8}, {-0.3, -0.9}};
+  Scene<2> as_constraints, as_forces;
+  const ParticleState<2> middle{.mass = 1.0, .position = {0.0, 0.0}, .velocity = {1.0, 0.5}};
+  const auto bob = as_constraints.add_particle(middle);
+  const auto same = as_forces.add_particle(middle);
+  for (int k = 0; k < 3; ++k) {
+    const double stiffness = 2500.0 * (k + 1), length = feet[k].norm();
+    as_constraints.add(compliant(Distance{Fixed<2>{feet[k]}, bob, length}, 1.0 / stiffness));
+    as_forces.add(Spring{Fixed<2>{feet[k]}, same, stiffness, length});
+  }
+  const auto exact = simulate(as_forces, {.t_end = 0.5, .tolerance = 1e-12, .stepper = Stepper::erk});
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    const auto run = simulate(as_constraints, {.t_end = 0.5, .tolerance = 1e-8, .stepper = stepper});
+    EXPECT_EQ(run.statistics().singular_positions, 0);
+    for (std::size_t i = 0; i < run.size(); ++i)
+      EXPECT_LT((run.position(bob, i) - exact.position(same, i)).norm(), of_a_run * 1e-8);
   }
 }
 
