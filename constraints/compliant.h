@@ -29,11 +29,8 @@ struct Compliant {
   }
 
   [[nodiscard]] std::string fault() const {
-    if constexpr (requires { rigid.fault(); }) {
-      if (const std::string of_rigid = rigid.fault(); !of_rigid.empty()) return of_rigid;
-    }
-    if (std::isfinite(compliance) && compliance >= 0.0) return {};
-    return "compliance = " + detail::text(compliance) + ", must be finite and >= 0; 0 is rigid";
+    if constexpr (requires { rigid.fault(); }) return rigid.fault();
+    return {};
   }
 };
 

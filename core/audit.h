@@ -20,7 +20,7 @@ struct Audit {
   /// constraints.
   double virtual_work = 0.0;
   double largest_force = 0.0;      ///< largest constraint force on a coordinate, to compare with
-  std::vector<Power> constraints;  ///< Z . v of each: zero to round-off unless it depends on time
+  std::vector<Power> constraints;  ///< Z . v of each: round-off unless it depends on time or is compliant
   std::vector<Power> forces;       ///< F . v of each; constant forces (gravity) together come first
 };
 

@@ -1,12 +1,12 @@
 #include "dalembert/core/integrability.h"
 
+#include <dalembert/core/disjoint_sets.h>
 #include <dalembert/core/errors.h>
 
 #include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace dalembert {
@@ -93,26 +93,25 @@ Forms forms(const System& system, double t, std::span<const double> q) {
   return result;
 }
 
-/// Sets of rows that share coordinates, also through other rows; each sorted.
+/// Sets of rows that share coordinates, also through other rows; each sorted. Compliant rows take no freedom
+/// away, and are left out.
 std::vector<std::vector<int>> connected_rows(const System& system) {
-  std::vector<int> owner(static_cast<std::size_t>(system.coordinates()));
-  std::iota(owner.begin(), owner.end(), 0);
-  const auto root = [&owner](int i) {
-    while (owner[static_cast<std::size_t>(i)] != i) i = owner[static_cast<std::size_t>(i)];
-    return i;
-  };
   const auto columns = [&system](int r) {
     const auto first = static_cast<std::size_t>(system.row_start()[static_cast<std::size_t>(r)]);
     const auto last = static_cast<std::size_t>(system.row_start()[static_cast<std::size_t>(r) + 1]);
     return system.w_columns().subspan(first, last - first);
   };
+  const auto rigid = [&system](int r) { return !(system.compliance()[static_cast<std::size_t>(r)] > 0.0); };
+  DisjointSets coordinates(system.coordinates());
   for (int r = 0; r < system.rows(); ++r) {
-    for (const int i : columns(r)) owner[static_cast<std::size_t>(root(i))] = root(columns(r)[0]);
+    if (!rigid(r)) continue;
+    for (const int i : columns(r)) coordinates.join(columns(r)[0], i);
   }
   std::vector<std::vector<int>> sets;
   std::vector<int> roots;
   for (int r = 0; r < system.rows(); ++r) {
-    const int mine = root(columns(r)[0]);
+    if (!rigid(r)) continue;
+    const int mine = coordinates.root(columns(r)[0]);
     const auto known = std::ranges::find(roots, mine);
     if (known == roots.end()) sets.emplace_back();
     const auto set = static_cast<std::size_t>(known - roots.begin());

@@ -1,32 +1,8 @@
 #include "dalembert/core/islands.h"
 
-#include <numeric>
+#include <dalembert/core/disjoint_sets.h>
 
 namespace dalembert {
-
-namespace {
-
-/// Disjoint sets of coordinates, each known by its smallest member.
-class DisjointSets {
- public:
-  explicit DisjointSets(int size) : parent_(static_cast<std::size_t>(size)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int root(int i) {
-    while (parent(i) != i) i = parent(i) = parent(parent(i));
-    return i;
-  }
-  void join(int a, int b) {
-    const int first = root(a), second = root(b);
-    parent(std::max(first, second)) = std::min(first, second);
-  }
-
- private:
-  int& parent(int i) { return parent_[static_cast<std::size_t>(i)]; }
-  std::vector<int> parent_;
-};
-
-}  // namespace
 
 Islands islands(const System& system) {
   const int n = system.coordinates();

@@ -128,6 +128,14 @@ void Scene<D>::require_finite(const Vec<D>& fixed, const std::string& label) {
 }
 
 template <int D>
+void Scene<D>::require_compliance(double compliance, const std::string& label) {
+  if (std::isfinite(compliance) && compliance >= 0.0) return;
+  std::ostringstream what;
+  what << label << ": compliance = " << compliance << ", must be finite and >= 0; 0 is rigid";
+  throw InvalidScene(what.str());
+}
+
+template <int D>
 System Scene<D>::system() const {
   if (q_.empty()) {
     throw InvalidScene("Scene \"" + layout_.scene + "\" is empty: add at least one particle");

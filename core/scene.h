@@ -129,6 +129,7 @@ class Scene {
       const std::string fault = element.fault();
       if (!fault.empty()) throw InvalidScene(label + ": " + fault);
     }
+    if constexpr (HasCompliance<Element>) require_compliance(element.compliance, label);
     if constexpr (ReadsMultiplier<Element>) {
       const auto& read = element.constraint();
       require_constraint(read.scene, read.index, rows_read<Element>, label);
@@ -161,6 +162,7 @@ class Scene {
   void require_own(std::uint64_t scene, int coordinate, const std::string& label) const;
   void require_constraint(std::uint64_t scene, int index, int rows, const std::string& label) const;
   static void require_finite(const Vec<D>& fixed, const std::string& label);
+  static void require_compliance(double compliance, const std::string& label);
 
   template <class Batch, int rows, class C>
   Constraint<rows> place(C constraint, const std::string& name) {

@@ -6,7 +6,7 @@ namespace dalembert {
 
 /// What a run cost, and how well it kept its constraints.
 struct Statistics {
-  int degrees_of_freedom = 0;     ///< of velocity: coordinates less independent constraint equations
+  int degrees_of_freedom = 0;     ///< of velocity: coordinates less independent rigid constraint equations
   int redundant_equations = 0;    ///< constraint equations that follow from others, and were left out
   int singular_positions = 0;     ///< isolated ones, at which the run was taken across and restarted
   long steps = 0;                 ///< accepted steps

@@ -108,12 +108,17 @@ struct Integrator::State {
   /// anything fails the current moment stays as it is.
   void visit(double time) {
     next.t = time;
-    std::visit([&](auto& s) { s.interpolate(time, next.q, next.v); }, stepper);
+    interpolate(time, next.q, next.v);
+    recover(next);
+    std::swap(now, next);
+  }
+
+  /// The stepper's state, with the forces that it has found for compliant constraints.
+  void interpolate(double time, std::span<double> q, std::span<double> v) {
+    std::visit([&](auto& s) { s.interpolate(time, q, v); }, stepper);
     if (const auto* ida = std::get_if<IdaStepper>(&stepper); ida != nullptr && system.compliant()) {
       if (ida->springs(time, springs)) manifold->follow(springs);
     }
-    recover(next);
-    std::swap(now, next);
   }
 
   [[nodiscard]] double stepper_time() const {
@@ -128,7 +133,7 @@ struct Integrator::State {
       throw StepFailure{"the constraints became dependent on each other: their forces are not determined",
                         m.t};
     }
-    if (left.size > tolerated_contradiction * L) {
+    if (left.size > tolerated_contradiction * L + start.scales.rounding(m.q)) {
       throw StepFailure{system.row_label(left.row) +
                             " contradicts the other constraints: it is violated by " +
                             std::to_string(left.size),
@@ -173,7 +178,9 @@ struct Integrator::State {
     if (!crossing_until) {
       const double age = crossing_distance * start.scales.time;
       past.remember(stepper_time(), age, [this](double t, std::span<double> q0, std::span<double> v0) {
-        std::visit([&](auto& s) { s.interpolate(t, q0, v0); }, stepper);
+        interpolate(t, q0, v0);
+        // A crossing begins with -g/C for the forces of compliant constraints: g must be as exact.
+        if (system.compliant()) manifold->project_positions(t, q0, v0, output_distance * start.scales.length);
       });
     }
   }
@@ -202,6 +209,7 @@ struct Integrator::State {
   /// A fresh choice of rows and a fresh stepper at a state on its way.
   void restart(double t, std::span<const double> q0, std::span<const double> v0, Options o) {
     count(record.statistics);
+    record.statistics.advice.clear();  // of a crossing it would be about the wrong stepper
     o.t_start = t;
     o.assemble = true;
     Scales scales = start.scales;
@@ -234,7 +242,7 @@ struct Integrator::State {
   /// The constraint whose force has grown without bound where the stepper stands, if there is one.
   [[nodiscard]] std::string outgrown() {
     try {
-      std::visit([&](auto& s) { s.interpolate(s.time(), next.q, next.v); }, stepper);
+      interpolate(stepper_time(), next.q, next.v);
       if (!manifold->solve_motion(stepper_time(), next.q, next.v, next.a, next.lambda)) return {};
       return outgrown_constraint(system, start.scales, manifold->equations().w, next.lambda);
     } catch (const std::exception&) {
@@ -262,6 +270,7 @@ struct Integrator::State {
   [[nodiscard]] Statistics statistics() const {
     Statistics s = record.statistics;
     count(s);
+    if (crossing_until) s.advice.clear();
     return s;
   }
 

@@ -28,11 +28,11 @@ constexpr double most_disagreement = 0.05;
 
 /// A step that has to be so much shorter than usual meets something that is not smooth. There the estimate
 /// cannot be trusted: it weighs the first derivative a thousandth of what the step does.
-constexpr double far_too_short = 0.15, unreliable = 1000.0;
+constexpr double far_too_short = 0.15, unreliable = 100.0;
 
 /// Or it begins close to a singular position, where no derivative is worth anything. Then the last step is
 /// taken back, and others of about the usual length are tried from where it began: one may pass the position
-/// with all stages at a distance. What is usual changes by at most so much a step.
+/// with all stages at a distance. What is usual shrinks by at most so much a step.
 constexpr double strides[] = {1.3, 1.15, 0.85, 0.7};
 constexpr double forgetting = 0.9;
 
@@ -84,13 +84,12 @@ double ErkStepper::State::step_towards(double wanted) const {
 /// be found.
 bool ErkStepper::State::stride() {
   strode_from = from.t;
-  const auto [v, v_dot] = halves(to.va);
-  const bool regular = manifold.accelerate({to.t, to.q, v}, halves(next.va).second);
-  if (regular && !manifold.nearly_singular()) return false;
+  if (!manifold.nearly_singular({to.t, to.q, halves(to.va).first})) return false;
   std::swap(from, to);
   for (const double stretch : strides) {
     h = std::min(stretch * usual, t_end - to.t);
-    if (attempt(h) <= 1.0) return true;
+    // Half of it would serve for output on its way.
+    if (attempt(0.5 * h) <= 1.0 && attempt(h) <= 1.0) return true;
     ++failures;
   }
   std::swap(from, to);

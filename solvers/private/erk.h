@@ -36,7 +36,8 @@ class ErkStepper {
   ErkStepper& operator=(ErkStepper&&) noexcept;
   ~ErkStepper();
 
-  /// One accepted step, not beyond t_end; `wanted` is the next time of output. Throws StepFailure.
+  /// One accepted step, not beyond t_end; `wanted` is the next time of output. It may take the place of the
+  /// last one and end earlier than that. Throws StepFailure.
   void step(double wanted);
   [[nodiscard]] double time() const;
   /// The state at a time inside the last step (or at the start, before the first). Throws

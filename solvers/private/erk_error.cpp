@@ -38,16 +38,21 @@ double ErkStepper::State::error(double step) {
 }
 
 /// A compliant constraint multiplies errors of position by its stiffness: its force w dq/C is to be as good,
-/// of the force that moves its masses by the scene's length in the scene's time.
+/// of the force that moves its masses by the scene's length in the scene's time; but for round-off.
 double ErkStepper::State::error_of_springs(std::span<const double> dq) const {
+  if (force_of_spring.empty()) return 0.0;
+  const double rounding = scales.rounding(next.q);
   double most = 0.0;
   for (std::size_t r = 0; r < force_of_spring.size(); ++r) {
     if (force_of_spring[r] == 0.0) continue;
-    double stretch = 0.0;
+    double stretch = 0.0, gradient = 0.0;
     for (auto j = static_cast<std::size_t>(system->row_start()[r]);
-         j < static_cast<std::size_t>(system->row_start()[r + 1]); ++j)
+         j < static_cast<std::size_t>(system->row_start()[r + 1]); ++j) {
       stretch += manifold.equations().w[j] * dq[static_cast<std::size_t>(system->w_columns()[j])];
-    most = std::max(most, std::abs(stretch) / (system->compliance()[r] * tolerance * force_of_spring[r]));
+      gradient = std::max(gradient, std::abs(manifold.equations().w[j]));
+    }
+    const double allowed = system->compliance()[r] * tolerance * force_of_spring[r] + gradient * rounding;
+    most = std::max(most, std::abs(stretch) / allowed);
   }
   return most;
 }

@@ -1,7 +1,5 @@
 #include "dalembert/solvers/private/erk_state.h"
 
-#include <dalembert/solvers/private/outgrown.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -52,9 +50,11 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
   if (!system->compliant()) return;
   auto e = system->evaluation();
   system->evaluate({options.t_start, start.q, start.v}, e);
+  const auto lever = scales.lever();
   for (std::size_t r = 0; r < start.lambda.size(); ++r) {
     const bool spring = system->compliance()[r] > 0.0;
-    force_of_spring.push_back(spring ? impulse_of_row(*system, scales, e.w, r) / scales.time : 0.0);
+    const double impulse = spring ? impulse_of_row(*system, e.w, lever, r, scales.speed()) : 0.0;
+    force_of_spring.push_back(impulse / scales.time);
   }
 }
 

@@ -86,8 +86,8 @@ std::string IdaStepper::State::explain(int code) const {
 
 std::string IdaStepper::State::advice() const {
   return "stiff: " + newton.stiffest_force() +
-         " would vibrate faster than the steps; if it is a spring, state it as a constraint with compliance "
-         "1/stiffness, as in compliant(Distance{a, b, length}, 1.0 / stiffness)";
+         " makes vibrations much faster than the motion; if it is a spring, state it as a constraint with "
+         "compliance 1/stiffness, as in compliant(Distance{a, b, length}, 1.0 / stiffness)";
 }
 
 /// Whether most steps were longer than the vibration of a force, or shorter because of it.

@@ -31,7 +31,7 @@ void IdaStepper::State::make_linear_solver() {
     IDAGetCurrentCj(s.ida.get(), &c);
     if (x != b) N_VScale(1.0, b, x);
     return guarded(s, s.evaluated_at, [&] {
-      // IDA keeps a matrix as long as Newton converges; fresh soft factors cost less than that saves.
+      // IDA keeps a matrix as long as Newton converges; fresh factors cost less than that saves.
       if (s.evaluated_at != s.factored_at) {
         s.factored_at = s.evaluated_at;
         if (!s.newton.refresh(s.e, c)) return 1;

@@ -1,6 +1,5 @@
 #include "dalembert/solvers/private/ida_state.h"
 
-#include <dalembert/solvers/private/outgrown.h>
 #include <dalembert/solvers/private/vector_operations.h>
 
 #include <nvector/nvector_serial.h>
@@ -52,8 +51,10 @@ IdaStepper::State::State(const System& s, const Start& start, const Options& opt
     const auto row = static_cast<std::size_t>(rows.rows[r]);
     if (system->compliance()[row] > 0.0) yp0[2 * n() + r] = -e.psi[row] / system->compliance()[row];
   }
+  const auto lever = scales.lever();
   for (std::size_t r = 0; r < m(); ++r)
-    impulse_row[r] = impulse_of_row(*system, scales, e.w, static_cast<std::size_t>(rows.rows[r]));
+    impulse_row[r] =
+        impulse_of_row(*system, e.w, lever, static_cast<std::size_t>(rows.rows[r]), scales.speed());
 
   ida.reset(check(IDACreate(context.get())));
   make_linear_solver();

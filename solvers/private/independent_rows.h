@@ -1,7 +1,7 @@
 #pragma once
 
 #include <dalembert/core/system.h>
-#include <dalembert/solvers/private/kkt.h>
+#include <dalembert/solvers/private/rows.h>
 
 #include <span>
 

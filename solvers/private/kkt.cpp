@@ -14,15 +14,6 @@ std::vector<int> all_coordinates(const System& system) {
 
 }  // namespace
 
-double mobility(const System& system, std::span<const double> w, std::size_t row) {
-  double sum = 0.0;
-  for (auto k = static_cast<std::size_t>(system.row_start()[row]);
-       k < static_cast<std::size_t>(system.row_start()[row + 1]); ++k) {
-    sum += w[k] * w[k] / system.masses()[static_cast<std::size_t>(system.w_columns()[k])];
-  }
-  return sum;
-}
-
 /// Entries in the order in which `assemble` adds: masses, then for each row the entries of -W^T and L
 /// and, if it is compliant, s; then dF/dlambda and the linearised forces.
 struct KktMatrix::Plan {

@@ -2,26 +2,12 @@
 
 #include <dalembert/core/system.h>
 #include <dalembert/solvers/private/klu.h>
+#include <dalembert/solvers/private/rows.h>
 
 #include <span>
 #include <vector>
 
 namespace dalembert {
-
-/// The constraint rows a solver works with: all of them, unless some depend on others. Holonomic
-/// rows come first.
-struct ActiveRows {
-  std::vector<int> rows;
-  int holonomic = 0;
-  /// Places in `rows` of compliant rows whose gradients depend on those of others: springs side by side. The
-  /// others put positions and velocities onto the constraints; g + C lambda = 0 gives these their forces.
-  std::vector<std::size_t> slack{};
-
-  [[nodiscard]] int size() const { return static_cast<int>(rows.size()); }
-};
-
-/// w M^-1 w^T of a row: the inverse of the mass that its multiplier moves.
-[[nodiscard]] double mobility(const System& system, std::span<const double> w, std::size_t row);
 
 /// The saddle-point matrix that every solve of this library is about,
 ///
@@ -56,7 +42,6 @@ class KktMatrix {
   [[nodiscard]] long factorisations() const { return lu_.factorisations(); }
   /// Of the last factorisation; without friction and linearised forces it is 1 if no row depends on others.
   [[nodiscard]] int sign_of_determinant() { return lu_.sign_of_determinant(); }
-  [[nodiscard]] double reciprocal_condition() const { return lu_.reciprocal_condition(); }
 
  private:
   struct Plan;

@@ -105,8 +105,6 @@ void SparseLU::solve(std::span<double> x) {
   klu_solve(state_->symbolic.get(), state_->numeric.get(), state_->size, 1, x.data(), &state_->common);
 }
 
-double SparseLU::reciprocal_condition() const { return state_->condition_when_pivoted; }
-
 /// Each cycle of even length changes it.
 int SparseLU::State::sign_of_permutation(const int* permutation) {
   std::ranges::fill(seen, 0);

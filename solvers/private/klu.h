@@ -31,8 +31,6 @@ class SparseLU {
   [[nodiscard]] bool factorise();
   /// Solves in place.
   void solve(std::span<double> x);
-  /// A cheap estimate of the reciprocal condition number: smallest over largest pivot.
-  [[nodiscard]] double reciprocal_condition() const;
   /// Of the last factorisation: -1, 0 or 1.
   [[nodiscard]] int sign_of_determinant();
   [[nodiscard]] long factorisations() const;

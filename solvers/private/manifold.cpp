@@ -15,13 +15,7 @@ Violation largest(const System& system, std::span<const double> residual, std::s
   Violation worst;
   for (std::size_t r = 0; r < residual.size(); ++r) {
     if (residual[r] == 0.0) continue;
-    double square = 0.0;
-    for (auto k = static_cast<std::size_t>(system.row_start()[r]);
-         k < static_cast<std::size_t>(system.row_start()[r + 1]); ++k) {
-      const double slope = w[k] / lever[static_cast<std::size_t>(system.w_columns()[k])];
-      square += slope * slope;
-    }
-    const double size = std::abs(residual[r]) / std::sqrt(square);
+    const double size = std::abs(residual[r]) / gradient_length(system, w, lever, r);
     if (!(size <= worst.size)) worst = {size, static_cast<int>(r)};
   }
   return worst;
@@ -83,9 +77,10 @@ void Manifold::weigh_springs() {
   }
 }
 
-bool Manifold::nearly_singular() const {
+bool Manifold::nearly_singular(const Instant& at) {
   constexpr double close = 1e-2;  // sin^2 of an angle
-  return rows_.holonomic > 0 && kkt_.smallest_pivot() < close;
+  evaluate(at);
+  return !factorise() || kkt_.smallest_pivot() < close;
 }
 
 bool Manifold::factorise() {

@@ -65,8 +65,8 @@ class Manifold {
   /// step of (1) leaves is the square of what it found. False if singular.
   [[nodiscard]] bool land(double t, std::span<double> q, std::span<double> v, std::span<double> a);
 
-  /// Whether rows were close to dependent where the matrix was factored last.
-  [[nodiscard]] bool nearly_singular() const;
+  /// Whether rows are close to dependent at a state, as far as the Schur complement tells.
+  [[nodiscard]] bool nearly_singular(const Instant& at);
 
   /// Per row of the system, whether its last multiplier is determined by the motion.
   [[nodiscard]] std::span<const char> unique() const { return minimum_norm_.unique(); }

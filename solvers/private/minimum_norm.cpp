@@ -40,20 +40,10 @@ MinimumNorm::MinimumNorm(const System& system, const ActiveRows& active, std::ve
   for (const int r : dropped_) unique_[static_cast<std::size_t>(r)] = 0;
 }
 
-double MinimumNorm::length(std::size_t row, std::span<const double> w) const {
-  double square = 0.0;
-  for (auto k = static_cast<std::size_t>(system_->row_start()[row]);
-       k < static_cast<std::size_t>(system_->row_start()[row + 1]); ++k) {
-    const double slope = w[k] / lever_[static_cast<std::size_t>(system_->w_columns()[k])];
-    square += slope * slope;
-  }
-  return std::sqrt(square);
-}
-
 void MinimumNorm::spread(const std::function<void(std::span<double>)>& solve, std::span<const double> w,
                          std::span<double> lambda) {
   const auto n = static_cast<std::size_t>(system_->coordinates());
-  for (std::size_t r = 0; r < length_.size(); ++r) length_[r] = length(r, w);
+  for (std::size_t r = 0; r < length_.size(); ++r) length_[r] = gradient_length(*system_, w, lever_, r);
   for (std::size_t j = 0; j < dropped_.size(); ++j) {
     // M x - W_a^T y = w_j, W_a x = 0: then y = -(coefficients of w_j in the rows of W_a).
     const auto row = static_cast<std::size_t>(dropped_[j]);

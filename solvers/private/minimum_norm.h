@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/solvers/private/kkt.h>
+#include <dalembert/solvers/private/rows.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -35,8 +35,6 @@ class MinimumNorm {
   [[nodiscard]] std::span<const char> unique() const { return unique_; }
 
  private:
-  [[nodiscard]] double length(std::size_t row, std::span<const double> w) const;
-
   const System* system_;
   std::vector<double> lever_;
   std::vector<int> active_, dropped_;

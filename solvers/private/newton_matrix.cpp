@@ -58,7 +58,8 @@ NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows, double 
     if (active < static_cast<std::size_t>(rows.holonomic))
       friction_.push_back({k, static_cast<std::size_t>(coordinate), active});
   }
-  // Whatever may be needed is made before the first step: stepping allocates nothing.
+  // What forces may need is made before the first step: stepping allocates nothing, but for a scene
+  // without them whose multipliers become stiff.
   if (const auto may_need = varying_islands(); any(may_need)) include(may_need);
 }
 
@@ -88,6 +89,7 @@ void NewtonMatrix::include(const std::vector<char>& which) {
     active.push_back(k);
     if (static_cast<int>(k) < rows_.holonomic) ++rows.holonomic;
   }
+  if (k1_) factorisations_of_earlier_ += k1_->matrix.factorisations();
   KktMatrix matrix(*system_, rows, KktMatrix::Forces::linearised, coordinates);
   const auto size = static_cast<std::size_t>(matrix.size());
   k1_.emplace(
@@ -279,8 +281,7 @@ void NewtonMatrix::solve(double c, std::span<double> b) {
 
 std::string NewtonMatrix::method() const {
   if (!k1_in_use_) return k2_.method();
-  std::size_t by_k1 = 0;
-  for (std::size_t i = 0; i < stiff_.size(); ++i) by_k1 += stiff_[i] || needs_k1_[i];
+  const auto by_k1 = static_cast<std::size_t>(std::ranges::count(k1_->islands, 1));
   if (by_k1 == stiff_.size()) return "KLU";
   return "KLU for " + std::to_string(by_k1) + " of " + std::to_string(stiff_.size()) + " islands, " +
          k2_.method() + " for the others";

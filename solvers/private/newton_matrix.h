@@ -69,9 +69,9 @@ class NewtonMatrix {
   void solve(double c, std::span<double> b);
 
   [[nodiscard]] long factorisations() const {
-    return k2_.factorisations() + (k1_ ? k1_->matrix.factorisations() : 0);
+    return k2_.factorisations() + factorisations_of_earlier_ + (k1_ ? k1_->matrix.factorisations() : 0);
   }
-  /// Brings soft factors up to date with W, which costs them little; others stay as they are.
+  /// Brings the factors up to date with W; what forces and multipliers contribute stays as it was.
   /// False if singular.
   [[nodiscard]] bool refresh(const System::Evaluation& e, double c);
   /// The fastest vibration of compliant rows, by the size of their entries [1 / time]; 0 if there are none.
@@ -125,8 +125,9 @@ class NewtonMatrix {
   SaddleMatrix k2_;
   std::vector<double> x1_, x2_, p_, dmu_;
   bool k1_in_use_ = false;
-  std::size_t first_force_entry_;  // of the stiffness: constraints come first
-  std::size_t stiffest_ = 0;       // entry
+  long factorisations_of_earlier_ = 0;  // matrices K1, of fewer islands
+  std::size_t first_force_entry_;       // of the stiffness: constraints come first
+  std::size_t stiffest_ = 0;            // entry
   double rho_compliant_ = 0.0, rho_forces_ = 0.0;
 };
 

@@ -1,5 +1,7 @@
 #include "dalembert/solvers/private/outgrown.h"
 
+#include <dalembert/solvers/private/rows.h>
+
 #include <cmath>
 #include <sstream>
 
@@ -13,24 +15,14 @@ constexpr double unexplained = 1e4;
 
 }  // namespace
 
-double impulse_of_row(const System& system, const Scales& scales, std::span<const double> w,
-                      std::size_t row) {
-  double square = 0.0;
-  for (auto k = static_cast<std::size_t>(system.row_start()[row]);
-       k < static_cast<std::size_t>(system.row_start()[row + 1]); ++k) {
-    const auto i = static_cast<std::size_t>(system.w_columns()[k]);
-    const double slope = w[k] * scales.coordinate[i] / scales.length;
-    square += slope * slope;
-  }
-  return scales.speed() * std::sqrt(square) / mobility(system, w, row);
-}
-
 std::string outgrown_constraint(const System& system, const Scales& scales, std::span<const double> w,
                                 std::span<const double> lambda) {
+  const auto lever = scales.lever();
   double most = unexplained;
   int row = -1;
   for (std::size_t r = 0; r < lambda.size(); ++r) {
-    const double size = std::abs(lambda[r]) * scales.time / impulse_of_row(system, scales, w, r);
+    const double size =
+        std::abs(lambda[r]) * scales.time / impulse_of_row(system, w, lever, r, scales.speed());
     if (!(size > most)) continue;
     most = size;
     row = static_cast<int>(r);

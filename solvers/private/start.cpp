@@ -188,8 +188,9 @@ void start_positions(const System& system, Start& start, const System::Evaluatio
                      const Options& options) {
   const double L = start.scales.length;
   const auto lever = start.scales.lever();
+  const double bound = rounding_of_the_user * L + start.scales.rounding(start.q);
   const Violation given = position_violation(system, e, lever);
-  if (given.size > rounding_of_the_user * L && !options.assemble) {
+  if (given.size > bound && !options.assemble) {
     refuse(system, given, options.t_start, "is violated by the initial positions: distance",
            "correct the positions, or set the option assemble to have them moved");
   }
@@ -197,8 +198,8 @@ void start_positions(const System& system, Start& start, const System::Evaluatio
   // the constraints do so only roughly nearby, and must not be solved against each other.
   const double known = std::max(rank_threshold, std::min(10.0 * given.size / L, 1e-3));
   Manifold manifold(system, independent_rows(system, e.w, known), lever);
-  require_met(system, manifold.project_positions(options.t_start, start.q, start.v, converged * L),
-              rounding_of_the_user * L, options.t_start, "distance");
+  require_met(system, manifold.project_positions(options.t_start, start.q, start.v, converged * L), bound,
+              options.t_start, "distance");
 }
 
 void start_velocities(const System& system, const Start& start, const System::Evaluation& e,
@@ -211,6 +212,13 @@ void start_velocities(const System& system, const Start& start, const System::Ev
 }
 
 }  // namespace
+
+double Scales::rounding(std::span<const double> q) const {
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < q.size(); ++i)
+    farthest = std::max(farthest, std::abs(q[i]) * length / coordinate[i]);
+  return 10.0 * std::numeric_limits<double>::epsilon() * farthest;
+}
 
 std::vector<double> Scales::lever() const {
   auto lever = coordinate;

@@ -2,7 +2,7 @@
 
 #include <dalembert/core/system.h>
 #include <dalembert/solvers/options.h>
-#include <dalembert/solvers/private/kkt.h>
+#include <dalembert/solvers/private/rows.h>
 
 #include <cmath>
 #include <limits>
@@ -25,6 +25,8 @@ struct Scales {
     return tolerance * (coordinate[i] + std::abs(q - origin[i])) +
            std::numeric_limits<double>::epsilon() * std::abs(q);
   }
+  /// How far from its constraints round-off alone may leave a state.
+  [[nodiscard]] double rounding(std::span<const double> q) const;
   /// What turns each coordinate into a length: 1, or `length` for an angle.
   [[nodiscard]] std::vector<double> lever() const;
 };

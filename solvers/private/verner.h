@@ -9,8 +9,7 @@ namespace dalembert {
 template <int Stages>
 struct ButcherTable {
   static constexpr int stages = Stages;
-  int order;           ///< of the step
-  int estimate_order;  ///< of the solution with the weights b^
+  int order;  ///< of the step
   std::array<std::array<double, Stages>, Stages> a;
   std::array<double, Stages> b, c, d;
 };
@@ -24,7 +23,6 @@ struct ButcherTable {
 /// 8(5,3) and 8(7) down to 1e-8, several times smaller below.
 inline constexpr ButcherTable<13> verner87{
     8,
-    7,
     {{{},
       {0.05},
       {-0.0069931640625, 0.1135556640625},

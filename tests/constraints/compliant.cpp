@@ -142,6 +142,25 @@ TEST(Compliant, SaysWhatIsWrongWithIt) {
       ThrowsMessage<InvalidScene>(HasSubstr("length = -1")));
 }
 
+/// A user's own constraint with a compliance.
+struct Bar {
+  Particle<2> end;
+  double compliance;
+  auto points() const { return std::tie(end); }
+  auto operator()(const auto& r) const { return r.norm() - 1.0; }
+};
+
+TEST(Compliant, TheComplianceOfAUsersOwnConstraintIsCheckedToo) {
+  Scene<2> scene;
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
+  EXPECT_THAT(
+      [&] {
+        scene.add(Bar{bob, -1.0}, "bar");
+      },
+      ThrowsMessage<InvalidScene>(AllOf(HasSubstr("\"bar\""), HasSubstr("compliance = -1"))));
+  EXPECT_NO_THROW(scene.add(Bar{bob, 1e-3}));
+}
+
 // A stiff spring written as a force: its vibration lies beyond the steps, and the advice says what to do.
 TEST(Compliant, IsTheAdviceForAStiffSpringGivenAsAForce) {
   Scene<2> scene;

@@ -51,6 +51,17 @@ TEST(Integrability, ReturnsWhenTheHeadingIsHeld) {
   EXPECT_TRUE(judged(scene)[0].holonomic);
 }
 
+// A spring that holds the heading takes no freedom away.
+TEST(Integrability, DoesNotReturnByASpring) {
+  Scene<2> scene;
+  const auto disk = scene.add_particle({.mass = 1.0, .position = {0.2, 0.5}});
+  const auto heading = scene.add_rotor({.inertia = 0.1, .angle = 0.4});
+  const auto spin = scene.add_rotor({.inertia = 0.1});
+  scene.add(UprightRolling{disk, heading, spin, 0.5});
+  scene.add(compliant(Prescribed{heading, [](auto) { return vec(0.4); }}, 1e-3));
+  EXPECT_FALSE(judged(scene)[0].holonomic);
+}
+
 // mex235: (f(t) - x) y' + y x' = 0 has no integrating factor unless f' = 0; if the prey stands
 // still, the pursuer runs straight at it: y/x' = const.
 TEST(Integrability, OfAPursuitDependsOnWhetherThePreyMoves) {

@@ -75,6 +75,20 @@ TEST(FourBar, StaysOnItsBranchThroughSingularPositions) {
   EXPECT_LT(run.error_position, 1e-3);
 }
 
+// A lamp that hangs still on a spring beside it must not notice that crossings restart the scene: its force
+// is good to 1000 tolerances of that which moves 1 kg by the scene's length, 4, in its time, (4/g)^(1/2).
+TEST(FourBar, CrossingsLeaveSpringsAlone) {
+  constexpr double tolerance = 1e-10, stiffness = 1e4, g = 9.81;
+  FourBarScene built = FourBar{}.scene();
+  const auto lamp = built.scene.add_particle({.mass = 1.0, .position = {-1.0, -1.0 - g / stiffness}});
+  const auto spring = built.scene.add(compliant(Distance{Fixed<2>{{-1.0, 0.0}}, lamp, 1.0}, 1.0 / stiffness));
+  const Trajectory<2> run = simulate(built.scene, {.t_end = 5.0, .tolerance = tolerance});
+  EXPECT_GT(run.statistics().singular_positions, 0);
+  EXPECT_EQ(run.statistics().advice, "");
+  for (std::size_t i = 0; i < run.size(); ++i)
+    EXPECT_NEAR(-run.multiplier(spring, i), g, 1000.0 * tolerance * g) << run.times()[i];
+}
+
 // The bound that the requirements set (issue "Every system of the notes", 1).
 TEST(FourBar, IsAsAccurateAsRequiredAtATightTolerance) {
   const Model<2> model = FourBar{}.model();

@@ -97,6 +97,17 @@ TEST(Start, WithinRoundedNumbersIsAccepted) {
   EXPECT_NEAR(simulation.position(bob).norm(), 1.0, 4.0 * epsilon);
 }
 
+// In such a time the bead moves by centimetres, but its place on the Earth is known to a nanometre only.
+TEST(Start, RoundOffOfALargePositionIsNotHeldAgainstAShortRun) {
+  constexpr double radius = 6.4e6;
+  Scene<3> scene;
+  scene.add(UniformGravity<3>{{0.0, 0.0, -9.81}});
+  const auto bead =
+      scene.add_particle({.mass = 1.0, .position = radius * Vec<3>(0.1, 0.7, 0.4).normalized()});
+  scene.add(OnSurface{bead, Sphere<3>{.radius = radius}});
+  EXPECT_NO_THROW((void)Simulation<3>(scene, {.t_end = 0.03}));
+}
+
 // Two particles of 1 and 3 kg, 4 apart, on a rod of 2: the least mass-weighted change shares the
 // 2 in the inverse ratio of the masses, 1.5 and 0.5.
 TEST(Assembly, MovesAHeavyParticleLess) {
