@@ -82,20 +82,40 @@ std::vector<int> independent_columns(const SparseColumns& columns, double thresh
   return first_of(qr.colsPermutation(), qr.rank());
 }
 
+/// Of the columns, those that depend neither on others of `columns` that are not `second`, nor on each other.
+std::vector<int> independent_among(SparseColumns columns, const std::vector<char>& second, double threshold) {
+  constexpr double shorter = 1e-3;  // than the first: QR with column pivoting takes these before
+  const auto is_second = [&second](int r) { return second[static_cast<std::size_t>(r)] != 0; };
+  for (int r = 0; r < columns.cols(); ++r) {
+    if (is_second(r)) columns.col(r) *= shorter;
+  }
+  auto chosen = independent_columns(columns, shorter * threshold);
+  std::erase_if(chosen, [&](int r) { return !is_second(r); });
+  return chosen;
+}
+
+/// Holonomic rows first: of a rod's equation and its derivative the rod is kept.
+std::vector<int> independent(const System& system, const SparseColumns& columns, double threshold) {
+  const int holonomic = system.holonomic_rows();
+  if (holonomic == 0 || holonomic == system.rows()) return independent_columns(columns, threshold);
+  auto chosen = independent_columns(columns.leftCols(holonomic), threshold);
+  std::vector<char> velocity_level(static_cast<std::size_t>(system.rows()), 0);
+  std::fill(velocity_level.begin() + holonomic, velocity_level.end(), 1);
+  for (const int r : independent_among(columns, velocity_level, threshold)) chosen.push_back(r);
+  return chosen;
+}
+
 /// Compliant rows among `active` that depend on others, rigid ones first of all.
 std::vector<std::size_t> slack_rows(const System& system, std::span<const double> w,
                                     std::span<const int> active, double threshold) {
   if (!system.compliant() || clearly_independent(system, w, false)) return {};
-  constexpr double shorter = 1e-3;
-  SparseColumns columns = scaled_rows(system, w, false);
-  for (int r = 0; r < system.rows(); ++r) {
-    if (system.compliance()[static_cast<std::size_t>(r)] > 0.0) columns.col(r) *= shorter;
-  }
-  const auto carrying = independent_columns(columns, shorter * threshold);
+  std::vector<char> is_compliant;
+  for (const double C : system.compliance()) is_compliant.push_back(C > 0.0);
+  const auto carrying = independent_among(scaled_rows(system, w, false), is_compliant, threshold);
   std::vector<std::size_t> slack;
   for (std::size_t k = 0; k < active.size(); ++k) {
-    const bool is_compliant = system.compliance()[static_cast<std::size_t>(active[k])] > 0.0;
-    if (is_compliant && !std::ranges::binary_search(carrying, active[k])) slack.push_back(k);
+    const bool carries = std::ranges::binary_search(carrying, active[k]);
+    if (is_compliant[static_cast<std::size_t>(active[k])] && !carries) slack.push_back(k);
   }
   return slack;
 }
@@ -106,7 +126,7 @@ ActiveRows independent_rows(const System& system, std::span<const double> w, dou
   if (system.rows() == 0) return {};
   auto rows = clearly_independent(system, w, true)
                   ? all_rows(system)
-                  : independent_columns(scaled_rows(system, w, system.compliant()), threshold);
+                  : independent(system, scaled_rows(system, w, system.compliant()), threshold);
   const auto holonomic = std::ranges::count_if(rows, [&](int r) { return r < system.holonomic_rows(); });
   auto slack = slack_rows(system, w, rows, threshold);
   return {std::move(rows), static_cast<int>(holonomic), std::move(slack)};
