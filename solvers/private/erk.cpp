@@ -112,7 +112,7 @@ void ErkStepper::step(double wanted) {
     ++s.failures;
     growth = 1.0;
     const double shorter = s.shorter(step, std::max(factor, most_shrinking));
-    if (shorter < far_too_short * s.usual && s.from.t > s.strode_from && s.stride()) break;
+    if (shorter < far_too_short * s.usual && s.from.t > s.strode_from + s.usual && s.stride()) break;
     s.h = shorter;
   }
   s.usual = std::max(s.next.t - s.to.t, forgetting * s.usual);
