@@ -51,7 +51,7 @@ Case compliant_pendulum() {
   constexpr double tolerance = 1e-6, t_end = 10.0;
   return {.name = "compliant-pendulum",
           .parameter = "stiffness of a compliant rod [N/m]",
-          .sweep = {1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e10, 1e12, infinite},
+          .sweep = {1e2, 1e3, 1e4, 1e5, 3e5, 1e6, 1e7, 1e8, 1e10, 1e12, infinite},
           .brief = {1e2, 1e4, 1e6, 1e8, 1e12, infinite},
           .run =
               [](double k, Stepper stepper) {
