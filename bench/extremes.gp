@@ -25,6 +25,8 @@ limit(stepper) = mine(stepper) && column("limit") > 0 ? floor_of(column("limit")
 floor_of(e) = e > 1e-17 ? e : 1e-17
 taken(stepper) = mine(stepper) && column("steps") > 0 ? column("steps") : NaN
 
+stepped(name) = int(system(sprintf("awk -F, '$1 == \"%s\" && $6 > 0 { n++ } END { print n + 0 }' '%s'", name, csv)))
+
 set logscale xy
 set offsets graph 0.08, graph 0.08, graph 0.08, graph 0.08
 set format "10^{%T}"
@@ -50,7 +52,13 @@ do for [sheet = 1:sheets] {
              for [k = 1:2] csv using (abscissa(0)):(refused(word(steppers, k))) with points pointtype 6 pointsize 1.8 linewidth 2 linecolor rgb word(colours, k), \
              for [k = 1:2] csv using (abscissa(0)):(wrong(word(steppers, k))) with points pointtype 2 pointsize 2.2 linewidth 3 linecolor rgb "#cc0000"
       } else {
-        plot for [k = 1:2] csv using (abscissa(0)):(taken(word(steppers, k))) with linespoints linewidth 1.5 pointtype 7 pointsize 1.3 linecolor rgb word(colours, k)
+        if (stepped(this)) {
+          plot for [k = 1:2] csv using (abscissa(0)):(taken(word(steppers, k))) with linespoints linewidth 1.5 pointtype 7 pointsize 1.3 linecolor rgb word(colours, k)
+        } else { # gnuplot refuses to plot nothing
+          set label 1 "no steps: all about the start" at graph 0.5, graph 0.5 center
+          plot [1:10] [1:10] 0.1
+          unset label 1
+        }
       }
     }
     unset multiplot
