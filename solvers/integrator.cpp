@@ -189,8 +189,9 @@ struct Integrator::State {
   /// earlier, strides over it and on to where the other can go on.
   [[nodiscard]] bool cross() {
     if (crossing_until) return false;
-    crossing_until = stepper_time() + crossing_distance * start.scales.time;
-    if (*crossing_until >= options.t_end) return false;
+    const double beyond = stepper_time() + crossing_distance * start.scales.time;
+    if (beyond >= options.t_end) return false;
+    crossing_until = beyond;
     Options explicit_options = options;
     explicit_options.stepper = Stepper::erk;
     explicit_options.tolerance = std::max(options.tolerance, crossing_tolerance);
