@@ -1,5 +1,7 @@
 #include "dalembert/core/audit.h"
 
+#include <dalembert/core/rank.h>
+
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -9,21 +11,18 @@ namespace dalembert {
 
 namespace {
 
-/// Orthonormal columns: the displacements that all rows of W allow.
+/// Unit columns: displacements that all rows of W allow, and that span all such. In the metric of the masses
+/// they are orthogonal.
 Eigen::MatrixXd tangent_space(const System& system, std::span<const double> w) {
-  Eigen::MatrixXd gradients = Eigen::MatrixXd::Zero(system.coordinates(), system.rows());
-  for (int r = 0; r < system.rows(); ++r) {
-    const auto row = static_cast<std::size_t>(r);
-    for (int k = system.row_start()[row]; k < system.row_start()[row + 1]; ++k) {
-      gradients(system.w_columns()[static_cast<std::size_t>(k)], r) += w[static_cast<std::size_t>(k)];
-    }
-    gradients.col(r).normalize();
-  }
   if (system.rows() == 0) return Eigen::MatrixXd::Identity(system.coordinates(), system.coordinates());
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(gradients);
-  qr.setThreshold(1e-9);
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(system.coordinates(), system.rows());
+  qr.setThreshold(rank_threshold);
+  qr.compute(Eigen::MatrixXd(rows_in_mass_metric(system, w)));
   const Eigen::MatrixXd Q = qr.householderQ();
-  return Q.rightCols(Q.cols() - qr.rank());
+  Eigen::MatrixXd tangent = Q.rightCols(Q.cols() - qr.rank());
+  for (Eigen::Index i = 0; i < tangent.rows(); ++i)
+    tangent.row(i) /= std::sqrt(system.masses()[static_cast<std::size_t>(i)]);
+  return tangent.colwise().normalized();
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
 #include "dalembert/core/system.h"
 #include <dalembert/core/integrability.h>
 #include <dalembert/core/islands.h>
-
-#include <Eigen/QR>
+#include <dalembert/core/rank.h>
 
 #include <map>
 #include <sstream>
@@ -20,23 +19,6 @@ std::string kinds(const Batches& batches) {
     text += (text.empty() ? "" : ", ") + std::to_string(number) + ' ' + kind;
   }
   return text.empty() ? "none" : text;
-}
-
-/// How many rows of W are independent. Compliant ones take no freedom away.
-int rank_of(const System& system, std::span<const double> w) {
-  if (system.rows() == 0) return 0;
-  Eigen::MatrixXd gradients = Eigen::MatrixXd::Zero(system.coordinates(), system.rows());
-  for (int r = 0; r < system.rows(); ++r) {
-    const auto row = static_cast<std::size_t>(r);
-    if (system.compliance()[row] > 0.0) continue;
-    const auto first = static_cast<std::size_t>(system.row_start()[row]);
-    const auto last = static_cast<std::size_t>(system.row_start()[row + 1]);
-    for (std::size_t k = first; k < last; ++k) gradients(system.w_columns()[k], r) += w[k];
-    gradients.col(r).normalize();
-  }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(gradients);
-  qr.setThreshold(1e-9);
-  return static_cast<int>(qr.rank());
 }
 
 }  // namespace
@@ -76,7 +58,7 @@ std::string System::describe(double t, std::span<const double> q) const {
   const std::vector<double> at_rest(q.size(), 0.0);
   auto e = evaluation();
   evaluate({t, q, at_rest}, e);
-  const int rank = rank_of(*this, e.w);
+  const int rank = independent_rows(*this, e.w).size() - compliant_rows();  // those take no freedom away
   out << "at t = " << t << ": " << rank << " of " << rows() - compliant_rows()
       << " constraint equations independent, " << coordinates() - rank << " degrees of freedom of velocity\n";
   for (const Integrability& set : integrability(*this, t, q)) {

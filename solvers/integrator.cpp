@@ -1,11 +1,12 @@
 #include "dalembert/solvers/integrator.h"
 
 #include <dalembert/core/errors.h>
-#include <dalembert/solvers/private/crossing.h>
 #include <dalembert/solvers/private/erk.h>
 #include <dalembert/solvers/private/ida.h>
 #include <dalembert/solvers/private/manifold.h>
 #include <dalembert/solvers/private/outgrown.h>
+#include <dalembert/solvers/private/recovery.h>
+#include <dalembert/solvers/private/singularity.h>
 #include <dalembert/solvers/private/start.h>
 
 #include <algorithm>
@@ -13,18 +14,20 @@
 #include <ctime>
 #include <limits>
 #include <sstream>
+#include <utility>
 #include <variant>
 
 namespace dalembert {
 
 namespace {
 
-/// Output is put onto the constraints to this fraction of the scene's length: a few units of
-/// round-off.
-constexpr double output_distance = 1e-15;
-/// Constraints that were left out because they followed from others at the start must still do so:
-/// to this fraction of the scene's length.
-constexpr double tolerated_contradiction = 1e-8;
+/// Where constraints repeat each other, those in use are chosen anew when the sine of the smallest angle among
+/// them has fallen to this part of what it was, if others are better by as much.
+constexpr double worse = 0.5;
+
+/// The implicit stepper hands over to the explicit one where the constraints come so close to dependent,
+/// and would be dependent after so many of its steps: it feels the errors of its states times 1/sin.
+constexpr double handover_sine = 0.1, handover_steps = 20.0;
 
 /// Times known no better than to this part of the scene's own are worth a word when a run stops.
 constexpr double coarse_time = 1e-10;
@@ -70,8 +73,8 @@ struct Integrator::State {
         stepper(make_stepper(system, start, o)),
         now(system, start),
         next(now),
-        given(start.q.size()),
-        past(o.t_start, start.q, start.v) {
+        recovery(system, start, o.tolerance),
+        angle{o.t_start, 1.0} {
     if (system.compliant()) {
       for (auto* numbers : {&springs.lambda, &springs.rate, &springs.second})
         numbers->resize(start.lambda.size());
@@ -82,27 +85,12 @@ struct Integrator::State {
     record.statistics.degrees_of_freedom = system.coordinates() + system.compliant_rows() - start.rows.size();
     record.statistics.redundant_equations = system.rows() - start.rows.size();
     visit(o.t_start);
+    chosen_sine = manifold->sine();
   } catch (const StepFailure& failure) {  // before the first step it is a fault of the start
     throw InconsistentStart(failure.what);
   } catch (const EquationFault& fault) {
     throw InconsistentStart(fault.what());
   }
-
-  /// Everything that can be read at one instant.
-  struct Moment {
-    Moment(const System& system, const Start& start)
-        : q(start.q),
-          v(start.v),
-          a(start.a),
-          lambda(start.lambda),
-          forces(system.layout()->slot_coordinate.size()) {
-      if (start.rows.size() < system.rows()) unique.resize(lambda.size());
-    }
-    double t = 0.0;
-    std::vector<double> q, v, a, lambda, forces;
-    double energy = 0.0;
-    std::vector<char> unique;  // empty if all multipliers are
-  };
 
   /// The state at a time that the stepper has passed, put onto the constraints, with its forces. If
   /// anything fails the current moment stays as it is.
@@ -126,37 +114,11 @@ struct Integrator::State {
   }
 
   void recover(Moment& m) {
-    std::ranges::copy(m.q, given.begin());
-    const double L = start.scales.length;
-    const Violation left = manifold->project_positions(m.t, m.q, m.v, output_distance * L);
-    if (!manifold->solve_motion(m.t, m.q, m.v, m.a, m.lambda)) {
-      throw StepFailure{"the constraints became dependent on each other: their forces are not determined",
-                        m.t};
-    }
-    if (left.size > tolerated_contradiction * L + start.scales.rounding(m.q)) {
-      throw StepFailure{system.row_label(left.row) +
-                            " contradicts the other constraints: it is violated by " +
-                            std::to_string(left.size),
-                        m.t};
-    }
-    const auto& equations = manifold->equations();
-    if (!m.unique.empty()) std::ranges::copy(manifold->unique(), m.unique.begin());
-    system.constraint_forces(equations.w, m.lambda, m.forces);
-    m.energy = system.kinetic_energy(m.v) + system.potential_energy({m.t, m.q, m.v}) +
-               system.elastic_energy(m.lambda);
-    const auto finite = [](double x) { return std::isfinite(x); };
-    if (!finite(m.energy) || !std::ranges::all_of(m.forces, finite)) {
-      throw StepFailure{
-          "the energy or a force of constraint exceeds what double precision holds; choose units in which "
-          "masses, lengths and speeds are closer to 1",
-          m.t};
-    }
+    recovery.recover(*manifold, m);
     auto& s = record.statistics;
-    s.residual_position = std::max(s.residual_position, left.size);
-    s.residual_velocity = std::max(s.residual_velocity, velocity_violation(system, equations, lever).size);
-    for (std::size_t i = 0; i < given.size(); ++i) {
-      s.correction = std::max(s.correction, std::abs(m.q[i] - given[i]) * lever[i]);
-    }
+    s.residual_position = std::max(s.residual_position, m.position.size);
+    s.residual_velocity = std::max(s.residual_velocity, m.velocity.size);
+    s.correction = std::max(s.correction, m.correction);
   }
 
   [[nodiscard]] FlatSample sample() const {
@@ -169,56 +131,75 @@ struct Integrator::State {
                             " is used up; raise it, or ask for a looser tolerance",
                         stepper_time()};
     }
-    if (crossing_until && stepper_time() >= *crossing_until) resume();
+    // Before a step, so that all output within the last has been read from the stepper that took it.
+    if (start.rows.size() < system.rows()) follow_rows();
+    if (options.stepper == Stepper::ida) watch_angle();
     try {
       std::visit([wanted](auto& s) { s.step(wanted); }, stepper);
-    } catch (const StepFailure& failure) {
-      if (!failure.singular || !cross()) throw;
-    }
-    if (!crossing_until) {
-      const double age = crossing_distance * start.scales.time;
-      past.remember(stepper_time(), age, [this](double t, std::span<double> q0, std::span<double> v0) {
-        interpolate(t, q0, v0);
-        // A crossing begins with -g/C for the forces of compliant constraints: g must be as exact.
-        if (system.compliant()) manifold->project_positions(t, q0, v0, output_distance * start.scales.length);
-      });
+    } catch (const StepFailure&) {
+      // Newton's iteration may fail anywhere; where the constraints are close to dependent the explicit
+      // stepper goes on.
+      if (handed_over || options.stepper == Stepper::erk || !(sine() < handover_sine)) throw;
+      hand_over();
     }
   }
 
-  /// An isolated singular position stops the implicit stepper. The explicit one, begun a little
-  /// earlier, strides over it and on to where the other can go on.
-  [[nodiscard]] bool cross() {
-    if (crossing_until) return false;
-    const double beyond = stepper_time() + crossing_distance * start.scales.time;
-    if (beyond >= options.t_end) return false;
-    crossing_until = beyond;
-    Options explicit_options = options;
-    explicit_options.stepper = Stepper::erk;
-    explicit_options.tolerance = std::max(options.tolerance, crossing_tolerance);
-    restart(past.earlier().t, past.earlier().q, past.earlier().v, explicit_options);
-    ++record.statistics.singular_positions;
-    return true;
+  [[nodiscard]] double sine() const {
+    return std::visit([](const auto& s) { return s.sine(); }, stepper);
   }
-  void resume() {
+
+  /// The rows in use are independent at the start of the run; on the way they may come to depend on each
+  /// other while others do not.
+  void follow_rows() {
+    interpolate(stepper_time(), next.q, next.v);
+    const Instant at{stepper_time(), next.q, next.v};
+    const double own = manifold->sine(at);
+    if (own > worse * chosen_sine) return;
+    chosen_sine = own;
+    const ActiveRows fresh = independent_rows(system, manifold->equations().w, start.rows);
+    const double best = Manifold(system, fresh, lever).sine(at);
+    if (own > worse * best) return;
+    restart(handed_over ? Stepper::erk : options.stepper);
+    chosen_sine = best;
+  }
+
+  /// Isolated singular positions are passed by the explicit stepper (see ErkStepper), from where they come in
+  /// sight until they are as far behind.
+  void watch_angle() {
+    const Angle before = std::exchange(angle, {stepper_time(), sine()});
+    if (!handed_over) {
+      const double left = time_to_singular(before, angle);
+      if (angle.sine < handover_sine && left < handover_steps * (angle.t - before.t)) hand_over();
+      return;
+    }
+    least_sine = std::min(least_sine, angle.sine);
+    if (angle.sine < 2.0 * least_sine) return;
+    handed_over = false;
+    restart(Stepper::ida);
+  }
+  void hand_over() {
+    handed_over = true;
+    least_sine = std::numeric_limits<double>::infinity();
+    restart(Stepper::erk);
+  }
+
+  /// A fresh choice of rows and a fresh stepper where the present one stands.
+  void restart(Stepper kind) {
     const double t = stepper_time();
-    std::vector<double> q0(given.size()), v0(given.size());
-    std::visit([&](auto& s) { s.interpolate(t, q0, v0); }, stepper);
-    crossing_until.reset();
-    restart(t, q0, v0, options);
-    past = Past(t, q0, v0);
-  }
-  /// A fresh choice of rows and a fresh stepper at a state on its way.
-  void restart(double t, std::span<const double> q0, std::span<const double> v0, Options o) {
+    std::vector<double> q0(next.q.size()), v0(next.q.size());
+    interpolate(t, q0, v0);
+    // The explicit stepper takes -g/C for the forces of compliant constraints: g must be as exact.
+    if (system.compliant()) manifold->project_positions(t, q0, v0, 0.1 * start.scales.rounding(q0));
     count(record.statistics);
     record.statistics.advice.clear();  // of a crossing it would be about the wrong stepper
-    o.t_start = t;
-    o.assemble = true;
-    Scales scales = start.scales;
-    start = consistent_start(system, q0, v0, o);
-    start.scales = std::move(scales);
+    Options from_here = options;
+    from_here.t_start = t;
+    from_here.stepper = kind;
+    start = begin_anew(system, start, t, q0, v0);
     manifold.emplace(system, start.rows, lever);
-    stepper = make_stepper(system, start, o);
+    stepper = make_stepper(system, start, from_here);
     next = Moment(system, start);
+    angle = {t, 1.0};
   }
 
   void step_past(double time) {
@@ -235,8 +216,6 @@ struct Integrator::State {
       fail(failure.what, failure.time);
     } catch (const EquationFault& fault) {
       fail(fault.what(), stepper_time());
-    } catch (const InconsistentStart& fault) {
-      fail(fault.what(), stepper_time());  // of a restart beyond a singular position
     }
   }
 
@@ -252,7 +231,6 @@ struct Integrator::State {
   }
 
   [[noreturn]] void fail(const std::string& why, double time) {
-    time = std::max(time, now.t);  // a crossing begins a little earlier, and may fail there
     const std::string suspect = outgrown();
     auto kept = std::make_shared<Record>(record);
     kept->statistics = statistics();
@@ -271,7 +249,7 @@ struct Integrator::State {
   [[nodiscard]] Statistics statistics() const {
     Statistics s = record.statistics;
     count(s);
-    if (crossing_until) s.advice.clear();
+    if (handed_over) s.advice.clear();
     return s;
   }
 
@@ -292,10 +270,12 @@ struct Integrator::State {
   long steps = 0;
 
   Moment now, next;
-  std::vector<double> given;             // q before projection
-  Springs springs;                       // of the implicit stepper's state, if any constraint is compliant
-  Past past;                             // where to begin a crossing from
-  std::optional<double> crossing_until;  // while one is under way
+  Springs springs;  // of the implicit stepper's state, if any constraint is compliant
+  Recovery recovery;
+  double chosen_sine = 1.0;                    // of the rows in use, when they were chosen
+  Angle angle;                                 // at the last step
+  bool handed_over = false;                    // to the explicit stepper, close to a singular position
+  double least_sine = 0.0;                     // since then
 
   Record record;
 };
@@ -315,9 +295,7 @@ void Integrator::step() {
   s.guarded([&s] {
     if (s.stepper_time() >= s.options.t_end)
       throw StepFailure{"t_end is reached; choose a later one", s.now.t};
-    do {
-      s.step_once(s.options.t_end);
-    } while (s.stepper_time() <= s.now.t);  // a crossing begins a little earlier
+    s.step_once(s.options.t_end);
     s.visit(s.stepper_time());
   });
 }

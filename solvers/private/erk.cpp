@@ -17,10 +17,6 @@ constexpr double most_growth = 6.0;
 constexpr double most_shrinking = 0.2;
 constexpr double after_fault = 0.25;
 
-/// A step goes back onto the constraints by about as much as it errs. One that has to be moved by more
-/// than this many times the tolerance went wrong: over a jump of a driven point, or onto another branch.
-constexpr double most_correction = 10.0;
-
 /// The last stage, at t + h, and the end of a step have the same derivatives but for errors. Where these
 /// move the scene in a step by more than this part of its size, the step has jumped over something: a
 /// centre of force, whose two sides may deceive the error estimate.
@@ -30,10 +26,7 @@ constexpr double most_disagreement = 0.05;
 /// cannot be trusted: it weighs the first derivative a thousandth of what the step does.
 constexpr double far_too_short = 0.15, unreliable = 100.0;
 
-/// Or it begins close to a singular position, where no derivative is worth anything. Then the last step is
-/// taken back, and others of about the usual length are tried from where it began: one may pass the position
-/// with all stages at a distance. What is usual shrinks by at most so much a step.
-constexpr double strides[] = {1.3, 1.15, 0.85, 0.7};
+/// What is usual shrinks by at most so much a step.
 constexpr double forgetting = 0.9;
 
 }  // namespace
@@ -53,7 +46,9 @@ double ErkStepper::State::attempt(double step) {
     const double e = error(step) * (step < far_too_short * usual ? unreliable : 1.0);
     if (e > 1.0) return e;
     if (steps % stability_check_interval == 0) watch_stability(step);
-    return std::max({e, land() / most_correction, disagreement(step) / most_disagreement});
+    const double correction = land();
+    next.sine = manifold.sine();
+    return std::max({e, correction / most_correction, disagreement(step) / most_disagreement});
   } catch (const EquationFault& error) {
     fault = error.what();
     return std::numeric_limits<double>::infinity();
@@ -80,25 +75,22 @@ double ErkStepper::State::step_towards(double wanted) const {
   return gap / std::max(1.0, std::ceil(gap / h - stretch));
 }
 
-/// Close to a singular position, takes the last step back and another one in its place; true if one could
-/// be found.
-bool ErkStepper::State::stride() {
-  strode_from = from.t;
-  if (!manifold.nearly_singular({to.t, to.q, halves(to.va).first})) return false;
+/// Takes `next` for the end of a step.
+void ErkStepper::State::accept(bool by_extrapolation) {
+  usual = std::max(next.t - to.t, forgetting * usual);
+  ++steps;
+  has_middle = false;
+  crossed = by_extrapolation;
+  std::swap(earlier[1], earlier[0]);
+  std::swap(earlier[0], from);
   std::swap(from, to);
-  for (const double stretch : strides) {
-    h = std::min(stretch * usual, t_end - to.t);
-    // Half of it would serve for output on its way.
-    if (attempt(0.5 * h) <= 1.0 && attempt(h) <= 1.0) return true;
-    ++failures;
-  }
-  std::swap(from, to);
-  return false;
+  std::swap(to, next);
 }
 
 void ErkStepper::step(double wanted) {
   State& s = *state_;
   s.fault.clear();
+  if (s.cross() == State::Crossing::passed) return s.accept(true);
   double growth = most_growth;
   for (;;) {
     const double step = s.step_towards(wanted);
@@ -111,21 +103,16 @@ void ErkStepper::step(double wanted) {
     }
     ++s.failures;
     growth = 1.0;
-    const double shorter = s.shorter(step, std::max(factor, most_shrinking));
-    if (shorter < far_too_short * s.usual && s.from.t > s.strode_from + s.usual && s.stride()) break;
-    s.h = shorter;
+    s.h = s.shorter(step, std::max(factor, most_shrinking));
   }
-  s.usual = std::max(s.next.t - s.to.t, forgetting * s.usual);
   // Round-off in the sum must not let the last part of the way fall short of its goal.
   const double goal = std::min(wanted, s.t_end);
   if (std::abs(s.next.t - goal) <= 1e-14 * std::max(std::abs(goal), s.scales.time)) s.next.t = goal;
-  ++s.steps;
-  s.has_middle = false;
-  std::swap(s.from, s.to);
-  std::swap(s.to, s.next);
+  s.accept(false);
 }
 
 double ErkStepper::time() const { return state_->to.t; }
+double ErkStepper::sine() const { return state_->to.sine; }
 
 void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v) {
   State& s = *state_;
@@ -134,6 +121,7 @@ void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v)
     std::copy_n(s.to.va.begin(), s.n, v.begin());
     return;
   }
+  if (s.crossed) return s.read_crossing(t, q, v);
   s.find_middle();
   const Hermite<3> polynomial({s.from.t, s.middle.t, s.to.t}, t);
   for (std::size_t i = 0; i < s.n; ++i) {
@@ -151,6 +139,7 @@ void ErkStepper::count(Statistics& statistics) const {
   statistics.evaluations += s.manifold.evaluations();
   statistics.factorisations += s.manifold.factorisations();
   statistics.error_test_failures += s.failures;
+  statistics.singular_positions += s.singular_positions;
   statistics.linear_algebra = s.manifold.method();
   statistics.stability_limited += s.stability_limited;
   if (2 * s.stability_limited > s.steps)

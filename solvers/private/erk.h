@@ -25,6 +25,8 @@ namespace dalembert {
 /// half a step more gives its middle, and the polynomial of degree 8 through q, q', q'' at both
 /// ends and the middle serves for all of them; its error has the order 9 of the step's own.
 ///
+/// Isolated singular positions are passed by extrapolation: see State::cross.
+///
 /// Why not ARKODE: on scenes of a few coordinates its own work per stage, 0.2 us, is more than
 /// twice that of the equations of motion here, and its Hermite interpolation (order 5) is less
 /// accurate than the steps.
@@ -40,6 +42,8 @@ class ErkStepper {
   /// last one and end earlier than that. Throws StepFailure.
   void step(double wanted);
   [[nodiscard]] double time() const;
+  /// See Manifold::sine; where the last step ended.
+  [[nodiscard]] double sine() const;
   /// The state at a time inside the last step (or at the start, before the first). Throws
   /// EquationFault.
   void interpolate(double t, std::span<double> q, std::span<double> v);

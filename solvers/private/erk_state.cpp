@@ -37,7 +37,7 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
       // A third of the step that an error constant of 1 allows.
       h(std::min(0.3 * std::pow(options.tolerance, 1.0 / pair.order) * start.scales.time,
                  options.t_end - options.t_start)) {
-  for (Node* node : {&from, &to, &middle, &next}) {
+  for (Node* node : {&from, &to, &middle, &next, &earlier[0], &earlier[1]}) {
     node->t = options.t_start;
     node->q = start.q;
     node->va = start.v;
@@ -47,6 +47,7 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
     stage[i].resize(2 * n);
     k[i] = stage[i].data();
   }
+  to.sine = manifold.sine({to.t, to.q, halves(to.va).first});
   if (!system->compliant()) return;
   auto e = system->evaluation();
   system->evaluate({options.t_start, start.q, start.v}, e);

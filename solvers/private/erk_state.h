@@ -4,10 +4,10 @@
 #include <dalembert/solvers/private/combination.h>
 #include <dalembert/solvers/private/erk.h>
 #include <dalembert/solvers/private/manifold.h>
+#include <dalembert/solvers/private/singularity.h>
 #include <dalembert/solvers/private/verner.h>
 
 #include <array>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +19,9 @@ struct ErkStepper::State {
   static constexpr const ButcherTable<13>& pair = verner87;
   static constexpr int stages = pair.stages;
   static constexpr long stability_check_interval = 8;  // steps
+  /// A step goes back onto the constraints by about as much as it errs. One that has to be moved by more
+  /// than this many times the tolerance went wrong: over a jump of a driven point, or onto another branch.
+  static constexpr double most_correction = 10.0;
 
   State(const System& system, const Start& start, const Options& options);
 
@@ -27,6 +30,9 @@ struct ErkStepper::State {
   struct Node {
     double t = 0.0;
     std::vector<double> q, va;
+    double sine = 1.0;  // see Manifold
+
+    [[nodiscard]] Angle angle() const { return {t, sine}; }
   };
 
   /// Velocities and accelerations.
@@ -48,7 +54,16 @@ struct ErkStepper::State {
   void watch_stability(double step);
 
   [[nodiscard]] double attempt(double step);
-  [[nodiscard]] bool stride();
+  void accept(bool by_extrapolation);
+
+  /// What became of the attempt to pass a singular position.
+  enum class Crossing { none, ahead, passed };
+  [[nodiscard]] Crossing cross();
+  [[nodiscard]] bool find_singular(double& t);
+  [[nodiscard]] bool pass(double singular);
+  /// The polynomial through the last `nodes` nodes, at t.
+  void extrapolate(std::size_t nodes, double t, Node& out) const;
+  void read_crossing(double t, std::span<double> q, std::span<double> v) const;
   [[nodiscard]] double shorter(double step, double factor) const;
   [[nodiscard]] double step_towards(double wanted) const;
 
@@ -59,9 +74,11 @@ struct ErkStepper::State {
   Manifold manifold;
   std::vector<Combination<stages>> a;
   Combination<stages> b{pair.b}, d{pair.d}, last_difference;
-  Node from, to;  // the last step; before the first, both are the start
+  Node from, to;                // the last step; before the first, both are the start
+  std::array<Node, 2> earlier;  // those before `from`, the later one first
   Node middle;    // of that step, if `has_middle`
   bool has_middle = false;
+  bool crossed = false;  // the last step passed a singular position
   Node next;  // where a step goes until it is accepted
   std::array<std::vector<double>, stages> stage;
   std::array<const double*, stages> k{};
@@ -69,9 +86,9 @@ struct ErkStepper::State {
   std::vector<double> difference, weight;  // of positions and velocities
   std::vector<double> force_of_spring;     // per row, 0 in rigid ones; empty if all are
   double h;
-  double usual = h;                                               // step
-  double strode_from = -std::numeric_limits<double>::infinity();  // the last time
+  double usual = h;  // step
   long steps = 0, failures = 0, stability_limited = 0;
+  int singular_positions = 0;
   std::string fault;  // of the last attempt that failed
 };
 

@@ -34,6 +34,8 @@ class IdaStepper {
   /// difference: the BDF polynomial is as accurate between steps as at them.)
   void step(double wanted);
   [[nodiscard]] double time() const;
+  /// See Manifold::sine; of the holonomic constraints, where Newton's matrix was factored last.
+  [[nodiscard]] double sine() const;
   /// The state at a time inside the last step (or at the start, before the first).
   void interpolate(double t, std::span<double> q, std::span<double> v) const;
   /// The multipliers of compliant rows at such a time. False if the positions say all: before the first

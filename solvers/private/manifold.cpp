@@ -40,7 +40,8 @@ Manifold::Manifold(const System& system, const ActiveRows& rows, std::vector<dou
       e_(system.evaluation()),
       gamma_(static_cast<std::size_t>(system.rows())),
       kkt_(system, rows),
-      minimum_norm_(system, rows, lever_) {
+      minimum_norm_(system, rows, lever_),
+      weakest_(system) {
   x_.resize(static_cast<std::size_t>(kkt_.size()));
   q_before_.resize(static_cast<std::size_t>(system.coordinates()));
   if (system.frictional()) friction_.emplace(system, rows);
@@ -77,10 +78,25 @@ void Manifold::weigh_springs() {
   }
 }
 
-bool Manifold::nearly_singular(const Instant& at) {
-  constexpr double close = 1e-2;  // sin^2 of an angle
+double Manifold::sine(const Instant& at) {
   evaluate(at);
-  return !factorise() || kkt_.smallest_pivot() < close;
+  return factorise() ? sine() : 0.0;
+}
+
+double Manifold::weakest_direction(std::span<const double> lever, std::span<double> n) {
+  (void)weakest_.find(kkt_, rows_, e_.w);
+  double largest = 0.0, response = 0.0;
+  for (std::size_t i = 0; i < n.size(); ++i) largest = std::max(largest, std::abs(weakest_.n()[i]) * lever[i]);
+  for (std::size_t i = 0; i < n.size(); ++i) n[i] = weakest_.n()[i] / largest;
+  for (const int row : rows_.rows) {
+    const auto r = static_cast<std::size_t>(row);
+    double change = 0.0;
+    for (auto k = static_cast<std::size_t>(system_->row_start()[r]);
+         k < static_cast<std::size_t>(system_->row_start()[r + 1]); ++k)
+      change += e_.w[k] * n[static_cast<std::size_t>(system_->w_columns()[k])];
+    response = std::max(response, std::abs(change) / gradient_length(*system_, e_.w, lever_, r));
+  }
+  return response;
 }
 
 bool Manifold::factorise() {

@@ -4,6 +4,7 @@
 #include <dalembert/solvers/private/minimum_norm.h>
 #include <dalembert/solvers/private/saddle.h>
 #include <dalembert/solvers/private/springs.h>
+#include <dalembert/solvers/private/weakest_direction.h>
 
 #include <optional>
 #include <vector>
@@ -65,8 +66,14 @@ class Manifold {
   /// step of (1) leaves is the square of what it found. False if singular.
   [[nodiscard]] bool land(double t, std::span<double> q, std::span<double> v, std::span<double> a);
 
-  /// Whether rows are close to dependent at a state, as far as the Schur complement tells.
-  [[nodiscard]] bool nearly_singular(const Instant& at);
+  /// The sine of the smallest angle that a row makes with others, in the metric of the masses: at a state,
+  /// and where the matrix was factored last. 0 where rows depend on each other.
+  [[nodiscard]] double sine(const Instant& at);
+  [[nodiscard]] double sine() const { return kkt_.sine(); }
+  /// Where the matrix was factored last, the direction of the coordinates that the constraints hold least,
+  /// with the largest entry 1 (lengths, by `lever`). Returns the largest violation, as a length, of a unit of
+  /// it.
+  double weakest_direction(std::span<const double> lever, std::span<double> n);
 
   /// Per row of the system, whether its last multiplier is determined by the motion.
   [[nodiscard]] std::span<const char> unique() const { return minimum_norm_.unique(); }
@@ -99,6 +106,7 @@ class Manifold {
   bool following_ = false;
   SaddleMatrix kkt_;
   MinimumNorm minimum_norm_;
+  WeakestDirection weakest_;
   std::optional<FrictionSolver> friction_;  // if any force reads a multiplier
   long evaluations_ = 0;
 };

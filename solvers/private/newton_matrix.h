@@ -79,6 +79,8 @@ class NewtonMatrix {
   /// That of the forces' stiffness, and which force has it.
   [[nodiscard]] double fastest_of_forces() const { return rho_forces_; }
   [[nodiscard]] std::string stiffest_force() const;
+  /// The sine of the smallest angle that a holonomic row makes with others, see SaddleMatrix.
+  [[nodiscard]] double sine() const { return k2_.sine(); }
   /// Whether the last factors are those of W M^-1 W^T alone.
   [[nodiscard]] bool soft() const { return !k1_in_use_; }
   /// What factors the matrices, and of how many islands if it is not the same for all.

@@ -1,23 +1,10 @@
 #pragma once
 
-#include <dalembert/core/system.h>
+#include <dalembert/core/rank.h>
 
 #include <span>
-#include <vector>
 
 namespace dalembert {
-
-/// The constraint rows a solver works with: all of them, unless some depend on others. Holonomic
-/// rows come first.
-struct ActiveRows {
-  std::vector<int> rows;
-  int holonomic = 0;
-  /// Places in `rows` of compliant rows whose gradients depend on those of others: springs side by side. The
-  /// others put positions and velocities onto the constraints; g + C lambda = 0 gives these their forces.
-  std::vector<std::size_t> slack{};
-
-  [[nodiscard]] int size() const { return static_cast<int>(rows.size()); }
-};
 
 /// w M^-1 w^T of a row: the inverse of the mass that its multiplier moves.
 [[nodiscard]] double mobility(const System& system, std::span<const double> w, std::size_t row);

@@ -1,5 +1,8 @@
 #include "dalembert/solvers/private/saddle.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace dalembert {
 
 namespace {
@@ -37,6 +40,10 @@ bool SaddleMatrix::factorise(std::span<const double> w, std::span<const double> 
   if (by_schur_) return true;
   if (!whole_) whole_.emplace(*system_, rows_, KktMatrix::Forces::none);
   return whole_->factorise(w, s);
+}
+
+double SaddleMatrix::sine() const {
+  return schur_ ? std::sqrt(std::max(schur_->smallest_pivot(), 0.0)) : 1.0;
 }
 
 void SaddleMatrix::solve(std::span<double> x) {

@@ -30,9 +30,9 @@ class SaddleMatrix {
   /// In place: (a, b) becomes (x, y), n and then one number per active row.
   void solve(std::span<double> x);
 
-  /// sin^2 of the smallest angle that a row made with others when the matrix was factored last; 1 if the
-  /// complement, which tells it, does not suit the scene.
-  [[nodiscard]] double smallest_pivot() const { return schur_ ? schur_->smallest_pivot() : 1.0; }
+  /// The sine of the smallest angle that a row made with others when the matrix was factored last, in the
+  /// metric of the masses; 1 if the complement, which tells it, does not suit the scene.
+  [[nodiscard]] double sine() const;
 
   [[nodiscard]] int size() const { return system_->coordinates() + rows_.size(); }
   [[nodiscard]] long factorisations() const { return factorisations_; }

@@ -1,8 +1,8 @@
 #include "dalembert/solvers/private/start.h"
 
 #include <dalembert/core/errors.h>
-#include <dalembert/solvers/private/independent_rows.h>
 #include <dalembert/solvers/private/manifold.h>
+#include <dalembert/solvers/private/step_failure.h>
 
 #include <algorithm>
 #include <cmath>
@@ -249,7 +249,7 @@ Start consistent_start(const System& system, std::span<const double> q, std::spa
     start_velocities(system, start, e, options);
 
     start.scales.origin = start.q;
-    start.rows = independent_rows(system, e.w, rank_threshold);
+    start.rows = independent_rows(system, e.w);
     Manifold manifold(system, start.rows, start.scales.lever());
     if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda)) {
       throw InconsistentStart(
@@ -263,6 +263,21 @@ Start consistent_start(const System& system, std::span<const double> q, std::spa
     throw InconsistentStart(std::string(fault.what()) +
                             ": correct the equation, or start where it is defined");
   }
+  return start;
+}
+
+Start begin_anew(const System& system, const Start& before, double t, std::span<const double> q,
+                 std::span<const double> v) {
+  Start start = before;
+  start.q.assign(q.begin(), q.end());
+  start.v.assign(v.begin(), v.end());
+  auto e = system.evaluation();
+  system.evaluate({t, q, v}, e);
+  start.rows = independent_rows(system, e.w, before.rows);
+  Manifold manifold(system, start.rows, start.scales.lever());
+  manifold.project_positions(t, start.q, start.v, converged * start.scales.length);
+  if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda))
+    throw StepFailure{"the constraints became dependent on each other", t};
   return start;
 }
 

@@ -8,7 +8,6 @@ namespace dalembert {
 struct StepFailure {
   std::string what;
   double time;
-  bool singular = false;  ///< Newton's iteration or a factorisation failed: see Integrator
 };
 
 }  // namespace dalembert
