@@ -108,8 +108,7 @@ std::vector<int> independent(const System& system, const Columns& columns, doubl
       independent_columns(columns.leftCols(holonomic), wanted(like != nullptr ? like->holonomic : 0));
   std::vector<char> velocity_level(static_cast<std::size_t>(system.rows()), 0);
   std::fill(velocity_level.begin() + holonomic, velocity_level.end(), 1);
-  for (const int r :
-       independent_among(columns, velocity_level, wanted(like != nullptr ? like->size() : 0)))
+  for (const int r : independent_among(columns, velocity_level, wanted(like != nullptr ? like->size() : 0)))
     chosen.push_back(r);
   return chosen;
 }

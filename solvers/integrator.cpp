@@ -21,8 +21,8 @@ namespace dalembert {
 
 namespace {
 
-/// Where constraints repeat each other, those in use are chosen anew when the sine of the smallest angle among
-/// them has fallen to this part of what it was, if others are better by as much.
+/// Where constraints repeat each other, those in use are chosen anew when the sine of the smallest angle
+/// among them has fallen to this part of what it was, if others are better by as much.
 constexpr double worse = 0.5;
 
 /// The implicit stepper hands over to the explicit one where the constraints come so close to dependent,
@@ -272,10 +272,10 @@ struct Integrator::State {
   Moment now, next;
   Springs springs;  // of the implicit stepper's state, if any constraint is compliant
   Recovery recovery;
-  double chosen_sine = 1.0;                    // of the rows in use, when they were chosen
-  Angle angle;                                 // at the last step
-  bool handed_over = false;                    // to the explicit stepper, close to a singular position
-  double least_sine = 0.0;                     // since then
+  double chosen_sine = 1.0;  // of the rows in use, when they were chosen
+  Angle angle;               // at the last step
+  bool handed_over = false;  // to the explicit stepper, close to a singular position
+  double least_sine = 0.0;   // since then
 
   Record record;
 };

@@ -37,6 +37,14 @@ ErkStepper::ErkStepper(ErkStepper&&) noexcept = default;
 ErkStepper& ErkStepper::operator=(ErkStepper&&) noexcept = default;
 ErkStepper::~ErkStepper() = default;
 
+/// What round-off alone moves a state by when it is put onto the constraints, over the tolerance: velocities
+/// by eps/sin^2, see Passage.
+double ErkStepper::State::round_off_of_projection() const {
+  constexpr double roundings = 10.0;
+  const double eps = std::numeric_limits<double>::epsilon();
+  return roundings * eps / (std::max(next.sine * next.sine, eps) * tolerance);
+}
+
 /// Tries a step into `next`. Returns its error over the tolerance; infinite, with the reason in
 /// `fault`, if the equations cannot be evaluated on its way.
 double ErkStepper::State::attempt(double step) {
@@ -48,7 +56,8 @@ double ErkStepper::State::attempt(double step) {
     if (steps % stability_check_interval == 0) watch_stability(step);
     const double correction = land();
     next.sine = manifold.sine();
-    return std::max({e, correction / most_correction, disagreement(step) / most_disagreement});
+    return std::max({e, correction / (most_correction + round_off_of_projection()),
+                     disagreement(step) / most_disagreement});
   } catch (const EquationFault& error) {
     fault = error.what();
     return std::numeric_limits<double>::infinity();
@@ -81,10 +90,9 @@ void ErkStepper::State::accept(bool by_extrapolation) {
   ++steps;
   has_middle = false;
   crossed = by_extrapolation;
-  std::swap(earlier[1], earlier[0]);
-  std::swap(earlier[0], from);
   std::swap(from, to);
   std::swap(to, next);
+  passage.remember(to.t, halves(to.va).second);
 }
 
 void ErkStepper::step(double wanted) {

@@ -1,8 +1,8 @@
 #include <dalembert/solvers/private/erk_state.h>
-#include <dalembert/solvers/private/hermite.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dalembert {
 
@@ -26,46 +26,68 @@ bool least_of_parabola(const std::array<Angle, 3>& at, double& t) {
 
 /// Where constraints become dependent for an instant, sin ~ |t - t*|, the motion is smooth but the
 /// accelerations computed from a state that is off the constraints by e are wrong by e/sin^2, and no step
-/// with stages close to t* is accurate. So the position is passed on the polynomial through q, q', q'' of the
-/// last nodes (degree 11 with four), to the mirror image of the last one beyond t*, and back onto the
-/// constraints there. Steps towards t* go at most half of the way, and with each the error of the polynomial
-/// falls by 2^12; it is known from the polynomial through one node less.
+/// with stages close to t* is accurate. So the position is passed on the polynomial through the last
+/// accelerations, see Passage, to the mirror image of the last node beyond t*, and back onto the constraints
+/// there. Steps towards t* go at most half of the way. The polynomial through one node less tells the error:
+/// at first that falls with each step, as the distance to a high power; if round-off makes it grow before it
+/// is within the tolerance, the best passage seen is taken.
 ErkStepper::State::Crossing ErkStepper::State::cross() {
   if (steps == 0) return Crossing::none;
   const double left = time_to_singular(from.angle(), to.angle());
-  if (h <= 0.5 * left) return Crossing::none;
+  if (h <= 0.5 * left && left > next_passage) return Crossing::none;
   try {
     double singular = to.t + left;
     if (!find_singular(singular)) return Crossing::none;
-    if (steps >= 2 && pass(singular)) return Crossing::passed;
+    if (pass(singular)) return Crossing::passed;
+    next_passage = (singular - to.t) / Passage::spread;
     h = std::min(h, 0.5 * (singular - to.t));
   } catch (const EquationFault& error) {
     fault = error.what();
     h = std::min(h, 0.5 * left);
   }
+  usual = std::min(usual, h);
   return Crossing::ahead;
+}
+
+void ErkStepper::State::extrapolate(std::size_t nodes, double t, Node& out) {
+  const auto [v, a] = halves(out.va);
+  passage.go(nodes, t, to.q, std::span(to.va).first(n), out.q, v, a);
+  out.t = t;
 }
 
 /// Improves the time at which the constraints become dependent on the extrapolated motion. False if they do
 /// not: if they come close only.
 bool ErkStepper::State::find_singular(double& t) {
   constexpr int attempts = 4;
-  const auto nodes = static_cast<std::size_t>(std::min(steps + 1, 4L));
   std::array<Angle, 3> at{from.angle(), to.angle(), {t, 0.0}};
   const double until = to.t + 4.0 * (t - to.t);
+  const std::size_t nodes = passage.choose(t);
   for (int i = 0; i < attempts; ++i) {
     extrapolate(nodes, t, middle);
     at[2] = {t, manifold.sine({t, middle.q, halves(middle.va).first})};
     if (at[2].sine <= vanished * to.sine) return true;
     if (!least_of_parabola(at, t) || !(t > to.t && t < until) || t == at[2].t) return false;
-    if (i > 0) at[0] = at[1];
-    at[1] = at[2];
+    at[0] = std::exchange(at[1], at[2]);
   }
   return false;
 }
 
+/// Whether `next`, which errs by `error` over the tolerance, or the best passage so far in its place, is to
+/// be taken.
+bool ErkStepper::State::worth_taking(double error) {
+  if (error < best_passage) {
+    best_passage = error;
+    landing = next;
+    return error <= 1.0;
+  }
+  if (best_passage * tolerance > std::sqrt(tolerance)) return false;
+  next = landing;
+  return true;
+}
+
 bool ErkStepper::State::pass(double singular) {
-  const auto nodes = static_cast<std::size_t>(std::min(steps + 1, 4L));
+  const std::size_t nodes = passage.choose(singular);
+  if (nodes < 2) return false;
   const double beyond = std::min(2.0 * singular - to.t, t_end);
   extrapolate(nodes, beyond, next);
   extrapolate(nodes - 1, beyond, middle);
@@ -74,48 +96,21 @@ bool ErkStepper::State::pass(double singular) {
     difference[i] = next.q[i] - middle.q[i];
     difference[n + i] = next.va[i] - middle.va[i];
   }
-  // What the constraints there make of an error is larger by 1/sin.
-  if (!(size() <= std::min(1.0, to.sine))) return false;
-  if (2.0 * singular - to.t <= t_end) {
-    if (land() > most_correction) return false;
+  if (!worth_taking(size())) return false;
+  if (next.t < t_end) {
+    (void)land();
     next.sine = manifold.sine();
-    if (next.sine < 0.5 * to.sine) return false;
   }
-  if (beyond > singular) ++singular_positions;
+  largest_passage_error = std::max(largest_passage_error, std::exchange(best_passage, none_yet));
+  passage_nodes = nodes;
+  next_passage = 0.0;
+  if (next.t > singular) ++singular_positions;
   return true;
-}
-
-void ErkStepper::State::extrapolate(std::size_t nodes, double t, Node& out) const {
-  const std::array<const Node*, 4> last{&to, &from, &earlier[0], &earlier[1]};
-  const auto with = [&]<std::size_t N>(std::integral_constant<std::size_t, N>) {
-    typename Hermite<N>::Values times;
-    for (std::size_t j = 0; j < N; ++j) times[j] = last[j]->t;
-    const Hermite<N> polynomial(times, t);
-    for (std::size_t i = 0; i < n; ++i) {
-      typename Hermite<N>::Values q, v, a;
-      for (std::size_t j = 0; j < N; ++j) {
-        q[j] = last[j]->q[i];
-        v[j] = last[j]->va[i];
-        a[j] = last[j]->va[n + i];
-      }
-      const auto x = polynomial(q, v, a);
-      out.q[i] = x.value;
-      out.va[i] = x.derivative;
-      out.va[n + i] = x.second;
-    }
-    out.t = t;
-  };
-  if (nodes == 2) with(std::integral_constant<std::size_t, 2>{});
-  if (nodes == 3) with(std::integral_constant<std::size_t, 3>{});
-  if (nodes == 4) with(std::integral_constant<std::size_t, 4>{});
 }
 
 /// Between the nodes on both sides of a singular position.
 void ErkStepper::State::read_crossing(double t, std::span<double> q, std::span<double> v) const {
-  Node out{t, std::vector<double>(n), std::vector<double>(2 * n)};
-  extrapolate(static_cast<std::size_t>(std::min(steps + 1, 4L)), t, out);
-  std::ranges::copy(out.q, q.begin());
-  std::copy_n(out.va.begin(), n, v.begin());
+  passage.go(passage_nodes, t, from.q, std::span(from.va).first(n), q, v, {});
 }
 
 }  // namespace dalembert

@@ -36,8 +36,9 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
       weight(difference.size()),
       // A third of the step that an error constant of 1 allows.
       h(std::min(0.3 * std::pow(options.tolerance, 1.0 / pair.order) * start.scales.time,
-                 options.t_end - options.t_start)) {
-  for (Node* node : {&from, &to, &middle, &next, &earlier[0], &earlier[1]}) {
+                 options.t_end - options.t_start)),
+      passage(n) {
+  for (Node* node : {&from, &to, &middle, &next}) {
     node->t = options.t_start;
     node->q = start.q;
     node->va = start.v;
@@ -47,6 +48,7 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
     stage[i].resize(2 * n);
     k[i] = stage[i].data();
   }
+  passage.remember(to.t, start.a);
   to.sine = manifold.sine({to.t, to.q, halves(to.va).first});
   if (!system->compliant()) return;
   auto e = system->evaluation();
@@ -63,12 +65,22 @@ void ErkStepper::State::require(bool regular) {
   if (!regular) throw EquationFault("the constraints became dependent on each other");
 }
 
+/// Whether the angle between constraints changes by much in a step. An error e of a stage off the
+/// constraints is one of e/sin^2 in its accelerations; put onto them it is not felt.
+bool ErkStepper::State::close_to_singular(double step) const {
+  constexpr double much = 0.1;
+  const double rate = steps > 0 ? std::abs(to.sine - from.sine) / (to.t - from.t) : 0.0;
+  return to.sine < close_to_dependent && step * rate > much * to.sine;
+}
+
 void ErkStepper::State::run_stages(const Node& start, double step, std::size_t last) {
+  const bool project = close_to_singular(step);
   k[0] = start.va.data();
   for (std::size_t i = 1; i <= last; ++i) {
     a[i].move(step, k, start.q.data(), stage_q.data(), start.va.data(), stage[i].data(), n);
     const auto [v, v_dot] = halves(stage[i]);
-    require(manifold.accelerate({start.t + pair.c[i] * step, stage_q, v}, v_dot));
+    const double t = start.t + pair.c[i] * step;
+    require(project ? manifold.land(t, stage_q, v, v_dot) : manifold.accelerate({t, stage_q, v}, v_dot));
   }
 }
 

@@ -4,10 +4,12 @@
 #include <dalembert/solvers/private/combination.h>
 #include <dalembert/solvers/private/erk.h>
 #include <dalembert/solvers/private/manifold.h>
+#include <dalembert/solvers/private/passage.h>
 #include <dalembert/solvers/private/singularity.h>
 #include <dalembert/solvers/private/verner.h>
 
 #include <array>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,6 +44,7 @@ struct ErkStepper::State {
   static void require(bool regular);
   /// Stages 2 to `last` of a step from `start`: a stage's velocity is written where its derivative is kept.
   void run_stages(const Node& start, double step, std::size_t last);
+  [[nodiscard]] bool close_to_singular(double step) const;
   void finish(const Node& start, double step, Node& end) const;
   void find_middle();
 
@@ -53,6 +56,7 @@ struct ErkStepper::State {
   [[nodiscard]] double disagreement(double step);
   void watch_stability(double step);
 
+  [[nodiscard]] double round_off_of_projection() const;
   [[nodiscard]] double attempt(double step);
   void accept(bool by_extrapolation);
 
@@ -61,8 +65,9 @@ struct ErkStepper::State {
   [[nodiscard]] Crossing cross();
   [[nodiscard]] bool find_singular(double& t);
   [[nodiscard]] bool pass(double singular);
-  /// The polynomial through the last `nodes` nodes, at t.
-  void extrapolate(std::size_t nodes, double t, Node& out) const;
+  [[nodiscard]] bool worth_taking(double error);
+  /// From the last node to t, see Passage.
+  void extrapolate(std::size_t nodes, double t, Node& out);
   void read_crossing(double t, std::span<double> q, std::span<double> v) const;
   [[nodiscard]] double shorter(double step, double factor) const;
   [[nodiscard]] double step_towards(double wanted) const;
@@ -74,12 +79,11 @@ struct ErkStepper::State {
   Manifold manifold;
   std::vector<Combination<stages>> a;
   Combination<stages> b{pair.b}, d{pair.d}, last_difference;
-  Node from, to;                // the last step; before the first, both are the start
-  std::array<Node, 2> earlier;  // those before `from`, the later one first
+  Node from, to;  // the last step; before the first, both are the start
   Node middle;    // of that step, if `has_middle`
   bool has_middle = false;
   bool crossed = false;  // the last step passed a singular position
-  Node next;  // where a step goes until it is accepted
+  Node next;             // where a step goes until it is accepted
   std::array<std::vector<double>, stages> stage;
   std::array<const double*, stages> k{};
   std::vector<double> stage_q;             // work
@@ -88,6 +92,14 @@ struct ErkStepper::State {
   double h;
   double usual = h;  // step
   long steps = 0, failures = 0, stability_limited = 0;
+
+  Passage passage;
+  std::size_t passage_nodes = 0;  // of the step that crossed
+  static constexpr double none_yet = std::numeric_limits<double>::infinity();
+  double next_passage = 0.0;           // the distance from which it is worth another attempt
+  double best_passage = none_yet;      // error over the tolerance, of
+  Node landing;                        // a passage that was not taken yet
+  double largest_passage_error = 0.0;  // of those taken
   int singular_positions = 0;
   std::string fault;  // of the last attempt that failed
 };

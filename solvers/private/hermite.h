@@ -16,7 +16,7 @@ class Hermite {
  public:
   using Values = std::array<double, Nodes>;
   struct Result {
-    double value, derivative, second;
+    double value, derivative;
   };
 
   /// The polynomial is asked for at `t`; the times must differ.
@@ -43,15 +43,13 @@ class Hermite {
       }
       coefficient[k] = difference[0];
     }
-    Result r{coefficient[0], 0.0, 0.0};
-    double product = 1.0, slope = 0.0, curvature = 0.0;  // of the Newton polynomial of degree k
+    Result r{coefficient[0], 0.0};
+    double product = 1.0, slope = 0.0;  // of the Newton polynomial of degree k
     for (std::size_t k = 1; k < data; ++k) {
-      curvature = curvature * to_[k - 1] + 2.0 * slope;
       slope = slope * to_[k - 1] + product;
       product *= to_[k - 1];
       r.value += coefficient[k] * product;
       r.derivative += coefficient[k] * slope;
-      r.second += coefficient[k] * curvature;
     }
     return r;
   }

@@ -86,7 +86,8 @@ double Manifold::sine(const Instant& at) {
 double Manifold::weakest_direction(std::span<const double> lever, std::span<double> n) {
   (void)weakest_.find(kkt_, rows_, e_.w);
   double largest = 0.0, response = 0.0;
-  for (std::size_t i = 0; i < n.size(); ++i) largest = std::max(largest, std::abs(weakest_.n()[i]) * lever[i]);
+  for (std::size_t i = 0; i < n.size(); ++i)
+    largest = std::max(largest, std::abs(weakest_.n()[i]) * lever[i]);
   for (std::size_t i = 0; i < n.size(); ++i) n[i] = weakest_.n()[i] / largest;
   for (const int row : rows_.rows) {
     const auto r = static_cast<std::size_t>(row);

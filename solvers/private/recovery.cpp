@@ -69,8 +69,8 @@ bool Recovery::moved_too_far(const Moment& m) const {
 /// False if the constraints do not tell the motion here.
 bool Recovery::project(Manifold& manifold, Moment& m) {
   const double L = scales_.length;
-  m.position = manifold.project_positions(m.t, m.q, m.v,
-                                          std::max(output_distance * L, 0.1 * scales_.rounding(m.q)));
+  m.position =
+      manifold.project_positions(m.t, m.q, m.v, std::max(output_distance * L, 0.1 * scales_.rounding(m.q)));
   if (!manifold.solve_motion(m.t, m.q, m.v, m.a, m.lambda)) return false;
   return manifold.sine() > well_conditioned || !moved_too_far(m);
 }

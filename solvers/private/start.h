@@ -43,8 +43,8 @@ struct Start {
 [[nodiscard]] Start consistent_start(const System& system, std::span<const double> q,
                                      std::span<const double> v, const Options& options);
 
-/// A start from a state on the way of a run that began with `before`, in its scales: put onto the constraints,
-/// with as many rows as before, chosen anew. Throws StepFailure where they are dependent.
+/// A start from a state on the way of a run that began with `before`, in its scales: put onto the
+/// constraints, with as many rows as before, chosen anew. Throws StepFailure where they are dependent.
 [[nodiscard]] Start begin_anew(const System& system, const Start& before, double t, std::span<const double> q,
                                std::span<const double> v);
 

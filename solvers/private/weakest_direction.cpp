@@ -8,13 +8,15 @@
 namespace dalembert {
 
 double WeakestDirection::find(SaddleMatrix& matrix, const ActiveRows& rows, std::span<const double> w) {
-  // Where the smallest value matters it is far below the others, and two iterations give it to a few per cent.
+  // Where the smallest value matters it is far below the others, and two iterations give it to a few per
+  // cent.
   constexpr int iterations = 3;
   const auto n = static_cast<std::size_t>(system_->coordinates());
   const auto m = static_cast<std::size_t>(rows.size());
   x_.assign(n + m, 0.0);
   u_.resize(m);
-  for (std::size_t k = 0; k < m; ++k) u_[k] = 1.0 + 0.5 * std::sin(static_cast<double>(k));  // no mode's shape
+  for (std::size_t k = 0; k < m; ++k)
+    u_[k] = 1.0 + 0.5 * std::sin(static_cast<double>(k));  // no mode's shape
   double square = 1.0;
   for (int i = 0; i < iterations; ++i) {
     const double length = std::sqrt(std::inner_product(u_.begin(), u_.end(), u_.begin(), 0.0));
