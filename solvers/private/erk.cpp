@@ -103,6 +103,11 @@ void ErkStepper::step(double wanted) {
   for (;;) {
     const double step = s.step_towards(wanted);
     const double error = s.attempt(step);
+    if (s.may_have_crossed()) {  // look again from closer
+      s.h = s.shorter(step, 0.5 * (s.least.t - s.to.t) / step);
+      growth = 1.0;
+      continue;
+    }
     const double factor =
         std::isfinite(error) ? safety * std::pow(error, -1.0 / State::pair.order) : after_fault;
     if (error <= 1.0) {

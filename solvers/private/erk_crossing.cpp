@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace dalembert {
@@ -11,6 +12,12 @@ namespace {
 /// A singular position is where the angle falls to this part of what it was at the last node, or less: far
 /// below what a passage at a distance shows, far above what the extrapolated state is good for.
 constexpr double vanished = 1e-3;
+/// If it does not fall to this part it does not vanish. In between the extrapolation is too coarse to tell.
+constexpr double clearly_there = 0.2;
+/// Steps that are short against the time left look for it from here on.
+constexpr double in_sight = 0.1;
+
+constexpr double not_ahead = std::numeric_limits<double>::infinity();
 
 /// Where the parabola through three points has its least value; false if it has none.
 bool least_of_parabola(const std::array<Angle, 3>& at, double& t) {
@@ -32,15 +39,22 @@ bool least_of_parabola(const std::array<Angle, 3>& at, double& t) {
 /// at first that falls with each step, as the distance to a high power; if round-off makes it grow before it
 /// is within the tolerance, the best passage seen is taken.
 ErkStepper::State::Crossing ErkStepper::State::cross() {
-  if (steps == 0) return Crossing::none;
-  const double left = time_to_singular(from.angle(), to.angle());
-  if (h <= 0.5 * left && left > next_passage) return Crossing::none;
+  const double left = steps > 0 ? time_to_singular(from.angle(), to.angle()) : not_ahead;
+  if (left == not_ahead) {
+    next_passage = not_ahead;
+    best_passage = none_yet;
+    only_close = false;
+    return Crossing::none;
+  }
+  if (h <= 0.5 * left && (to.sine > in_sight || left > next_passage)) return Crossing::none;
+  next_passage = left / Passage::spread;
   try {
     double singular = to.t + left;
-    if (!find_singular(singular)) return Crossing::none;
-    if (pass(singular)) return Crossing::passed;
-    next_passage = (singular - to.t) / Passage::spread;
-    h = std::min(h, 0.5 * (singular - to.t));
+    const double lowest = find_singular(singular);
+    only_close = lowest > clearly_there * to.sine;
+    if (only_close) return Crossing::none;
+    if (lowest <= vanished * to.sine && pass(singular)) return Crossing::passed;
+    h = std::min(h, 0.5 * std::min(left, singular - to.t));
   } catch (const EquationFault& error) {
     fault = error.what();
     h = std::min(h, 0.5 * left);
@@ -49,27 +63,33 @@ ErkStepper::State::Crossing ErkStepper::State::cross() {
   return Crossing::ahead;
 }
 
+/// Whether a long step may have gone over a singular position that was not in sight where it began.
+bool ErkStepper::State::may_have_crossed() const {
+  return !only_close && least.sine < close_to_dependent && least.sine < 0.5 * to.sine;
+}
+
 void ErkStepper::State::extrapolate(std::size_t nodes, double t, Node& out) {
   const auto [v, a] = halves(out.va);
   passage.go(nodes, t, to.q, std::span(to.va).first(n), out.q, v, a);
   out.t = t;
 }
 
-/// Improves the time at which the constraints become dependent on the extrapolated motion. False if they do
-/// not: if they come close only.
-bool ErkStepper::State::find_singular(double& t) {
+/// Improves the time at which the angle is least on the extrapolated motion. Returns its sine there.
+double ErkStepper::State::find_singular(double& t) {
   constexpr int attempts = 4;
   std::array<Angle, 3> at{from.angle(), to.angle(), {t, 0.0}};
   const double until = to.t + 4.0 * (t - to.t);
   const std::size_t nodes = passage.choose(t);
-  for (int i = 0; i < attempts; ++i) {
+  Angle lowest = to.angle();
+  for (int i = 0; i < attempts && lowest.sine > vanished * to.sine; ++i) {
     extrapolate(nodes, t, middle);
     at[2] = {t, manifold.sine({t, middle.q, halves(middle.va).first})};
-    if (at[2].sine <= vanished * to.sine) return true;
-    if (!least_of_parabola(at, t) || !(t > to.t && t < until) || t == at[2].t) return false;
+    if (at[2].sine < lowest.sine) lowest = at[2];
+    if (!least_of_parabola(at, t) || !(t > to.t && t < until) || t == at[2].t) break;
     at[0] = std::exchange(at[1], at[2]);
   }
-  return false;
+  t = lowest.t;
+  return lowest.sine;
 }
 
 /// Whether `next`, which errs by `error` over the tolerance, or the best passage so far in its place, is to
@@ -88,6 +108,7 @@ bool ErkStepper::State::worth_taking(double error) {
 bool ErkStepper::State::pass(double singular) {
   const std::size_t nodes = passage.choose(singular);
   if (nodes < 2) return false;
+  passage.keep_chosen();
   const double beyond = std::min(2.0 * singular - to.t, t_end);
   extrapolate(nodes, beyond, next);
   extrapolate(nodes - 1, beyond, middle);
@@ -103,7 +124,7 @@ bool ErkStepper::State::pass(double singular) {
   }
   largest_passage_error = std::max(largest_passage_error, std::exchange(best_passage, none_yet));
   passage_nodes = nodes;
-  next_passage = 0.0;
+  next_passage = not_ahead;
   if (next.t > singular) ++singular_positions;
   return true;
 }

@@ -63,7 +63,8 @@ struct ErkStepper::State {
   /// What became of the attempt to pass a singular position.
   enum class Crossing { none, ahead, passed };
   [[nodiscard]] Crossing cross();
-  [[nodiscard]] bool find_singular(double& t);
+  [[nodiscard]] bool may_have_crossed() const;
+  [[nodiscard]] double find_singular(double& t);
   [[nodiscard]] bool pass(double singular);
   [[nodiscard]] bool worth_taking(double error);
   /// From the last node to t, see Passage.
@@ -96,7 +97,9 @@ struct ErkStepper::State {
   Passage passage;
   std::size_t passage_nodes = 0;  // of the step that crossed
   static constexpr double none_yet = std::numeric_limits<double>::infinity();
-  double next_passage = 0.0;           // the distance from which it is worth another attempt
+  Angle least{};                       // of the stages of an attempt
+  bool only_close = false;             // the constraints, not dependent, where the angle falls now
+  double next_passage = none_yet;      // the distance from which it is worth another attempt
   double best_passage = none_yet;      // error over the tolerance, of
   Node landing;                        // a passage that was not taken yet
   double largest_passage_error = 0.0;  // of those taken

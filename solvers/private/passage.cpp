@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dalembert {
 
@@ -49,15 +50,23 @@ void Passage::remember(double t, std::span<const double> a) {
 }
 
 std::size_t Passage::choose(double singular) {
-  std::size_t count = 0;
+  count_ = 0;
   double farthest = 0.0;
-  for (std::size_t i = 0; i < known_ && count < most_nodes; ++i) {
+  for (std::size_t i = 0; i < known_ && count_ < most_nodes; ++i) {
     const double distance = std::abs(singular - past_[i].t);
     if (distance < spread * farthest) continue;
-    chosen_[count++] = i;
+    chosen_[count_++] = i;
     farthest = distance;
   }
-  return count;
+  return count_;
+}
+
+void Passage::keep_chosen() {
+  for (std::size_t j = 0; j < count_; ++j) {
+    std::swap(past_[j], past_[chosen_[j]]);
+    chosen_[j] = j;
+  }
+  known_ = count_;
 }
 
 void Passage::go(std::size_t nodes, double t, std::span<const double> q0, std::span<const double> v0,

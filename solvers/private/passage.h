@@ -30,6 +30,8 @@ class Passage {
   /// Chooses, from the last node back, those whose distances from `singular` grow by at least `spread`.
   /// Returns how many: at most `most_nodes`.
   std::size_t choose(double singular);
+  /// Forgets all others: closer to `singular` they will not be needed.
+  void keep_chosen();
   /// Through the first `nodes` of those chosen (also after one more `remember`): moves q0, v0 at the last
   /// node to the time t. The three spans of results may be q0, v0 themselves; `a` may be empty.
   void go(std::size_t nodes, double t, std::span<const double> q0, std::span<const double> v0,
@@ -43,6 +45,7 @@ class Passage {
   std::vector<Past> past_;  // the last one first
   std::size_t known_ = 0;
   std::array<std::size_t, most_nodes> chosen_{};
+  std::size_t count_ = 0;  // of those
 };
 
 }  // namespace dalembert

@@ -21,8 +21,8 @@ constexpr double output_distance = 1e-15;
 constexpr double tolerated_contradiction = 1e-8;
 /// Above this sine round-off cannot show: it is multiplied by at most the fourth power of its inverse.
 constexpr double well_conditioned = 0.1;
-/// A state moved by more than this many times the tolerance is not better for it.
-constexpr double most_correction = 10.0;
+/// A state moved by more than the tolerance is not better for it.
+constexpr double most_correction = 1.0;
 
 constexpr double undetermined = std::numeric_limits<double>::quiet_NaN();
 
