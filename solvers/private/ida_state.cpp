@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dalembert {
 
@@ -15,6 +16,10 @@ namespace {
 /// the result. Chosen by the benchmark: with it every model of the catalogue errs by less than 1000
 /// times the tolerance 1e-8.
 constexpr double share_of_a_step = 0.05;
+
+/// See State::weigh.
+constexpr double roundings = 20.0;
+
 }  // namespace
 
 IdaStepper::State::State(const System& s, const Start& start, const Options& options)
@@ -106,22 +111,37 @@ void IdaStepper::State::residual(double at, N_Vector x, N_Vector xp, N_Vector r)
   for (const std::size_t k : rows.slack) r3[k] = mu[k];
 }
 
+/// What is asked for, and never less than what double precision gives to Newton's corrections. With q good to
+/// eps |q|, the v of BDF's (v - q') is good to eps |q|/h, M v' and with it lambda to M eps |q|/h^2, mu to
+/// M eps |q|/h. Newton's iteration stops at a part of the weights, so they hold that many roundings.
 void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
   double h = 0.0;
-  if (steps > 0) IDAGetCurrentStep(ida.get(), &h);
+  if (steps > 0) check(IDAGetCurrentStep(ida.get(), &h), "IDAGetCurrentStep");
   if (h == 0.0) h = first_step;
   const auto value = entries(x);
   const auto w = entries(weight);
+  const double eps = roundings * std::numeric_limits<double>::epsilon();
   for (std::size_t i = 0; i < n(); ++i) {
-    const double scale = scales.coordinate[i];
-    w[i] = 1.0 / scales.position_error(i, value[i], tolerance);
-    w[n() + i] = 1.0 / (tolerance * (scale / scales.time + std::abs(value[n() + i])));
+    const double scale = scales.coordinate[i], noise = eps * std::abs(value[i]);
+    const double speed = tolerance * (scale / scales.time + std::abs(value[n() + i]));
+    w[i] = 1.0 / (scales.position_error(i, value[i], tolerance) + noise);
+    w[n() + i] = 1.0 / (speed + noise / h);
+    noise_in_steps = std::max(noise_in_steps, noise / (h * speed));
   }
   for (std::size_t r = 0; r < m(); ++r) {
+    const auto row = static_cast<std::size_t>(rows.rows[r]);
+    double far = 0.0;
+    for (auto k = static_cast<std::size_t>(system->row_start()[row]);
+         k < static_cast<std::size_t>(system->row_start()[row + 1]); ++k) {
+      const auto i = static_cast<std::size_t>(system->w_columns()[k]);
+      far = std::max(far, std::abs(value[i]) / scales.coordinate[i]);
+    }
+    const double noise = eps * far * scales.time;  // in times
     // Of a multiplier far larger than its own masses explain (a heavy load on a light link) no more
     // digits than the tolerance asks for.
-    w[2 * n() + r] = h / (tolerance * (impulse_row[r] + h * std::abs(value[2 * n() + r])));
-    if (r < m_holonomic()) w[2 * n() + m() + r] = h / (tolerance * impulse_row[r] * scales.time);
+    const double lambda = std::abs(value[2 * n() + r]);
+    w[2 * n() + r] = h / (tolerance * (impulse_row[r] + h * lambda) + impulse_row[r] * noise / h);
+    if (r < m_holonomic()) w[2 * n() + m() + r] = h / (impulse_row[r] * (tolerance * scales.time + noise));
   }
 }
 

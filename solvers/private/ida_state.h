@@ -40,6 +40,7 @@ struct IdaStepper::State {
   bool order_changed = false, begin_anew = false;  // by the guard, not yet done
   double t = 0.0;
   long steps = 0, evaluations = 0, error_tests = 0, convergence = 0;
+  double noise_in_steps = 0.0;  // largest part of round-off in the error allowed to a velocity
   long unresolved_steps = 0;  // longer than the vibration of a stiff force
   std::string fault;          // of the last evaluation that failed,
   double fault_time = 0.0;    // and where; no reason to stop once it has been stepped past
