@@ -61,6 +61,11 @@ IdaStepper::State::State(const System& s, const Start& start, const Options& opt
     impulse_row[r] =
         impulse_of_row(*system, e.w, lever, static_cast<std::size_t>(rows.rows[r]), scales.speed());
 
+  for (std::size_t r = 0; r < m(); ++r) {
+    const auto row = static_cast<std::size_t>(rows.rows[r]);
+    compliance_row.push_back(system->compliance()[row] / gradient_length(*system, e.w, lever, row));
+  }
+
   ida.reset(check(IDACreate(context.get())));
   make_linear_solver();
 }
@@ -111,9 +116,24 @@ void IdaStepper::State::residual(double at, N_Vector x, N_Vector xp, N_Vector r)
   for (const std::size_t k : rows.slack) r3[k] = mu[k];
 }
 
-/// What is asked for, and never less than what double precision gives to Newton's corrections. With q good to
-/// eps |q|, the v of BDF's (v - q') is good to eps |q|/h, M v' and with it lambda to M eps |q|/h^2, mu to
-/// M eps |q|/h. Newton's iteration stops at a part of the weights, so they hold that many roundings.
+/// Of a row, the largest |q| that it reads, in units of each coordinate.
+double IdaStepper::State::farthest(std::size_t row, std::span<const double> q) const {
+  double far = 0.0;
+  for (auto k = static_cast<std::size_t>(system->row_start()[row]);
+       k < static_cast<std::size_t>(system->row_start()[row + 1]); ++k) {
+    const auto i = static_cast<std::size_t>(system->w_columns()[k]);
+    far = std::max(far, std::abs(q[i]) / scales.coordinate[i]);
+  }
+  return far;
+}
+
+/// Weighs by what is asked for, but never asks for more than double precision gives to Newton's corrections:
+/// with q good to eps |q|, the v of BDF's (v - q') is good to eps |q|/h, M v' and with it lambda to
+/// M eps |q|/h^2, mu to M eps |q|/h; of rows that make an angle with others, to 1/sin^2 times that. Newton's
+/// iteration stops at a part of the weights, so they hold that many roundings.
+///
+/// The multiplier of a compliant row is felt besides in psi + C lambda', as C lambda/h: in steps that
+/// follow the vibration of its spring it is that which limits its error.
 void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
   double h = 0.0;
   if (steps > 0) check(IDAGetCurrentStep(ida.get(), &h), "IDAGetCurrentStep");
@@ -128,20 +148,18 @@ void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
     w[n() + i] = 1.0 / (speed + noise / h);
     noise_in_steps = std::max(noise_in_steps, noise / (h * speed));
   }
+  const double amplified = eps / std::max(sine() * sine(), eps);
   for (std::size_t r = 0; r < m(); ++r) {
-    const auto row = static_cast<std::size_t>(rows.rows[r]);
-    double far = 0.0;
-    for (auto k = static_cast<std::size_t>(system->row_start()[row]);
-         k < static_cast<std::size_t>(system->row_start()[row + 1]); ++k) {
-      const auto i = static_cast<std::size_t>(system->w_columns()[k]);
-      far = std::max(far, std::abs(value[i]) / scales.coordinate[i]);
-    }
-    const double noise = eps * far * scales.time;  // in times
+    // In units of the tolerance's own: of the scene's length, and over the step of its speed.
+    const double far = farthest(static_cast<std::size_t>(rows.rows[r]), value.first(n()));
+    const double noise = amplified * far, noise_of_speed = noise * scales.time / h;
     // Of a multiplier far larger than its own masses explain (a heavy load on a light link) no more
     // digits than the tolerance asks for.
-    const double lambda = std::abs(value[2 * n() + r]);
-    w[2 * n() + r] = h / (tolerance * (impulse_row[r] + h * lambda) + impulse_row[r] * noise / h);
-    if (r < m_holonomic()) w[2 * n() + m() + r] = h / (impulse_row[r] * (tolerance * scales.time + noise));
+    const double impulse =
+        impulse_row[r] * (tolerance + noise_of_speed) + tolerance * h * std::abs(value[2 * n() + r]);
+    const double stretching = scales.speed() * (tolerance + eps * far * scales.time / h);
+    w[2 * n() + r] = h / impulse + compliance_row[r] / (h * stretching);
+    if (r < m_holonomic()) w[2 * n() + m() + r] = h / (impulse_row[r] * scales.time * (tolerance + noise));
   }
 }
 
