@@ -33,7 +33,9 @@ IdaStepper::IdaStepper(const System& system, const Start& start, const Options& 
     });
   };
   const auto weigh = [](N_Vector x, N_Vector weight, void* data) noexcept {
-    static_cast<State*>(data)->weigh(x, weight);
+    State& own = *static_cast<State*>(data);
+    own.weights = weight;
+    own.weigh(x, weight);
     return 0;
   };
   const auto record = [](double t, double c, N_Vector x, N_Vector, N_Vector, SUNMatrix, void* data, N_Vector,

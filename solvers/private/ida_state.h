@@ -49,6 +49,7 @@ struct IdaStepper::State {
   // What the Jacobian callback records for the factorisation.
   double matrix_t = 0.0, matrix_c = 0.0;
   N_Vector matrix_y = nullptr;
+  N_Vector weights = nullptr;  // IDA's own
   // Where `e` holds.
   double evaluated_at = 0.0, factored_at = 0.0;
   N_Vector evaluated = nullptr;

@@ -46,6 +46,7 @@ NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows, double 
       x2_(static_cast<std::size_t>(k2_.size())),
       p_(static_cast<std::size_t>(system.coordinates())),
       dmu_(static_cast<std::size_t>(rows.holonomic)),
+      yields_(dmu_.size(), 0),
       first_force_entry_(system.stiffness_of_constraints()) {
   for (const int row : rows.rows) {
     if (row >= system.holonomic_rows() || system.compliance()[static_cast<std::size_t>(row)] > 0.0)
@@ -187,6 +188,21 @@ double NewtonMatrix::along(std::size_t row, std::span<const double> values, std:
   return sum;
 }
 
+/// x1 += factor w of a row.
+void NewtonMatrix::add_along(std::size_t row, double factor) {
+  for (auto k = static_cast<std::size_t>(system_->row_start()[row]);
+       k < static_cast<std::size_t>(system_->row_start()[row + 1]); ++k) {
+    x1_[static_cast<std::size_t>(system_->w_columns()[k])] += factor * w_[k];
+  }
+}
+
+/// Of an active row, from what (5) and (6) gave for it.
+double NewtonMatrix::dlambda(std::size_t active, double c) const {
+  const double unknown = x1_[static_cast<std::size_t>(system_->coordinates()) + active];
+  const bool with_dmu = active < dmu_.size() && !yields_[active];
+  return with_dmu ? unknown - c * dmu_[active] : unknown;
+}
+
 /// The matrix of (5) and (6) where forces are soft: of x1_, what belongs to islands without slack rows.
 void NewtonMatrix::solve_by_k2() {
   const auto n = static_cast<std::size_t>(system_->coordinates());
@@ -216,10 +232,19 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
       x1_[static_cast<std::size_t>(row)] += linear_.damping[k] * p_[static_cast<std::size_t>(column)];
     }
   }
-  for (const Friction& f : friction_) x1_[f.coordinate] -= c * linear_.friction[f.entry] * dmu_[f.active];
+  for (const Friction& f : friction_) {
+    if (!yields_[f.active]) x1_[f.coordinate] -= c * linear_.friction[f.entry] * dmu_[f.active];
+  }
   for (std::size_t r = 0; r < m; ++r) {
     const auto row = static_cast<std::size_t>(rows_.rows[r]);
-    x1_[n + r] = r < m_holonomic ? c * c * (b4[r] + c * C[row] * dmu_[r]) : c * (b3[r] - along(row, w_, p_));
+    if (r >= m_holonomic) {
+      x1_[n + r] = c * (b3[r] - along(row, w_, p_));
+    } else if (yields_[r]) {
+      x1_[n + r] = c * c * b4[r];
+      add_along(row, c * dmu_[r]);
+    } else {
+      x1_[n + r] = c * c * (b4[r] + c * C[row] * dmu_[r]);
+    }
   }
   if (k1_in_use_) {
     std::size_t next = 0;
@@ -243,7 +268,7 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
   for (std::size_t j = 0; j < carrying_.size(); ++j) {
     const std::size_t r = carrying_[j];
     const auto row = static_cast<std::size_t>(rows_.rows[r]);
-    x2_[n + j] = b3[r] - along(row, linear_.psi_q, x1_) - c * C[row] * (x1_[n + r] - c * dmu_[r]);
+    x2_[n + j] = b3[r] - along(row, linear_.psi_q, x1_) - c * C[row] * dlambda(r, c);
   }
   k2_.solve(x2_);
   for (std::size_t j = 0; j < carrying_.size(); ++j) dmu_[carrying_[j]] = -x2_[n + j];  // the matrix has -G^T
@@ -264,6 +289,10 @@ void NewtonMatrix::solve(double c, std::span<double> b) {
   const auto m_holonomic = static_cast<std::size_t>(rows_.holonomic);
   for (std::size_t i = 0; i < n; ++i) p_[i] = b[i] / system_->masses()[i];
   std::ranges::fill(dmu_, 0.0);
+  for (std::size_t r = 0; r < m_holonomic && system_->compliant(); ++r) {
+    const auto row = static_cast<std::size_t>(rows_.rows[r]);
+    yields_[r] = c * c * system_->compliance()[row] > mobility(*system_, w_, row);
+  }
   eliminate(c, b);
   for (int more = repetitions(); more > 0; --more) {
     for (std::size_t i = 0; i < n; ++i) p_[i] = x2_[i] - c * x1_[i];
@@ -273,9 +302,8 @@ void NewtonMatrix::solve(double c, std::span<double> b) {
   std::copy_n(x1_.begin(), n, b.begin());
   std::copy_n(x2_.begin(), n, b.begin() + static_cast<std::ptrdiff_t>(n));
   for (std::size_t r = 0; r < m; ++r) {
-    const double dmu = r < m_holonomic ? dmu_[r] : 0.0;
-    b[2 * n + r] = x1_[n + r] - c * dmu;
-    if (r < m_holonomic) b[2 * n + m + r] = dmu;
+    b[2 * n + r] = dlambda(r, c);
+    if (r < m_holonomic) b[2 * n + m + r] = dmu_[r];
   }
 }
 

@@ -46,6 +46,10 @@ namespace dalembert {
 /// and p found, which leaves of the error a part of order psi_q/c; with C a third time. (With C dlambda = C
 /// (dnu - c dmu) and the same dmu in (6) and (7), the matrix of (7) is that of a rigid scene.)
 ///
+/// In steps that resolve the vibration of a compliant row, c^2 C > w M^-1 w, dlambda would be the small
+/// difference of dnu and c dmu: there the unknown in (5) and (6) is dlambda itself, and c G^T dmu, with the
+/// dmu found, stands on the right of (5).
+///
 /// Where forces read multipliers, W^T in (2) and (5) is W^T + F_lambda, and -c F_lambda dmu joins the right
 /// of (5).
 ///
@@ -99,6 +103,8 @@ class NewtonMatrix {
   [[nodiscard]] double along(std::size_t row, std::span<const double> values,
                              std::span<const double> x) const;
   [[nodiscard]] std::vector<char> varying_islands() const;
+  void add_along(std::size_t row, double factor);
+  [[nodiscard]] double dlambda(std::size_t active, double c) const;
   void judge(double c);
   void find_fastest_vibration();
   void leave_out_soft_forces();
@@ -126,6 +132,7 @@ class NewtonMatrix {
   std::vector<std::size_t> carrying_;  // mu: places in rows_
   SaddleMatrix k2_;
   std::vector<double> x1_, x2_, p_, dmu_;
+  std::vector<char> yields_;  // per holonomic active row, see above
   bool k1_in_use_ = false;
   long factorisations_of_earlier_ = 0;  // matrices K1, of fewer islands
   std::size_t first_force_entry_;       // of the stiffness: constraints come first
