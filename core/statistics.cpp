@@ -9,8 +9,8 @@ std::string Statistics::report() const {
   out << degrees_of_freedom << " degrees of freedom, ";
   if (redundant_equations > 0) out << redundant_equations << " redundant equations, ";
   if (singular_positions > 0) out << singular_positions << " singular positions crossed, ";
-  out << steps << " steps, " << evaluations << " evaluations, " << factorisations << " factorisations, "
-      << error_test_failures << " error test failures, " << convergence_failures
+  out << steps << " steps, accuracy " << accuracy << ", " << evaluations << " evaluations, " << factorisations
+      << " factorisations, " << error_test_failures << " error test failures, " << convergence_failures
       << " convergence failures, residuals " << residual_position << " (position) " << residual_velocity
       << " (velocity), correction " << correction << ", " << run_time << " s";
   if (!linear_algebra.empty()) out << ", " << linear_algebra;

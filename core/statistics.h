@@ -6,9 +6,12 @@ namespace dalembert {
 
 /// What a run cost, and how well it kept its constraints.
 struct Statistics {
-  int degrees_of_freedom = 0;     ///< of velocity: coordinates less independent rigid constraint equations
-  int redundant_equations = 0;    ///< constraint equations that follow from others, and were left out
-  int singular_positions = 0;     ///< isolated ones, at which the run was taken across and restarted
+  int degrees_of_freedom = 0;   ///< of velocity: coordinates less independent rigid constraint equations
+  int redundant_equations = 0;  ///< constraint equations that follow from others, and were left out
+  int singular_positions = 0;   ///< isolated ones, at which the run was taken across and restarted
+  /// What the steps were held to: the tolerance, or more where double precision does not give that: by the
+  /// mean over time of round-off in the velocities, and by the passages of singular positions.
+  double accuracy = 0.0;
   long steps = 0;                 ///< accepted steps
   long evaluations = 0;           ///< of the equations of motion
   long factorisations = 0;        ///< of a KKT matrix

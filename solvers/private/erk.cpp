@@ -152,6 +152,7 @@ void ErkStepper::count(Statistics& statistics) const {
   statistics.evaluations += s.manifold.evaluations();
   statistics.factorisations += s.manifold.factorisations();
   statistics.error_test_failures += s.failures;
+  statistics.accuracy = std::max(statistics.accuracy, s.tolerance * std::max(1.0, s.largest_passage_error));
   statistics.singular_positions += s.singular_positions;
   statistics.linear_algebra = s.manifold.method();
   statistics.stability_limited += s.stability_limited;

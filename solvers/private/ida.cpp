@@ -135,6 +135,7 @@ void IdaStepper::step(double /*wanted*/) {
   const int code = IDASolve(s.ida.get(), s.t_end, &s.t, s.y.get(), s.yp.get(), IDA_ONE_STEP);
   if (code < 0) throw StepFailure{s.explain(code), s.t};
   ++s.steps;
+  s.noise_of_steps += s.noise_of_step;
   // In front of a fault IDA would halve and double such steps for ever.
   if (code == IDA_SUCCESS && s.t - before <= 4.0 * std::numeric_limits<double>::epsilon() * std::abs(s.t)) {
     throw StepFailure{
@@ -185,6 +186,8 @@ void IdaStepper::count(Statistics& statistics) const {
   long error_tests = s.error_tests, convergence = s.convergence;
   if (s.steps > 0) s.count_failures(error_tests, convergence);
   statistics.steps += s.steps;
+  if (s.steps > 0)
+    statistics.accuracy = std::max(statistics.accuracy, s.asked_for + s.noise_of_steps / (s.t - s.t_start));
   statistics.evaluations += s.evaluations;
   statistics.factorisations += s.newton.factorisations();
   statistics.linear_algebra = s.newton.method();

@@ -26,7 +26,9 @@ IdaStepper::State::State(const System& s, const Start& start, const Options& opt
     : system(&s),
       rows(start.rows),
       scales(start.scales),
+      asked_for(options.tolerance),
       tolerance(share_of_a_step * options.tolerance),
+      t_start(options.t_start),
       t_end(options.t_end),
       // IDA's own first step is so short that round-off in the multipliers fails Newton's iteration.
       first_step(
@@ -136,17 +138,18 @@ double IdaStepper::State::farthest(std::size_t row, std::span<const double> q) c
 /// follow the vibration of its spring it is that which limits its error.
 void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
   double h = 0.0;
-  if (steps > 0) check(IDAGetCurrentStep(ida.get(), &h), "IDAGetCurrentStep");
+  check(IDAGetCurrentStep(ida.get(), &h), "IDAGetCurrentStep");  // 0 before the first
   if (h == 0.0) h = first_step;
   const auto value = entries(x);
   const auto w = entries(weight);
   const double eps = roundings * std::numeric_limits<double>::epsilon();
+  noise_of_step = 0.0;
   for (std::size_t i = 0; i < n(); ++i) {
     const double scale = scales.coordinate[i], noise = eps * std::abs(value[i]);
     const double speed = tolerance * (scale / scales.time + std::abs(value[n() + i]));
     w[i] = 1.0 / (scales.position_error(i, value[i], tolerance) + noise);
     w[n() + i] = 1.0 / (speed + noise / h);
-    noise_in_steps = std::max(noise_in_steps, noise / (h * speed));
+    noise_of_step = std::max(noise_of_step, noise * tolerance / speed);
   }
   const double amplified = eps / std::max(sine() * sine(), eps);
   for (std::size_t r = 0; r < m(); ++r) {

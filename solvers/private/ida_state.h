@@ -31,7 +31,7 @@ struct IdaStepper::State {
   const System* system;
   ActiveRows rows;
   Scales scales;
-  double tolerance, t_end, first_step;
+  double asked_for, tolerance, t_start, t_end, first_step;  // tolerance: of a step
   System::Evaluation e;
   std::vector<double> lambda;          // one per row of the system
   std::vector<double> impulse_row;     // per active row
@@ -41,10 +41,10 @@ struct IdaStepper::State {
   bool order_changed = false, begin_anew = false;  // by the guard, not yet done
   double t = 0.0;
   long steps = 0, evaluations = 0, error_tests = 0, convergence = 0;
-  double noise_in_steps = 0.0;  // largest part of round-off in the error allowed to a velocity
-  long unresolved_steps = 0;    // longer than the vibration of a stiff force
-  std::string fault;            // of the last evaluation that failed,
-  double fault_time = 0.0;      // and where; no reason to stop once it has been stepped past
+  double noise_of_step = 0.0, noise_of_steps = 0.0;  // over the speed, the largest and its sum [time]
+  long unresolved_steps = 0;                         // longer than the vibration of a stiff force
+  std::string fault;                                 // of the last evaluation that failed,
+  double fault_time = 0.0;  // and where; no reason to stop once it has been stepped past
 
   // What the Jacobian callback records for the factorisation.
   double matrix_t = 0.0, matrix_c = 0.0;
@@ -69,7 +69,7 @@ struct IdaStepper::State {
   void count_failures(long& error_tests, long& convergence) const;
   void spread_multipliers(N_Vector x);
   void residual(double at, N_Vector x, N_Vector xp, N_Vector r);
-  [[nodiscard]] double sine() const { return steps > 0 ? newton.sine() : 1.0; }
+  [[nodiscard]] double sine() const { return newton.factorisations() > 0 ? newton.sine() : 1.0; }
   [[nodiscard]] double farthest(std::size_t row, std::span<const double> q) const;
   void weigh(N_Vector x, N_Vector weight);
   void blame(double at, std::string what) {
