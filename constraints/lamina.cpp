@@ -61,8 +61,9 @@ Lamina add_lamina(Scene<3>& scene, const LaminaState& s, const std::string& name
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
-    lamina.rods[i] = scene.add(Distance{lamina.particles[i], lamina.particles[j], (arm[j] - arm[i]).norm()},
-                               name + ".rod" + std::to_string(i + 1) + std::to_string(j + 1));
+    lamina.rods[i] =
+        scene.add(BodyRod<3>{{lamina.particles[i], lamina.particles[j], (arm[j] - arm[i]).norm()}},
+                  name + ".rod" + std::to_string(i + 1) + std::to_string(j + 1));
   }
   return lamina;
 }

@@ -111,8 +111,8 @@ RigidBody<D> add_body(Scene<D>& scene, const BodyState<D>& state, const std::str
   for (int i = 0; i < RigidBody<D>::particle_count; ++i) {
     for (int j = i + 1; j < RigidBody<D>::particle_count; ++j) {
       const double length = (c.col(j) - c.col(i)).cwiseProduct(body.arms).norm();
-      body.rods[rod++] = scene.add(Distance{body.particles[static_cast<std::size_t>(i)],
-                                            body.particles[static_cast<std::size_t>(j)], length},
+      body.rods[rod++] = scene.add(BodyRod<D>{{body.particles[static_cast<std::size_t>(i)],
+                                               body.particles[static_cast<std::size_t>(j)], length}},
                                    name + ".rod" + std::to_string(i + 1) + std::to_string(j + 1));
     }
   }
