@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/constraints/distance.h>
+#include <dalembert/constraints/body_rod.h>
 #include <dalembert/core/body_point.h>
 #include <dalembert/core/scene.h>
 
@@ -20,17 +20,15 @@ struct LaminaState {
   Vec<3> angular_velocity = Vec<3>::Zero();  ///< components along the axes of space [rad / time]
 };
 
-/// A plane rigid body of no thickness in space: three particles of a third of its mass held by
-/// Distances, with exactly its mass, centre of mass and inertia. (A RigidBody needs extent in every
-/// direction for its four.) Along the axes in the plane they sit at
-///
-///   sqrt 2 (a cos u, b sin u),   u = 0, 2 pi/3, 4 pi/3,   m a^2 = I_2,   m b^2 = I_1.
+/// A plane rigid body of no thickness in space: three particles held by Distances, with exactly its mass,
+/// centre of mass and inertia. (A RigidBody needs extent in every direction for its four.) They are those of
+/// Equimomental in its plane, with m a^2 = I_2, m b^2 = I_1.
 ///
 /// A thin disk has I_1 = I_2 = m radius^2/4.
 struct Lamina {
   std::array<Particle<3>, 3> particles;
   std::array<Constraint<1>, 3> rods;  ///< between particles 1 and 2, 2 and 3, 3 and 1
-  Vec<2> arms;                        ///< (a, b)
+  Vec<2> arms;                        ///< (a, b): roots of the second moments over the mass
 
   /// The point of the plane at coordinates `local` from the centre of mass along the body's axes.
   [[nodiscard]] BodyPoint<3, 3> point(const Vec<2>& local) const;

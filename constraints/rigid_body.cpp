@@ -1,5 +1,6 @@
 #include "dalembert/constraints/rigid_body.h"
 
+#include <dalembert/constraints/equimomental.h>
 #include <dalembert/core/errors.h>
 
 #include <Eigen/LU>
@@ -15,20 +16,26 @@ void require(bool good, const std::string& name, const char* what) {
   if (!good) throw InvalidScene("Body \"" + name + "\": " + what);
 }
 
-/// Body coordinates of the particles, in units of the arms; columns.
+/// Shares of the mass, and body coordinates of the particles; columns.
 template <int D>
-Eigen::Matrix<double, D, BodyPoint<D>::count> corners() {
-  Eigen::Matrix<double, D, BodyPoint<D>::count> c;
-  if constexpr (D == 2) {
-    c << -1.0, 1.0,  //
-        0.0, 0.0;
-  } else {
-    c << 1.0, 1.0, -1.0, -1.0,  //
-        1.0, -1.0, 1.0, -1.0,   //
-        1.0, -1.0, -1.0, 1.0;
+struct Particles {
+  static constexpr int count = BodyPoint<D>::count;
+  Vec<count> share;
+  Eigen::Matrix<double, D, count> place;
+
+  explicit Particles(const Vec<D>& arms) {
+    if constexpr (D == 2) {
+      share.setConstant(0.5);
+      place << -arms.x(), arms.x(), 0.0, 0.0;
+    } else {
+      const Equimomental<3> set(arms);
+      for (int i = 0; i < count; ++i) {
+        share[i] = set.share(i);
+        place.col(i) = set.place(i);
+      }
+    }
   }
-  return c;
-}
+};
 
 Vec<2> arms_of(const BodyState<2>& s, const std::string& name) {
   require(std::isfinite(s.inertia) && s.inertia > 0.0, name,
@@ -70,12 +77,8 @@ BodyPoint<D> RigidBody<D>::point(const Vec<D>& local) const {
         (local.x() * Eigen::Matrix2d::Identity() + local.y() * turned_left) / (2.0 * arms.x());
     p.L << 0.5 * Eigen::Matrix2d::Identity() - e_part, 0.5 * Eigen::Matrix2d::Identity() + e_part;
   } else {
-    // sum of w_i p_i with sum of w_i = 1; the corners are orthogonal, so w_i = (1 + corner_i . local/arms)/4.
-    const Vec<3> relative = local.cwiseQuotient(arms);
-    const auto c = corners<3>();
-    for (int i = 0; i < 4; ++i) {
-      p.L.template middleCols<3>(3 * i) = 0.25 * (1.0 + c.col(i).dot(relative)) * Eigen::Matrix3d::Identity();
-    }
+    const Vec<4> w = Equimomental<3>(arms).weights(local);
+    for (int i = 0; i < 4; ++i) p.L.template middleCols<3>(3 * i) = w[i] * Eigen::Matrix3d::Identity();
   }
   return p;
 }
@@ -84,10 +87,9 @@ template <int D>
 Eigen::Matrix<double, D, D> RigidBody<D>::axes(const Sample<D>& sample) const {
   Eigen::Matrix<double, D, D> axes;
   const Vec<D> origin = sample.position(centre());
-  // Points an arm away from the centre keep round-off small whatever the size of the body.
-  for (int k = 0; k < D; ++k) {
-    axes.col(k) = (sample.position(point(arms[k] * Vec<D>::Unit(k))) - origin) / arms[k];
-  }
+  // Points as far from the centre as particles keep round-off small whatever the size of the body.
+  const double far = arms.norm();
+  for (int k = 0; k < D; ++k) axes.col(k) = (sample.position(point(far * Vec<D>::Unit(k))) - origin) / far;
   return axes;
 }
 
@@ -100,19 +102,19 @@ RigidBody<D> add_body(Scene<D>& scene, const BodyState<D>& state, const std::str
           name, "axes must be right-handed and of unit length");
   RigidBody<D> body;
   body.arms = arms_of(state, name);
-  const auto c = corners<D>();
+  const Particles<D> set(body.arms);
   for (int i = 0; i < RigidBody<D>::particle_count; ++i) {
-    const Vec<D> arm = axes * c.col(i).cwiseProduct(body.arms);
+    const Vec<D> arm = axes * set.place.col(i);
     body.particles[static_cast<std::size_t>(i)] = scene.add_particle(
-        {state.mass / RigidBody<D>::particle_count, state.centre + arm, state.velocity + turning(state, arm)},
+        {set.share[i] * state.mass, state.centre + arm, state.velocity + turning(state, arm)},
         name + ".p" + std::to_string(i + 1));
   }
   std::size_t rod = 0;
   for (int i = 0; i < RigidBody<D>::particle_count; ++i) {
     for (int j = i + 1; j < RigidBody<D>::particle_count; ++j) {
-      const double length = (c.col(j) - c.col(i)).cwiseProduct(body.arms).norm();
-      body.rods[rod++] = scene.add(Distance{body.particles[static_cast<std::size_t>(i)],
-                                            body.particles[static_cast<std::size_t>(j)], length},
+      const double length = (set.place.col(j) - set.place.col(i)).norm();
+      body.rods[rod++] = scene.add(BodyRod<D>{{body.particles[static_cast<std::size_t>(i)],
+                                               body.particles[static_cast<std::size_t>(j)], length}},
                                    name + ".rod" + std::to_string(i + 1) + std::to_string(j + 1));
     }
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/constraints/distance.h>
+#include <dalembert/constraints/body_rod.h>
 #include <dalembert/core/body_point.h>
 #include <dalembert/core/sample.h>
 #include <dalembert/core/scene.h>
@@ -40,8 +40,8 @@ struct BodyState<3> {
 /// no singular attitudes, and the mass matrix stays diagonal.
 ///
 /// In the plane, two particles of half the mass at centre -+ rho e, rho^2 = inertia/mass, e the
-/// body's first axis. In space, four of a quarter each at (a, b, c), (a, -b, -c), (-a, b, -c),
-/// (-a, -b, c) along the principal axes, m a^2 = (I_2 + I_3 - I_1)/2 and so on.
+/// body's first axis. In space, the four of Equimomental, which are as far from each other in a slender
+/// body or a plate as in any other; m a^2 = (I_2 + I_3 - I_1)/2 and so on.
 template <int D>
 struct RigidBody {
   static constexpr int particle_count = BodyPoint<D>::count;
@@ -49,7 +49,7 @@ struct RigidBody {
 
   std::array<Particle<D>, static_cast<std::size_t>(particle_count)> particles;
   std::array<Constraint<1>, static_cast<std::size_t>(rod_count)> rods;
-  Vec<D> arms;  ///< (rho, rho) or (a, b, c): where the particles sit along the body's axes
+  Vec<D> arms;  ///< (rho, rho) or (a, b, c): roots of the second moments over the mass
 
   /// The point at coordinates `local` from the centre of mass along the body's axes.
   [[nodiscard]] BodyPoint<D> point(const Vec<D>& local) const;

@@ -44,7 +44,8 @@ ThinRod<D> add_thin_rod(Scene<D>& scene, const ThinRodState<D>& s, const std::st
                                            .velocity = between(s.start_velocity, s.end_velocity, fraction)},
                                           name + ".p" + std::to_string(i + 1));
   }
-  rod.distance = scene.add(Distance{rod.particles[0], rod.particles[1], 2.0 * arm * length}, name + ".rod");
+  rod.distance =
+      scene.add(BodyRod<D>{{rod.particles[0], rod.particles[1], 2.0 * arm * length}}, name + ".rod");
   return rod;
 }
 

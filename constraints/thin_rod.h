@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/constraints/distance.h>
+#include <dalembert/constraints/body_rod.h>
 #include <dalembert/core/body_point.h>
 #include <dalembert/core/scene.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/core/arguments.h>
+#include <dalembert/core/forces_at_points.h>
 
 #include <cstddef>
 #include <exception>
@@ -39,6 +39,8 @@ struct ConstraintShape {
   std::string_view kind;
   int rows;                   ///< scalar equations per constraint
   int width;                  ///< coordinates that each of them reads
+  int inputs;                 ///< numbers of the positions of its points, which these give
+  bool internal;              ///< holds a body together
   bool holonomic;             ///< or at velocity level
   bool timed;                 ///< depends on time explicitly (rheonomic)
   std::string_view singular;  ///< what it means if the gradient vanishes or has no value
@@ -63,6 +65,10 @@ class ConstraintBatch {
   [[nodiscard]] virtual std::span<const int> coordinates() const = 0;
 
   virtual void evaluate(const Instant& at, const ConstraintValues& out) const = 0;
+  /// Per constraint `rows x inputs` numbers U, one row after the other, out of its part of w: lambda has
+  /// the size |U^T lambda|, that of the force at one of its points. See ForcesAtPoints.
+  virtual void forces_at_points(std::span<const double> w, std::span<const double> lever,
+                                std::span<double> out) const = 0;
   /// The compliance of each row [length / force, at unit gradient]: 0 if it is rigid.
   virtual void compliance(std::span<double> out) const = 0;
   /// gamma = psi_q v + psi_t, so that W v' + gamma = 0 at acceleration level.
@@ -146,6 +152,17 @@ class Elements {
     coordinates_.resize(coordinates_.size() + width);
     read_coordinates(element, std::span(coordinates_).last(width));
     all_.push_back(std::move(element));
+  }
+  /// `rows` rows of w and of `out` per element; see ForcesAtPoints.
+  template <int rows>
+  void forces_at_points(std::span<const double> w, std::span<const double> lever,
+                        std::span<double> out) const {
+    using Force = ForcesAtPoints<Element, rows>;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      const typename Force::Given own(w.data() + i * rows * width);
+      Eigen::Map<typename Force::Matrix>(out.data() + i * Force::Matrix::SizeAtCompileTime) =
+          Force::of(all_[i], own, coordinates(i), lever);
+    }
   }
   [[nodiscard]] const std::vector<Element>& all() const { return all_; }
   [[nodiscard]] std::span<const int> coordinates() const { return coordinates_; }

@@ -22,6 +22,16 @@ concept VelocityLevel = requires {
   requires C::velocity_level;
 };
 
+/// Whether a constraint type holds a body together rather than being stated by a user, see BodyRod.
+template <class C>
+inline constexpr bool is_internal = [] {
+  if constexpr (requires { C::internal; }) {
+    return C::internal;
+  } else {
+    return false;
+  }
+}();
+
 /// A holonomic constraint that yields: `double compliance`, see Compliant.
 template <class C>
 concept HasCompliance = requires(const C& c) {

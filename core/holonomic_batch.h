@@ -26,7 +26,8 @@ class HolonomicBatch final : public ConstraintBatch {
     return std::make_unique<HolonomicBatch>(*this);
   }
   [[nodiscard]] ConstraintShape shape() const override {
-    return {detail::kind_of<C>("Holonomic"), rows, width, true, timed, detail::singular_hint_of<C>()};
+    return {detail::kind_of<C>("Holonomic"), rows, width, inputs, is_internal<C>, true, timed,
+            detail::singular_hint_of<C>()};
   }
   [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
   [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
@@ -54,6 +55,11 @@ class HolonomicBatch final : public ConstraintBatch {
         out.psi[row] = psi;
       }
     });
+  }
+
+  void forces_at_points(std::span<const double> w, std::span<const double> lever,
+                        std::span<double> out) const override {
+    elements_.template forces_at_points<rows>(w, lever, out);
   }
 
   void compliance(std::span<double> out) const override {

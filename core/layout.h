@@ -23,6 +23,8 @@ struct Layout {
     std::string name;
     int rows;
     int width;       ///< coordinates it acts on
+    int inputs;      ///< numbers of the positions of its points
+    bool internal;   ///< holds a body together; its user did not state it
     int first_row;   ///< in lambda
     int first_slot;  ///< in the slots of constraint forces, `width` of them
 

@@ -23,7 +23,7 @@ class NonholonomicBatch final : public ConstraintBatch {
     return std::make_unique<NonholonomicBatch>(*this);
   }
   [[nodiscard]] ConstraintShape shape() const override {
-    return {detail::kind_of<C>("Nonholonomic"), rows, width, false, is_timed<C>,
+    return {detail::kind_of<C>("Nonholonomic"), rows, width, inputs, is_internal<C>, false, is_timed<C>,
             detail::singular_hint_of<C>()};
   }
   [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
@@ -42,6 +42,11 @@ class NonholonomicBatch final : public ConstraintBatch {
         Eigen::Map<Vec<width>>(out.w.data() + row * width) = pull_back(c, a_k.gradient);
       }
     });
+  }
+
+  void forces_at_points(std::span<const double> w, std::span<const double> lever,
+                        std::span<double> out) const override {
+    elements_.template forces_at_points<rows>(w, lever, out);
   }
 
   void compliance(std::span<double> out) const override { std::ranges::fill(out, 0.0); }

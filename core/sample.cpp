@@ -45,11 +45,13 @@ double Sample<D>::angular_velocity(Rotor rotor) const {
 }
 
 template <int D>
-bool Sample<D>::all_unique(const Layout::Constraint& constraint) const {
-  if (flat_.unique.empty()) return true;
-  const auto own = flat_.unique.subspan(static_cast<std::size_t>(constraint.first_row),
-                                        static_cast<std::size_t>(constraint.rows));
-  return std::ranges::all_of(own, [](char unique) { return unique != 0; });
+bool Sample<D>::unique(const Layout::Constraint& constraint, int component) const {
+  if (component < 0 || component >= constraint.rows) {
+    throw InvalidScene(constraint.label() + " has no component " + std::to_string(component) + ": it has " +
+                       std::to_string(constraint.rows) + ", counted from 0");
+  }
+  return flat_.unique.empty() ||
+         flat_.unique[static_cast<std::size_t>(constraint.first_row + component)] != 0;
 }
 
 template <int D>

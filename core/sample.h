@@ -58,11 +58,20 @@ class Sample {
   }
 
   /// Whether the motion determines this constraint's multipliers. Where constraints repeat each
-  /// other it may not: then theirs are the smallest that give the motion, and only their sum has a
-  /// physical meaning.
+  /// other it may not: then the forces of those that were stated are the least squares of all that
+  /// give the motion, and only their sum has a physical meaning.
   template <int Rows>
   [[nodiscard]] bool is_unique(Constraint<Rows> constraint) const {
-    return all_unique(info(constraint.index, constraint.scene));
+    for (int component = 0; component < Rows; ++component) {
+      if (!is_unique(constraint, component)) return false;
+    }
+    return true;
+  }
+  /// Whether it determines one of them, counted from 0: a door on two hinges has determined horizontal
+  /// forces, while only the sum of the vertical ones is.
+  template <int Rows>
+  [[nodiscard]] bool is_unique(Constraint<Rows> constraint, int component) const {
+    return unique(info(constraint.index, constraint.scene), component);
   }
 
   /// Z = +W^T lambda: the force that one constraint exerts on one particle [force]; zero if it does
@@ -94,7 +103,7 @@ class Sample {
   }
   void require_coordinate(std::uint64_t scene, int coordinate) const;
   [[nodiscard]] Vec<D> force_of(const Layout::Constraint& constraint, Particle<D> particle) const;
-  [[nodiscard]] bool all_unique(const Layout::Constraint& constraint) const;
+  [[nodiscard]] bool unique(const Layout::Constraint& constraint, int component) const;
   [[nodiscard]] double force_at(const Layout::Constraint& constraint, int coordinate) const;
 
   const Layout* layout_;

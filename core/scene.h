@@ -183,7 +183,8 @@ class Scene {
     const int number = static_cast<int>(layout_.constraints.size());
     group->numbers.push_back(number);
     const ConstraintShape shape = batch->shape();
-    layout_.constraints.push_back({std::string(shape.kind), name, shape.rows, shape.width, 0, 0});
+    layout_.constraints.push_back(
+        {std::string(shape.kind), name, shape.rows, shape.width, shape.inputs, shape.internal, 0, 0});
     return {number, layout_.id};
   }
 

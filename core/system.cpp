@@ -176,6 +176,26 @@ void System::linearise(const Instant& at, std::span<const double> lambda, Linear
   if (frictional()) linearise_frictions(at, lambda, out);
 }
 
+void System::forces_at_points(std::span<const double> w, std::span<const double> lever,
+                              std::span<double> out) const {
+  std::size_t first_out = 0;
+  for (std::size_t b = 0; b < parts_.constraints.size(); ++b) {
+    const Offsets& first = constraint_offsets_[b];
+    const std::size_t count =
+        first.row_count * static_cast<std::size_t>(parts_.constraints[b]->shape().inputs);
+    parts_.constraints[b]->forces_at_points(w.subspan(first.w, first.w_count), lever,
+                                            out.subspan(first_out, count));
+    first_out += count;
+  }
+}
+
+std::size_t System::size_of_forces_at_points() const {
+  std::size_t size = 0;
+  for (const Layout::Constraint& c : layout_->constraints)
+    size += static_cast<std::size_t>(c.rows * c.inputs);
+  return size;
+}
+
 void System::constraint_forces(std::span<const double> w, std::span<const double> lambda,
                                std::span<double> slots) const {
   std::ranges::fill(slots, 0.0);

@@ -104,6 +104,13 @@ class System {
   /// dF_f/dlambda, in the order of its pattern. Throws like `evaluate`.
   void friction_slope(const Instant& at, std::span<const double> lambda, std::span<double> out) const;
 
+  /// What multipliers exert at the points the constraints were stated for, out of W: for every row as many
+  /// numbers as its constraint has inputs, in the order of rows; see ForcesAtPoints. `lever` has one number
+  /// per coordinate.
+  void forces_at_points(std::span<const double> w, std::span<const double> lever,
+                        std::span<double> out) const;
+  [[nodiscard]] std::size_t size_of_forces_at_points() const;
+
   /// The force W^T lambda of every constraint on every coordinate it acts on, by Layout's slots.
   void constraint_forces(std::span<const double> w, std::span<const double> lambda,
                          std::span<double> slots) const;

@@ -83,6 +83,10 @@ class Trajectory {
     return sample(i).is_unique(constraint);
   }
   template <int Rows>
+  [[nodiscard]] bool is_unique(Constraint<Rows> constraint, int component, std::size_t i) const {
+    return sample(i).is_unique(constraint, component);
+  }
+  template <int Rows>
   [[nodiscard]] Vec<D> constraint_force(Constraint<Rows> constraint, Particle<D> particle,
                                         std::size_t i) const {
     return sample(i).constraint_force(constraint, particle);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <sstream>
 
 namespace dalembert {
@@ -92,10 +93,36 @@ void FrictionSolver::require_unique(const Instant& at, std::span<const double> w
                   at.t);
 }
 
-void FrictionSolver::require_determined(std::span<const char> determined) const {
+void FrictionSolver::find_what_is_read(const Instant& at) {
+  constexpr int trials = 4;
+  reads_.assign(slope_.size(), 0);
+  std::vector<double> v(at.v.size()), lambda(lambda_.size()), slope(slope_.size());
+  std::minstd_rand generator;
+  const double speed = std::max(1.0, largest(at.v)), force = std::max(1.0, largest(lambda_));
+  const auto any_up_to = [&generator](double size) {
+    return size *
+           (2.0 * static_cast<double>(generator()) / static_cast<double>(std::minstd_rand::max()) - 1.0);
+  };
+  for (int k = 0; k < trials; ++k) {
+    std::ranges::generate(v, [&] { return any_up_to(speed); });
+    std::ranges::generate(lambda, [&] { return any_up_to(force); });
+    try {
+      system_->friction_slope({at.t, at.q, v}, lambda, slope);
+    } catch (const EquationFault&) {
+      std::ranges::fill(slope, 1.0);  // a law without values there may read anything
+    }
+    for (std::size_t i = 0; i < slope.size(); ++i) {
+      if (slope[i] != 0.0) reads_[i] = 1;
+    }
+  }
+}
+
+void FrictionSolver::require_determined(const Instant& at, std::span<const char> determined) {
+  if (std::ranges::find(determined, 0) == determined.end()) return;
+  if (reads_.empty()) find_what_is_read(at);
   for (std::size_t k = 0; k < slope_.size(); ++k) {
     const int row = system_->friction_pattern()[k].column;
-    if (determined[static_cast<std::size_t>(row)]) continue;
+    if (determined[static_cast<std::size_t>(row)] || (!reads_[k] && slope_[k] == 0.0)) continue;
     throw InconsistentStart(system_->force_of_friction(k) + " reads the multiplier of " +
                             system_->row_label(row) +
                             ", which the motion does not determine: other constraints repeat that one; "

@@ -40,11 +40,14 @@ class FrictionSolver {
   void require_unique(const Instant& at, std::span<const double> w, std::span<const double> s);
   /// That no force reads a row which `determined` says the motion does not determine. Throws
   /// InconsistentStart, naming both.
-  void require_determined(std::span<const char> determined) const;
+  void require_determined(const Instant& at, std::span<const char> determined);
 
   [[nodiscard]] long factorisations() const { return matrix_.factorisations(); }
 
  private:
+  /// Which of its multipliers each force reads, by its slopes at velocities and multipliers of no special
+  /// kind: where friction is at rest, slopes vanish.
+  void find_what_is_read(const Instant& at);
   /// y += factor dF_f/dlambda x, for one number per row of the system.
   void add_slope(double factor, std::span<const double> x, std::span<double> y) const;
   [[nodiscard]] bool settled() const;
@@ -56,6 +59,7 @@ class FrictionSolver {
   KktMatrix matrix_;
   std::vector<double> given_, lambda_, slope_, slope_mirrored_;
   std::vector<double> force_, predicted_;
+  std::vector<char> reads_;  // per entry of the slope; empty until it is asked for
 };
 
 }  // namespace dalembert

@@ -233,10 +233,10 @@ bool Manifold::solve_motion(double t, std::span<const double> q, std::span<doubl
     lambda[static_cast<std::size_t>(rows_.rows[r])] = x_[n + r];
   const bool finite = std::ranges::all_of(x_, [](double x) { return std::isfinite(x); });
   if (finite && minimum_norm_.needed()) {
-    minimum_norm_.spread([this](std::span<double> x) { kkt_.solve(x); }, e_.w, lambda);
+    minimum_norm_.spread([this](std::span<double> x) { kkt_.solve(x); }, {t, q, v}, e_, lambda);
   }
   if (finite && friction_) {
-    friction_->require_determined(unique());
+    friction_->require_determined({t, q, v}, unique());
     friction_->require_unique({t, q, v}, e_.w, s_);
   }
   return finite;

@@ -27,9 +27,10 @@ TEST(Lamina, HasTheMassCentreAndInertiaOfItsState) {
   Vec<3> centre = Vec<3>::Zero();
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for (const auto& p : lamina.particles) {
+    const double mass = scene.system().masses()[static_cast<std::size_t>(p.coordinate)];
     const Vec<3> arm = s.axes.transpose() * (p.gather(scene.initial_positions()) - s.centre);
-    centre += arm / 3.0;
-    inertia += s.mass / 3.0 * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+    centre += mass / s.mass * arm;
+    inertia += mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
   }
   EXPECT_LT(centre.norm(), round_off);
   const Vec<3> principal(s.inertia.x(), s.inertia.y(), s.inertia.sum());
