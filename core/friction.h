@@ -63,9 +63,8 @@ struct FrictionFromLaw {
 
   const Points& points() const { return on; }
   const Constraint<Rows>& constraint() const { return of; }
-  auto friction(const auto&... a) const requires std::is_invocable_v<const Law&, decltype(a)...> {
-    return function(a...);
-  }
+  auto friction(const auto&... a) const requires requires { function(a...); }
+  { return function(a...); }
 };
 
 /// A force from its law F(lambda, r, v) that reads the multiplier of one constraint: sliding friction on
@@ -90,7 +89,13 @@ struct FrictionFromLaw {
 /// force. So is reading a multiplier that the motion does not determine, of redundant constraints.
 template <int Rows, class... P, class Law>
 [[nodiscard]] auto friction_law(Constraint<Rows> of, std::tuple<P...> on, Law law) {
-  return FrictionFromLaw<Rows, std::tuple<P...>, Law>{of, std::move(on), std::move(law)};
+  using Force = FrictionFromLaw<Rows, std::tuple<P...>, Law>;
+  if constexpr (detail::written_for_any_scalar<std::tuple<P...>, Law>())
+    static_assert(
+        FrictionForce<Force>,
+        "the lambda of a friction law takes lambda, the position of each of its points and then the "
+        "velocity of each, and time in front of them if it depends on time");
+  return Force{of, std::move(on), std::move(law)};
 }
 
 }  // namespace dalembert
