@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace dalembert {
 
@@ -33,8 +34,11 @@ IdaStepper::IdaStepper(const System& system, const Start& start, const Options& 
     });
   };
   const auto weigh = [](N_Vector x, N_Vector weight, void* data) noexcept {
-    static_cast<State*>(data)->weigh(x, weight);
-    return 0;
+    State& own = *static_cast<State*>(data);
+    return guarded(own, own.t, [&] {
+      own.weigh(x, weight);
+      return 0;
+    });
   };
   const auto record = [](double t, double c, N_Vector x, N_Vector, N_Vector, SUNMatrix, void* data, N_Vector,
                          N_Vector, N_Vector) noexcept {
@@ -131,6 +135,7 @@ void IdaStepper::step(double /*wanted*/) {
   if (s.order_changed) s.change_order();
   const double before = s.t;
   const int code = IDASolve(s.ida.get(), s.t_end, &s.t, s.y.get(), s.yp.get(), IDA_ONE_STEP);
+  if (s.thrown) std::rethrow_exception(std::exchange(s.thrown, {}));
   if (code < 0) throw StepFailure{s.explain(code), s.t};
   ++s.steps;
   // In front of a fault IDA would halve and double such steps for ever.
@@ -183,6 +188,11 @@ void IdaStepper::count(Statistics& statistics) const {
   long error_tests = s.error_tests, convergence = s.convergence;
   if (s.steps > 0) s.count_failures(error_tests, convergence);
   statistics.steps += s.steps;
+  Scales scales = s.scales;
+  const Instant now = s.instant(s.t, s.y.get());
+  if (scales.of_path) scales.take(scales.further(now.q, now.v, scales.way.step, s.tolerance));
+  statistics.length = scales.length;
+  statistics.time = scales.time;
   statistics.evaluations += s.evaluations;
   statistics.factorisations += s.newton.factorisations();
   statistics.linear_algebra = s.newton.method();
