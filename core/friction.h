@@ -80,6 +80,11 @@ struct FrictionFromLaw {
 /// force is an applied one, F in M q'' = F + W^T lambda: it is no part of the constraint's force, and
 /// its power is listed by `audit`.
 ///
+/// The law is called with multipliers near those of the motion: with the ones that it would have without
+/// friction at first, later with the last ones, and with what Newton's iteration makes of them, which may for
+/// a moment lie on the other side of 0. It must have a value and a derivative where lambda itself lies, none
+/// at 0.
+///
 /// It describes sliding. Nothing sticks: near v = 0 a law that jumps there stops the run or chatters;
 /// smooth it, v / sqrt(v^2 + small^2), or end the run before. Nor does a constraint let go where lambda
 /// changes sign.

@@ -94,7 +94,8 @@ double smallest_radius(const System& system, const Instant& at, const System::Ev
 
 /// Sets the length of the scene: the box around its points; for a lone particle on a surface or curve
 /// the radius of curvature, unless it does not get so far. What is free or on something nearly flat has no
-/// length but that of its path, of which the first instant gives a guess.
+/// length but that of its path, of which the first instant gives a guess. (On a compliant constraint that
+/// guess has to do: an explicit step would tell the vibration of the spring.)
 void set_length(const System& system, const Instant& at, const System::Evaluation& e, const Options& options,
                 Scales& scales) {
   const double duration = options.t_end - options.t_start;
@@ -106,7 +107,7 @@ void set_length(const System& system, const Instant& at, const System::Evaluatio
   const double a = largest_scaled(forced_acceleration(system, e), lengths);
   const double reach = v * duration + a * duration * duration;
   scales.length = reach > 0.0 ? std::min(radius, reach) : std::isfinite(radius) ? radius : 1.0;
-  scales.of_path = scales.length < radius && largest_entry(lengths) > 0.0;
+  scales.of_path = !system.compliant() && scales.length < radius && largest_entry(lengths) > 0.0;
   if (std::isinf(radius) && v > 0.0 && a > 0.0) scales.length = v * v / a;
   scales.forced = a;
 }
