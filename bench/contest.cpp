@@ -6,9 +6,10 @@ namespace dalembert::bench {
 
 namespace {
 
-Entry failure(const std::string& why, const Statistics& so_far) {
+Entry refused(const Error& why, const Statistics& so_far) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  return {{.error_position = nan, .error_force = nan, .energy_drift = nan, .statistics = so_far}, why};
+  return {{.error_position = nan, .error_force = nan, .energy_drift = nan, .statistics = so_far},
+          refused_by(why)};
 }
 
 template <int D>
@@ -30,9 +31,9 @@ Entry Contest<D>::measure(Contender contender, Options options,
   options.stepper = *own;
   return {models::measure<D>(model, options, reference)};
 } catch (const IntegrationFailure& failed) {
-  return failure(failed.what(), failed.trajectory<D>().statistics());
-} catch (const RivalFailure& failed) {
-  return failure(failed.what(), {});
+  return refused(failed, failed.trajectory<D>().statistics());
+} catch (const Error& failed) {
+  return refused(failed, {});
 }
 
 template struct Contest<2>;

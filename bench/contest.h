@@ -1,16 +1,15 @@
 #pragma once
 
+#include <dalembert/bench/outcome.h>
 #include <dalembert/bench/rival.h>
 #include <dalembert/models/error.h>
 
-#include <string>
-
 namespace dalembert::bench {
 
-/// What one run gave. If it failed, `failure` says why, and the errors are NaN.
+/// What one run gave. If it was refused, the errors are NaN.
 struct Entry {
   models::Measurement measured;
-  std::string failure = {};
+  Outcome outcome = {};
 };
 
 /// A model and all that can integrate it.

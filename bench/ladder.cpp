@@ -22,7 +22,7 @@ template <int D>
 typename Ladder<D>::Rung Ladder<D>::run(double tolerance) const {
   const Options options{.t_end = contest_->model.t_end, .samples = 2, .tolerance = tolerance};
   const Entry entry = contest_->measure(contender_, options, reference_);
-  if (!entry.failure.empty() || std::isnan(entry.measured.error_position))
+  if (!entry.outcome.ok() || std::isnan(entry.measured.error_position))
     return {tolerance, std::numeric_limits<double>::infinity(), {}};
   return {tolerance, entry.measured.error_position, {entry.measured.statistics.run_time}};
 }

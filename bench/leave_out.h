@@ -17,8 +17,8 @@ struct LeaveOut {
 
 /// What does a scene save by leaving out what it does not need? Each row is one motion stated twice, in
 /// full and without, run in turn; median run times of integration and output. `unknowns` counts those of
-/// the implicit stepper's equations, (q, v, lambda, mu). Returns the number of rows that failed: a run
-/// that stopped, or two motions further apart than the tolerance allows.
+/// the implicit stepper's equations, (q, v, lambda, mu). Returns the number of rows that are wrong: two
+/// motions further apart than the tolerance allows. A run that was refused has its outcome in the table.
 int leave_out(const LeaveOut& options);
 
 }  // namespace dalembert::bench

@@ -1,9 +1,11 @@
 #include "dalembert/bench/own_constraint.h"
 
+#include <dalembert/bench/outcome.h>
 #include <dalembert/dalembert.h>
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace dalembert::bench {
@@ -57,31 +59,46 @@ double difference(const Chain& one, const Trajectory<2>& run, const Chain& other
   return largest;
 }
 
+struct Comparison {
+  double ratio = std::numeric_limits<double>::quiet_NaN();  ///< the median one, and its two run times
+  double run_time_distance = ratio, run_time_own = ratio;
+  double difference = ratio;  ///< the largest of all positions
+};
+
+Comparison compare(const Chain& distances, const Chain& lambdas, Stepper stepper, int repeats) {
+  const Options run{.t_end = 0.2, .samples = 2, .stepper = stepper};
+  std::vector<std::array<double, 3>> pairs;  // ratio, and the two times
+  double largest = 0.0;
+  for (int i = 0; i < repeats; ++i) {
+    const auto by_distance = simulate(distances.scene, run);
+    const auto by_lambda = simulate(lambdas.scene, run);
+    const double a = by_distance.statistics().run_time;
+    const double b = by_lambda.statistics().run_time;
+    pairs.push_back({b / a, a, b});
+    largest = std::max(largest, difference(distances, by_distance, lambdas, by_lambda));
+  }
+  std::sort(pairs.begin(), pairs.end());
+  const auto& [ratio, distance, own] = pairs[pairs.size() / 2];
+  return {ratio, distance, own, largest};
+}
+
 }  // namespace
 
 void own_constraint(const OwnConstraint& options) {
   require_writable(options.report);
   Table table{.columns = {"stepper", "beads", "run_time_distance_s", "run_time_own_s", "ratio",
-                          "difference_position"},
+                          "difference_position", "outcome"},
               .rows = {}};
   const Chain distances = of_distances(options.beads);
   const Chain lambdas = of_lambdas(options.beads);
   for (const Stepper stepper : options.steppers) {
-    const Options run{.t_end = 0.2, .samples = 2, .stepper = stepper};
-    std::vector<std::array<double, 3>> pairs;  // ratio, and the two times
-    double largest = 0.0;
-    for (int i = 0; i < options.repeats; ++i) {
-      const auto by_distance = simulate(distances.scene, run);
-      const auto by_lambda = simulate(lambdas.scene, run);
-      const double a = by_distance.statistics().run_time;
-      const double b = by_lambda.statistics().run_time;
-      pairs.push_back({b / a, a, b});
-      largest = std::max(largest, difference(distances, by_distance, lambdas, by_lambda));
-    }
-    std::sort(pairs.begin(), pairs.end());
-    const auto& median = pairs[pairs.size() / 2];
-    table.rows.push_back({name(stepper), std::to_string(options.beads), scientific(median[1]),
-                          scientific(median[2]), scientific(median[0], 3), scientific(largest)});
+    const std::string what = std::string("own-constraint, ") + name(stepper);
+    Comparison c;
+    const Outcome outcome =
+        outcome_of(what, [&] { c = compare(distances, lambdas, stepper, options.repeats); });
+    table.rows.push_back({name(stepper), std::to_string(options.beads), scientific(c.run_time_distance),
+                          scientific(c.run_time_own), scientific(c.ratio, 3), scientific(c.difference),
+                          outcome.name});
   }
   report("A user's own constraint against Distance: the same chain, runs in turn, median ratio", table,
          options.report);

@@ -5,6 +5,23 @@ steppers = system(sprintf("awk -F, '$1 == \"%s\" && !seen[$2]++ { print $2 }' '%
 colours = "#0072B2 #D55E00 #009E73 #CC79A7 #E69F00 #56B4E9" # Okabe and Ito: told apart by colour-blind readers
 colour(i) = word(colours, (i - 1) % words(colours) + 1)
 
+# A refused rung has no error and no point; the key counts them. gnuplot refuses to plot nothing, so that
+# lines without any point (and a model without any) are left out.
+count(stepper, condition) = int(system(sprintf("awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) c[$i] = i } NR > 1 && $1 == \"%s\" && $2 == \"%s\" && %s { ++n } END { print n + 0 }' '%s'", model, stepper, condition, csv)))
+refused(stepper) = count(stepper, "$c[\"outcome\"] != \"ok\"")
+with_refused(stepper) = refused(stepper) > 0 ? sprintf(", %d refused", refused(stepper)) : ""
+lines = ""
+do for [stepper in steppers] {
+  do for [error in "position force"] {
+    if (count(stepper, sprintf("$c[\"outcome\"] == \"ok\" && $c[\"error_%s\"] > 0", error)) > 0) { lines = lines . stepper . ":" . error . " " }
+  }
+}
+stepper(i) = word(lines, i)[1:strstrt(word(lines, i), ":") - 1]
+what(i) = word(lines, i)[strstrt(word(lines, i), ":") + 1:]
+dash(i) = what(i) eq "position" ? 1 : 2
+mark(i) = what(i) eq "position" ? 7 : 4
+rank(stepper) = sum [i = 1:words(steppers)] (word(steppers, i) eq stepper ? i : 0)
+
 # Points that are NaN are left out, and the line goes on to the next one.
 set datafile separator comma missing NaN
 of(stepper, value) = strcol("model") eq model && strcol("stepper") eq stepper && value > 0 ? value : NaN
@@ -30,13 +47,15 @@ do for [terminal in "svg png"] {
     set terminal pngcairo size 1350,840 enhanced font "DejaVu Sans,15" fontscale 1.3 linewidth 1.5 background rgb "white"
   }
   set output sprintf("%s/%s.%s", report, model, terminal)
-  plot for [i = 1:words(steppers)] csv \
-         using (column("run_time_s") * 1e3):(of(word(steppers, i), column("error_position"))) \
-         with linespoints linewidth 2 dashtype 1 pointtype 7 pointsize 1.1 linecolor rgb colour(i) \
-         title word(steppers, i) . " position", \
-       for [i = 1:words(steppers)] csv \
-         using (column("run_time_s") * 1e3):(of(word(steppers, i), column("error_force"))) \
-         with linespoints linewidth 2 dashtype 2 pointtype 4 pointsize 1.1 linecolor rgb colour(i) \
-         title word(steppers, i) . " force"
+  if (lines eq "") {
+    set label 1 "refused at every tolerance" at graph 0.5, graph 0.5 center
+    plot [1:10] [1:10] 0.1 notitle
+  } else {
+    plot for [i = 1:words(lines)] csv \
+           using (column("run_time_s") * 1e3):(of(stepper(i), column("error_" . what(i)))) \
+           with linespoints linewidth 2 dashtype dash(i) \
+           pointtype mark(i) pointsize 1.1 linecolor rgb colour(rank(stepper(i))) \
+           title stepper(i) . " " . what(i) . with_refused(stepper(i))
+  }
   unset output
 }

@@ -5,6 +5,7 @@
 #include <dalembert/bench/rivals.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <variant>
@@ -15,8 +16,9 @@ namespace {
 
 using AnyContest = std::variant<Contest<2>, Contest<3>>;
 
-const std::vector<std::string> columns = {"scene",         "error",      "stepper",       "tolerance",
-                                          "error_reached", "run_time_s", "ratio_to_hand", "ratio_to_rod"};
+const std::vector<std::string> columns = {"scene",         "error",         "stepper",
+                                          "tolerance",     "error_reached", "run_time_s",
+                                          "ratio_to_hand", "ratio_to_rod",  "outcome"};
 
 Contest<2> chain(int beads, double t_end) {
   const models::Chain system{.beads = beads};
@@ -76,6 +78,12 @@ std::vector<Ladder<D>> climbed(const Contest<D>& contest, std::span<const models
   return ladders;
 }
 
+/// Whether an error was reached, missed at every tolerance, or no tolerance ran at all.
+std::string outcome(const auto& crossing, double error) {
+  if (crossing.error <= error) return "ok";
+  return std::isfinite(crossing.error) ? "missed" : "refused";
+}
+
 template <int D>
 void race(const Contest<D>& contest, const Ratios& options, Progress& progress, Table& table) {
   const auto reference =
@@ -87,7 +95,8 @@ void race(const Contest<D>& contest, const Ratios& options, Progress& progress, 
       table.rows.push_back({contest.model.name, shortest_power(error), name(ladder.contender()),
                             scientific(at.tolerance, 2), scientific(at.error, 2), scientific(at.run_time),
                             scientific(at.run_time / run_time(ladders, Contender::hand, error), 3),
-                            scientific(at.run_time / run_time(ladders, Contender::simbody_rod, error), 3)});
+                            scientific(at.run_time / run_time(ladders, Contender::simbody_rod, error), 3),
+                            outcome(at, error)});
     }
   }
 }

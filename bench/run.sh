@@ -9,7 +9,7 @@ case ${1:-} in
     kernels=(--benchmark_min_time=0.2)
     ;;
   --quick)
-    work_precision=(--repeat 1 --tolerance 1e-4,1e-6,1e-8) scaling=(--size 10,100)
+    work_precision=(--repeat 1) scaling=(--size 10,100)
     ratios=(--scene plane-pendulum,cone,double-pendulum --repeat 1) leave_out=(--size 10 --repeat 1)
     extremes=(--quick)
     kernels=(--benchmark_min_time=0.001)
@@ -25,7 +25,9 @@ bench=build/release/bench/dalembert-bench
 report=build/report
 mkdir -p $report
 
-# One paragraph per question: run the benchmark, then plot its table.
+# One paragraph per question: run the benchmark, then plot its table. What a stepper refuses is a row of the
+# table. A row that is wrong fails the report, but not before all of it is there.
+status=0
 $bench work-precision --stepper ida,erk,hand --csv $report/work-precision.csv "${work_precision[@]}"
 for model in $(tail -n +2 $report/work-precision.csv | cut -d, -f1 | sort -u); do
   gnuplot -e "csv='$report/work-precision.csv'; model='$model'; report='$report'" bench/plot.gp
@@ -35,18 +37,16 @@ $bench ratios --csv $report/ratios.csv "${ratios[@]}"
 
 $bench scaling --stepper ida,erk,hand --tolerance 1e-5 --t-end 0.05 --csv $report/scaling.csv "${scaling[@]}"
 
-# A row that is neither right nor rightly refused fails the report, but not before all of it is there.
-edges=0
-$bench extremes --csv $report/extremes.csv "${extremes[@]}" || edges=$?
+$bench extremes --csv $report/extremes.csv "${extremes[@]}" || status=$?
 gnuplot -e "csv='$report/extremes.csv'; report='$report'" bench/extremes.gp
 
 $bench own-constraint --csv $report/own-constraint.csv
 
-$bench leave-out --stepper ida,erk --csv $report/leave-out.csv "${leave_out[@]}"
+$bench leave-out --stepper ida,erk --csv $report/leave-out.csv "${leave_out[@]}" || status=$?
 
 kernels_bench=build/release/bench/dalembert-kernels # not built where Google Benchmark is not found
 [[ ! -x $kernels_bench ]] ||
   $kernels_bench --benchmark_out=$report/kernels.json --benchmark_out_format=json "${kernels[@]}"
 
 echo "Report in $report/:" $report/*
-exit $edges
+exit $status

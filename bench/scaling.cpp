@@ -1,5 +1,6 @@
 #include "dalembert/bench/scaling.h"
 
+#include <dalembert/bench/outcome.h>
 #include <dalembert/bench/progress.h>
 #include <dalembert/bench/rivals.h>
 #include <dalembert/models/error.h>
@@ -8,16 +9,15 @@
 
 #include <algorithm>
 #include <array>
-#include <iostream>
 #include <limits>
 
 namespace dalembert::bench {
 
 namespace {
 
-const std::vector<std::string> columns = {"model",      "stepper",        "size",        "tolerance",
-                                          "t_end",      "steps",          "evaluations", "error_position",
-                                          "run_time_s", "peak_memory_mib"};
+const std::vector<std::string> columns = {"model",      "stepper",         "size",        "tolerance",
+                                          "t_end",      "steps",           "evaluations", "error_position",
+                                          "run_time_s", "peak_memory_mib", "outcome"};
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -28,10 +28,11 @@ double peak_memory_mib() {
 }
 
 /// What one size gave.
-struct Outcome {
+struct Scaled {
   Statistics statistics;
   double error = nan;
   double memory = nan;
+  Outcome outcome = {};
 };
 
 /// Error of the last positions. The reference needs to be good beside the run, not to round-off:
@@ -43,35 +44,35 @@ double last_error(const models::Chain& chain, const Scaling& options, const mode
   return position_error(last, reference.front()) / chain.length;
 }
 
-models::Observation<2> run_library(const models::Chain& chain, const Options& options, Outcome& outcome) {
+models::Observation<2> run_library(const models::Chain& chain, const Options& options, Scaled& scaled) {
   const models::Observed<2> observed = models::observed(chain.scene());
   const Trajectory<2> trajectory = simulate(observed.scene, options);
-  outcome.statistics = trajectory.statistics();
-  outcome.memory = peak_memory_mib();
+  scaled.statistics = trajectory.statistics();
+  scaled.memory = peak_memory_mib();
   return observed.observe(trajectory.sample(trajectory.size() - 1));
 }
 
 models::Observation<2> run_rival(const models::Chain& chain, Contender contender, const Options& options,
-                                 Outcome& outcome) {
+                                 Scaled& scaled) {
   RivalRun<2> gave = bench::run(rivals(chain), contender, options);
-  outcome.statistics = gave.statistics;
-  outcome.memory = peak_memory_mib();
+  scaled.statistics = gave.statistics;
+  scaled.memory = peak_memory_mib();
   return std::move(gave.seen.back());
 }
 
-Outcome run(const models::Chain& chain, Contender contender, const Scaling& options) {
-  Outcome outcome;
+Scaled run(const models::Chain& chain, Contender contender, const Scaling& options) {
+  Scaled scaled;
   Options run{.t_end = options.t_end, .samples = 2, .tolerance = options.tolerance};
   const std::optional<Stepper> own = stepper(contender);
   if (own) run.stepper = *own;
   const models::Observation<2> last =
-      own ? run_library(chain, run, outcome) : run_rival(chain, contender, run, outcome);
-  outcome.error = last_error(chain, options, last);
-  return outcome;
+      own ? run_library(chain, run, scaled) : run_rival(chain, contender, run, scaled);
+  scaled.error = last_error(chain, options, last);
+  return scaled;
 }
 
-std::vector<std::string> row(const Scaling& options, Contender stepper, int size, const Outcome& outcome) {
-  const Statistics& s = outcome.statistics;
+std::vector<std::string> row(const Scaling& options, Contender stepper, int size, const Scaled& scaled) {
+  const Statistics& s = scaled.statistics;
   return {options.model,
           name(stepper),
           std::to_string(size),
@@ -79,14 +80,15 @@ std::vector<std::string> row(const Scaling& options, Contender stepper, int size
           shortest(options.t_end),
           std::to_string(s.steps),
           std::to_string(s.evaluations),
-          scientific(outcome.error),
+          scientific(scaled.error),
           scientific(s.run_time),
-          scientific(outcome.memory)};
+          scientific(scaled.memory),
+          scaled.outcome.name};
 }
 
 }  // namespace
 
-int scaling(const Scaling& options) {
+void scaling(const Scaling& options) {
   validate({.t_end = options.t_end, .tolerance = options.tolerance});
   if (options.model != "chain")
     throw Error("no model \"" + options.model + "\" of any size; there is: chain");
@@ -95,31 +97,23 @@ int scaling(const Scaling& options) {
   std::sort(sizes.begin(), sizes.end());
 
   Table table{.columns = columns, .rows = {}};
-  int failures = 0;
   {
     Progress progress(sizes.size() * options.steppers.size());
     for (const Contender stepper : options.steppers) {
       for (const int size : sizes) {
-        progress.next(options.model + ", " + name(stepper) + ", size " + std::to_string(size));
-        Outcome outcome;
-        try {
-          outcome = run(models::Chain{.beads = size}, stepper, options);
-        } catch (const IntegrationFailure& failed) {
-          ++failures;
-          std::cerr << options.model << " of " << size << ": " << failed.what() << '\n';
-          outcome.statistics = failed.trajectory<2>().statistics();
-        } catch (const RivalFailure& failed) {
-          ++failures;
-          std::cerr << options.model << " of " << size << ": " << failed.what() << '\n';
-        }
-        table.rows.push_back(row(options, stepper, size, outcome));
+        const std::string what = options.model + ", " + name(stepper) + ", size " + std::to_string(size);
+        progress.next(what);
+        Scaled scaled;
+        const Outcome outcome =
+            outcome_of(what, [&] { scaled = run(models::Chain{.beads = size}, stepper, options); });
+        scaled.outcome = outcome;
+        table.rows.push_back(row(options, stepper, size, scaled));
       }
     }
   }
   report(std::string("Run time and memory against size: one run each, error of the last positions") +
              remark(options.steppers),
          table, options.report);
-  return failures;
 }
 
 }  // namespace dalembert::bench

@@ -22,7 +22,7 @@ struct Scaling {
 
 /// How do run time and memory grow with the size of a scene? error_position is that of the last
 /// positions, nan above `largest_compared`; peak_memory_mib the resident memory of the whole process
-/// at its peak so far, taken before the comparison. Returns the number of runs that failed.
-int scaling(const Scaling& options);
+/// at its peak so far, taken before the comparison. A run that was refused has its outcome in the table.
+void scaling(const Scaling& options);
 
 }  // namespace dalembert::bench

@@ -7,7 +7,6 @@
 #include <dalembert/models/catalogue.h>
 
 #include <algorithm>
-#include <iostream>
 
 namespace dalembert::bench {
 
@@ -28,14 +27,16 @@ const std::vector<std::string> columns = {"model",
                                           "residual_position",
                                           "residual_velocity",
                                           "energy_drift",
-                                          "run_time_s"};
+                                          "run_time_s",
+                                          "outcome"};
 
 const std::string& name_of(const AnyModel& model) {
   return std::visit([](const auto& m) -> const std::string& { return m.name; }, model);
 }
 
 std::vector<std::string> row(const std::string& model, Contender stepper, double tolerance,
-                             const Measurement& m) {
+                             const Entry& entry) {
+  const Measurement& m = entry.measured;
   const Statistics& s = m.statistics;
   return {model,
           name(stepper),
@@ -48,7 +49,8 @@ std::vector<std::string> row(const std::string& model, Contender stepper, double
           scientific(s.residual_position),
           scientific(s.residual_velocity),
           scientific(m.energy_drift),
-          scientific(s.run_time)};
+          scientific(s.run_time),
+          entry.outcome.name};
 }
 
 /// One tolerance of a ladder.
@@ -72,7 +74,6 @@ class Ladders {
       if (contest.admits(stepper)) climb<D>(contest, stepper, run, reference);
     }
   }
-  [[nodiscard]] int failures() const { return failures_; }
 
  private:
   template <int D>
@@ -85,7 +86,7 @@ class Ladders {
     for (int i = 1; i <= options_.repeats; ++i) {
       progress_.next(model + ", " + name(stepper) + ", run " + std::to_string(i));
       for (std::size_t k = 0; k < rungs.size(); ++k) {
-        if (!rungs[k].entry.failure.empty()) continue;
+        if (!rungs[k].entry.outcome.ok()) continue;
         run.tolerance = options_.tolerances[k];
         rungs[k].entry = contest.measure(stepper, run, reference);
         rungs[k].run_times.push_back(rungs[k].entry.measured.statistics.run_time);
@@ -94,21 +95,17 @@ class Ladders {
     for (std::size_t k = 0; k < rungs.size(); ++k) add_row(model, stepper, options_.tolerances[k], rungs[k]);
   }
   void add_row(const std::string& model, Contender stepper, double tolerance, Rung& rung) {
-    Measurement& measured = rung.entry.measured;
-    if (rung.entry.failure.empty()) {
-      measured.statistics.run_time = median(rung.run_times);
+    if (rung.entry.outcome.ok()) {
+      rung.entry.measured.statistics.run_time = median(rung.run_times);
     } else {
-      ++failures_;
-      std::cerr << model << ", " << name(stepper) << " at tolerance " << shortest_power(tolerance) << ": "
-                << rung.entry.failure << '\n';
+      tell(model + ", " + name(stepper) + " at tolerance " + shortest_power(tolerance), rung.entry.outcome);
     }
-    table_.rows.push_back(row(model, stepper, tolerance, measured));
+    table_.rows.push_back(row(model, stepper, tolerance, rung.entry));
   }
 
   const WorkPrecision& options_;
   Table& table_;
   Progress& progress_;
-  int failures_ = 0;
 };
 
 /// Times that a ladder will be climbed.
@@ -142,24 +139,21 @@ std::vector<AnyModel> select_models(const std::vector<std::string>& names) {
   return all;
 }
 
-int work_precision(const WorkPrecision& options) {
+void work_precision(const WorkPrecision& options) {
   const std::vector<AnyModel> selected = select_models(options.models);
   for (const double tolerance : options.tolerances) validate({.t_end = 1.0, .tolerance = tolerance});
   (void)sample_times({.t_end = 1.0, .samples = options.samples});
   require_writable(options.report);
 
   Table table{.columns = columns, .rows = {}};
-  int failures = 0;
   {
     Progress progress(climbs(selected, options));
     Ladders ladders(options, table, progress);
     for (const AnyModel& model : selected) std::visit(ladders, model);
-    failures = ladders.failures();
   }
   report("Error against run time: largest errors of " + std::to_string(options.samples) +
              " samples, run time the median of " + std::to_string(options.repeats) + remark(options.steppers),
          table, options.report);
-  return failures;
 }
 
 }  // namespace dalembert::bench

@@ -19,9 +19,9 @@ struct WorkPrecision {
 };
 
 /// How much run time does an error cost? Runs models over a ladder of tolerances and compares each
-/// with its hand derivation. Returns the number of runs that failed; their errors are nan.
+/// with its hand derivation. A rung that was refused has its outcome in the table, and nan for errors.
 /// Throws Error for a name or a tolerance that makes no sense, before anything is run.
-int work_precision(const WorkPrecision& options);
+void work_precision(const WorkPrecision& options);
 
 /// The models of these names, in the order of the catalogue; throws Error, listing the names, for one
 /// that does not exist.

@@ -24,9 +24,8 @@ struct Compliant {
   double compliance;  ///< C, finite and >= 0
 
   decltype(auto) points() const { return rigid.points(); }
-  auto operator()(const auto&... a) const requires std::is_invocable_v<const Rigid&, decltype(a)...> {
-    return rigid(a...);
-  }
+  auto operator()(const auto&... a) const requires requires { rigid(a...); }
+  { return rigid(a...); }
 
   [[nodiscard]] std::string fault() const {
     if constexpr (requires { rigid.fault(); }) return rigid.fault();
@@ -40,8 +39,10 @@ struct Compliant {
 ///
 /// Where the gradient of g has unit length, as in all of the library's own constraints, the
 /// stiffness is in newtons per metre.
-template <HolonomicConstraint C>
+template <class C>
 [[nodiscard]] Compliant<C> compliant(C rigid, double compliance) {
+  static_assert(HolonomicConstraint<C>,
+                "compliant takes a holonomic constraint, whose points have the same dimension");
   return {std::move(rigid), compliance};
 }
 

@@ -15,9 +15,8 @@ struct Holonomic {
   Equation equation;
 
   const Points& points() const { return on; }
-  auto operator()(const auto&... a) const requires std::is_invocable_v<const Equation&, decltype(a)...> {
-    return equation(a...);
-  }
+  auto operator()(const auto&... a) const requires requires { equation(a...); }
+  { return equation(a...); }
 };
 
 /// A holonomic constraint g = 0 from a lambda of the points' positions that returns g, a number or
@@ -29,7 +28,13 @@ struct Holonomic {
 /// numbers that carry derivatives: write `auto`, and call `sqrt`, `sin`, ... without `std::`.
 template <class... P, class Equation>
 [[nodiscard]] auto holonomic(std::tuple<P...> on, Equation equation) {
-  return Holonomic<std::tuple<P...>, Equation>{std::move(on), std::move(equation)};
+  using Constraint = Holonomic<std::tuple<P...>, Equation>;
+  if constexpr (detail::written_for_any_scalar<std::tuple<P...>, Equation>())
+    static_assert(
+        HolonomicConstraint<Constraint>,
+        "the lambda of a holonomic constraint takes the position of each of its points, one argument "
+        "each, and time in front of them if it depends on time");
+  return Constraint{std::move(on), std::move(equation)};
 }
 
 }  // namespace dalembert

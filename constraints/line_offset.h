@@ -30,7 +30,7 @@ struct LineOffset {
     return e.x() * d.y() - e.y() * d.x() - offset;
   }
   [[nodiscard]] std::string fault() const {
-    return std::isfinite(offset) ? "" : "offset = " + std::to_string(offset) + ", must be finite";
+    return std::isfinite(offset) ? "" : "offset = " + detail::text(offset) + ", must be finite";
   }
 };
 template <class P, class A, class B>

@@ -13,9 +13,8 @@ struct Nonholonomic {
   Equation equation;
 
   const Points& points() const { return on; }
-  auto operator()(const auto&... a) const requires std::is_invocable_v<const Equation&, decltype(a)...> {
-    return equation(a...);
-  }
+  auto operator()(const auto&... a) const requires requires { equation(a...); }
+  { return equation(a...); }
 };
 
 /// A constraint a = 0, linear in the velocities, from a lambda of the points' positions and then
@@ -26,7 +25,13 @@ struct Nonholonomic {
 /// The force of constraint is lambda times the gradient of a with respect to the velocities.
 template <class... P, class Equation>
 [[nodiscard]] auto nonholonomic(std::tuple<P...> on, Equation equation) {
-  return Nonholonomic<std::tuple<P...>, Equation>{std::move(on), std::move(equation)};
+  using Constraint = Nonholonomic<std::tuple<P...>, Equation>;
+  if constexpr (detail::written_for_any_scalar<std::tuple<P...>, Equation>())
+    static_assert(
+        NonholonomicConstraint<Constraint>,
+        "the lambda of a nonholonomic constraint takes the position of each of its points, then the "
+        "velocity of each, and time in front of them if it depends on time");
+  return Constraint{std::move(on), std::move(equation)};
 }
 
 }  // namespace dalembert

@@ -14,15 +14,15 @@ namespace dalembert {
 template <Point P, class Curve>
 struct OnCurve {
   static_assert(P::dimension == 2, "OnCurve is planar; in space a curve is the meeting of two OnSurface");
+  static_assert(detail::written_for_any_scalar<std::tuple<P>, Curve>());
   static constexpr std::string_view kind = "OnCurve";
   static constexpr std::string_view singular = "the curve has no normal there";
   P point;
   Curve curve;
 
   auto points() const { return std::tie(point); }
-  auto operator()(const auto&... a) const requires std::is_invocable_v<const Curve&, decltype(a)...> {
-    return curve(a...);
-  }
+  auto operator()(const auto&... a) const requires requires { curve(a...); }
+  { return curve(a...); }
   [[nodiscard]] std::string fault() const {
     if constexpr (requires { curve.fault(); }) return curve.fault();
     return {};

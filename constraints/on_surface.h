@@ -26,6 +26,7 @@ template <class Surface>
 /// g > 0. For a user's own function lambda is the normal force divided by |grad g|.
 template <Point P, class Surface>
 struct OnSurface {
+  static_assert(detail::written_for_any_scalar<std::tuple<P>, Surface>());
   static constexpr std::string_view kind = "OnSurface";
   static constexpr std::string_view singular =
       "the surface has no normal there (an apex, a centre or an axis)";
@@ -34,10 +35,8 @@ struct OnSurface {
   decltype(detail::prepared(std::declval<const Surface&>())) equation = detail::prepared(surface);
 
   auto points() const { return std::tie(point); }
-  auto operator()(
-      const auto&... a) const requires std::is_invocable_v<const decltype(equation)&, decltype(a)...> {
-    return equation(a...);
-  }
+  auto operator()(const auto&... a) const requires requires { equation(a...); }
+  { return equation(a...); }
   [[nodiscard]] std::string fault() const {
     if constexpr (requires { surface.fault(); }) return surface.fault();
     return {};

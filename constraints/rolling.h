@@ -41,7 +41,7 @@ struct Rolling {
   }
   [[nodiscard]] std::string fault() const {
     if (std::isfinite(radius) && radius > 0.0) return {};
-    return "radius = " + std::to_string(radius) + ", must be finite and > 0";
+    return "radius = " + detail::text(radius) + ", must be finite and > 0";
   }
 };
 template <class P, class A, class B>

@@ -30,7 +30,7 @@ template <int D>
 ThinRod<D> add_thin_rod(Scene<D>& scene, const ThinRodState<D>& s, const std::string& name) {
   const double length = (s.end - s.start).norm();
   if (!(std::isfinite(s.mass) && s.mass > 0.0)) {
-    throw InvalidScene("Rod \"" + name + "\": mass = " + std::to_string(s.mass) + ", must be finite and > 0");
+    throw InvalidScene("Rod \"" + name + "\": mass = " + detail::text(s.mass) + ", must be finite and > 0");
   }
   if (!(std::isfinite(length) && length > 0.0)) {
     throw InvalidScene("Rod \"" + name +

@@ -33,7 +33,7 @@ struct UprightRolling {
   }
   [[nodiscard]] std::string fault() const {
     if (std::isfinite(radius) && radius > 0.0) return {};
-    return "radius = " + std::to_string(radius) + ", must be finite and > 0";
+    return "radius = " + detail::text(radius) + ", must be finite and > 0";
   }
 };
 template <class P>

@@ -31,6 +31,10 @@ struct PointsOf<std::tuple<P...>> {
   static constexpr bool driven = (false || ... || P::driven);
   /// Whether the inputs simply are the coordinates.
   static constexpr bool direct = (true && ... && (P::inputs == P::coordinates));
+  /// Whether all points lie in the same space; a rotor's angle has its place in any.
+  template <int D>
+  static constexpr bool in_space = (true && ... && (P::dimension == D || std::is_same_v<P, Rotor>));
+  static constexpr bool one_space = in_space<2> || in_space<3>;
   /// Where the inputs of each point begin among those of all.
   static constexpr std::array<int, count> first_input = [] {
     std::array<int, count> first{};
@@ -164,20 +168,16 @@ template <bool takes_time, class F, class S, class Arguments>
 template <class F, class Tuple>
 inline constexpr bool applicable = false;
 template <class F, class... A>
-inline constexpr bool applicable<F, std::tuple<A...>> = std::is_invocable_v<const F&, const A&...>;
+inline constexpr bool applicable<F, std::tuple<A...>> = requires(const F& f, const A&... a) {
+  f(a...);
+};
 template <class F, class S, class Tuple>
 inline constexpr bool applicable_with_time = false;
 template <class F, class S, class... A>
-inline constexpr bool applicable_with_time<F, S, std::tuple<A...>> =
-    std::is_invocable_v<const F&, const S&, const A&...>;
-
-/// A value that outlives its evaluation: a number, or an Eigen matrix rather than an expression
-/// that may refer to dead temporaries.
-template <class T>
-inline constexpr bool is_plain = true;
-template <class T>
-  requires std::is_base_of_v<Eigen::EigenBase<T>, T>
-inline constexpr bool is_plain<T> = std::is_base_of_v<Eigen::PlainObjectBase<T>, T>;
+inline constexpr bool applicable_with_time<F, S, std::tuple<A...>> = requires(const F& f, const S& t,
+                                                                              const A&... a) {
+  f(t, a...);
+};
 
 /// Calls `f` with every point of the element that has inputs.
 template <class Element, class F>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/core/batch.h>
+#include <dalembert/core/mistakes.h>
 
 #include <cmath>
 #include <concepts>
@@ -14,7 +15,7 @@ concept HasPoints = requires(const E& e) {
 };
 
 template <class E>
-concept ActsOnPoints = HasPoints<E> &&(PointFacts<E>::inputs > 0);
+concept ActsOnPoints = HasPoints<E> &&(PointFacts<E>::inputs > 0) && PointFacts<E>::one_space;
 
 /// Marks a constraint type as one on velocities: `static constexpr bool velocity_level = true;`.
 template <class C>
@@ -93,6 +94,20 @@ inline void require_finite(bool finite, std::size_t element, const char* what) {
   if (!finite) throw ElementFault{element, what};
 }
 
+/// Whether the points of a factory can be called with at all. Each mistake is an error of its own, and
+/// the first ends it.
+template <class Points, class F>
+[[nodiscard]] consteval bool written_for_any_scalar() {
+  constexpr bool one_space = PointsOf<Points>::one_space;
+  static_assert(one_space, "all points of a constraint or force must have the same dimension");
+  static_assert(!one_space || PointsOf<Points>::inputs > 0,
+                "at least one point of a constraint or force must be able to move");
+  static_assert(!NamesItsArguments<F>,
+                "write `auto` for the lambda's arguments, not double or Vec: it is called with numbers that "
+                "carry derivatives");
+  return one_space && PointsOf<Points>::inputs > 0 && !NamesItsArguments<F>;
+}
+
 }  // namespace detail
 
 /// A holonomic constraint g(t, r_1, ..., r_k) = 0: a type with `points()` and an `operator()` that
@@ -131,9 +146,12 @@ using Residual = std::remove_cvref_t<decltype(call<takes_time<C>>(
 
 }  // namespace detail
 
-/// Scalar equations of a constraint type.
+/// Scalar equations of a constraint type; 0 of what is none.
 template <class C>
-inline constexpr int rows_of_constraint = detail::rows_in<detail::Residual<C>>;
+inline constexpr int rows_of_constraint = 0;
+template <class C>
+  requires(HolonomicConstraint<C> || NonholonomicConstraint<C>)
+inline constexpr int rows_of_constraint<C> = detail::rows_in<detail::Residual<C>>;
 
 /// Whether a constraint depends on time explicitly (rheonomic), by its equation or a driven point.
 template <class C>

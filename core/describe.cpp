@@ -21,6 +21,16 @@ std::string kinds(const Batches& batches) {
   return text.empty() ? "none" : text;
 }
 
+std::string rotors(std::size_t count) {
+  return count == 0 ? "" : " and " + std::to_string(count) + (count == 1 ? " rotor" : " rotors");
+}
+
+/// By count: where there are more equations than coordinates some depend on others.
+std::string freedom(int coordinates, int equations) {
+  if (equations <= coordinates) return std::to_string(coordinates - equations);
+  return "not to be counted: " + std::to_string(equations - coordinates) + " equations too many";
+}
+
 }  // namespace
 
 std::string System::describe() const {
@@ -28,12 +38,12 @@ std::string System::describe() const {
   const int nonholonomic = rows() - holonomic_rows();
   std::ostringstream out;
   out << "scene \"" << layout_->scene << "\": " << layout_->particles.size()
-      << (layout_->particles.size() == 1 ? " particle in " : " particles in ") << layout_->dimension
-      << " dimensions, " << n << " coordinates\n"
+      << (layout_->particles.size() == 1 ? " particle" : " particles") << rotors(layout_->rotors.size())
+      << " in " << layout_->dimension << " dimensions, " << n << " coordinates\n"
       << "constraints: " << kinds(parts_.constraints) << "; " << holonomic_rows() << " holonomic and "
       << nonholonomic << " nonholonomic equations, " << (rheonomic() ? "rheonomic" : "scleronomic") << '\n'
-      << "degrees of freedom: " << n - holonomic_rows() + compliant_rows() << " of position, "
-      << n - rows() + compliant_rows() << " of velocity (if the constraints are independent)\n"
+      << "degrees of freedom: " << freedom(n, holonomic_rows() - compliant_rows()) << " of position, "
+      << freedom(n, rows() - compliant_rows()) << " of velocity (if the constraints are independent)\n"
       << "islands that do not act on each other: " << islands(*this).count << '\n'
       << "forces: " << kinds(parts_.forces) << " besides constant ones"
       << (frictional() ? ", and " + kinds(parts_.frictions) + " that read multipliers" : "") << '\n'

@@ -9,7 +9,7 @@ namespace dalembert {
 namespace detail {
 [[nodiscard]] inline std::string not_negative(double value, const char* name) {
   if (std::isfinite(value) && value >= 0.0) return {};
-  return std::string(name) + " = " + std::to_string(value) + ", must be finite and >= 0";
+  return std::string(name) + " = " + detail::text(value) + ", must be finite and >= 0";
 }
 }  // namespace detail
 
@@ -125,7 +125,7 @@ struct ElasticString {
   }
   [[nodiscard]] std::string fault() const {
     if (!(std::isfinite(relaxed_length) && relaxed_length > 0.0)) {
-      return "relaxed_length = " + std::to_string(relaxed_length) + ", must be finite and > 0";
+      return "relaxed_length = " + detail::text(relaxed_length) + ", must be finite and > 0";
     }
     return detail::not_negative(stiffness, "stiffness");
   }

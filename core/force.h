@@ -25,7 +25,6 @@ struct ForceOf {
 template <std::size_t I, class T>
 [[nodiscard]] const auto& force_on(const T& forces) {
   if constexpr (std::is_base_of_v<Eigen::EigenBase<T>, T>) {
-    static_assert(I == 0, "return one force for each point: std::tuple{f_a, f_b}");
     return forces;
   } else {
     return std::get<I>(forces);
@@ -36,10 +35,7 @@ template <std::size_t I, class S, class E, class Law>
 void collect_force_on(const Law& law, VecOf<S, PointFacts<E>::inputs>& all) {
   using P = std::tuple_element_t<I, PointTuple<E>>;
   if constexpr (P::inputs > 0) {
-    const auto& force = force_on<I>(law);
-    static_assert(is_plain<std::remove_cvref_t<decltype(force)>>,
-                  "return plain vectors, not Eigen expressions: append .eval()");
-    all.template segment<P::inputs>(PointFacts<E>::first_input[I]) = force.template cast<S>();
+    all.template segment<P::inputs>(PointFacts<E>::first_input[I]) = force_on<I>(law).template cast<S>();
   }
 }
 
@@ -53,6 +49,11 @@ template <class S, class E, class Law>
   collect(std::make_index_sequence<PointFacts<E>::count>{});
   return all;
 }
+
+/// What the equation of a force returns.
+template <class Function, bool takes_time, class E, class Arguments>
+using ForceResult = std::remove_cvref_t<decltype(call<takes_time>(
+    std::declval<const Function&>(), std::declval<const Probe<E>&>(), std::declval<const Arguments&>()))>;
 
 /// Adds the entries of `f` to those of F at the given places.
 template <int N>
@@ -83,6 +84,9 @@ class PotentialBatch final : public ForceBatch {
   static constexpr int width = PointFacts<E>::coordinates;
   static constexpr bool takes_time =
       applicable_with_time<detail::EnergyOf<E>, detail::Probe<E>, detail::ProbePositions<E>>;
+  static_assert(
+      detail::Number<detail::ForceResult<detail::EnergyOf<E>, takes_time, E, detail::ProbePositions<E>>>,
+      "a potential returns its energy, one number; of an Eigen expression its .value()");
 
  public:
   void add(E element) { elements_.add(std::move(element)); }
@@ -147,6 +151,11 @@ class LawBatch final : public ForceBatch {
   static constexpr int width = PointFacts<E>::coordinates;
   static constexpr bool takes_time =
       applicable_with_time<detail::ForceOf<E>, detail::Probe<E>, detail::ProbeMotion<E>>;
+  static_assert(
+      detail::are_forces<detail::ForceResult<detail::ForceOf<E>, takes_time, E, detail::ProbeMotion<E>>,
+                         PointTuple<E>>,
+      "a force law returns one column of its point's dimension, or one for each point, std::tuple{f_a, f_b}; "
+      "of an Eigen expression its .eval()");
 
  public:
   void add(E element) { elements_.add(std::move(element)); }

@@ -80,16 +80,21 @@ struct Potential {
   Energy function;
 
   const Points& points() const { return on; }
-  auto energy(const auto&... a) const requires std::is_invocable_v<const Energy&, decltype(a)...> {
-    return function(a...);
-  }
+  auto energy(const auto&... a) const requires requires { function(a...); }
+  { return function(a...); }
 };
 
 /// A force from its potential: `potential(points(a, b), [](auto r_a, auto r_b) { return ...; })`, or
 /// with time: `[](auto t, auto r_a, auto r_b)`.
 template <class... P, class Energy>
 [[nodiscard]] auto potential(std::tuple<P...> on, Energy energy) {
-  return Potential<std::tuple<P...>, Energy>{std::move(on), std::move(energy)};
+  using Force = Potential<std::tuple<P...>, Energy>;
+  if constexpr (detail::written_for_any_scalar<std::tuple<P...>, Energy>())
+    static_assert(
+        PotentialForce<Force>,
+        "the lambda of a potential takes the position of each of its points, one argument each, and "
+        "time in front of them if it depends on time");
+  return Force{std::move(on), std::move(energy)};
 }
 
 /// A user's own force from its law; made by `force_law`.
@@ -100,16 +105,20 @@ struct ForceFromLaw {
   Law function;
 
   const Points& points() const { return on; }
-  auto force(const auto&... a) const requires std::is_invocable_v<const Law&, decltype(a)...> {
-    return function(a...);
-  }
+  auto force(const auto&... a) const requires requires { function(a...); }
+  { return function(a...); }
 };
 
 /// A force from its law: `force_law(points(a), [](auto r, auto v) { return (-0.1 * v).eval(); })`,
 /// with time in front if it depends on time. For several points return std::tuple{f_a, f_b}.
 template <class... P, class Law>
 [[nodiscard]] auto force_law(std::tuple<P...> on, Law law) {
-  return ForceFromLaw<std::tuple<P...>, Law>{std::move(on), std::move(law)};
+  using Force = ForceFromLaw<std::tuple<P...>, Law>;
+  if constexpr (detail::written_for_any_scalar<std::tuple<P...>, Law>())
+    static_assert(LawForce<Force>,
+                  "the lambda of a force law takes the position of each of its points, then the velocity of "
+                  "each, and time in front of them if it depends on time");
+  return Force{std::move(on), std::move(law)};
 }
 
 static_assert(PotentialForce<Spring<Fixed<2>, Particle<2>>>);

@@ -63,9 +63,8 @@ struct FrictionFromLaw {
 
   const Points& points() const { return on; }
   const Constraint<Rows>& constraint() const { return of; }
-  auto friction(const auto&... a) const requires std::is_invocable_v<const Law&, decltype(a)...> {
-    return function(a...);
-  }
+  auto friction(const auto&... a) const requires requires { function(a...); }
+  { return function(a...); }
 };
 
 /// A force from its law F(lambda, r, v) that reads the multiplier of one constraint: sliding friction on
@@ -81,6 +80,11 @@ struct FrictionFromLaw {
 /// force is an applied one, F in M q'' = F + W^T lambda: it is no part of the constraint's force, and
 /// its power is listed by `audit`.
 ///
+/// The law is called with multipliers near those of the motion: with the ones that it would have without
+/// friction at first, later with the last ones, and with what Newton's iteration makes of them, which may for
+/// a moment lie on the other side of 0. It must have a value and a derivative where lambda itself lies, none
+/// at 0.
+///
 /// It describes sliding. Nothing sticks: near v = 0 a law that jumps there stops the run or chatters;
 /// smooth it, v / sqrt(v^2 + small^2), or end the run before. Nor does a constraint let go where lambda
 /// changes sign.
@@ -90,7 +94,13 @@ struct FrictionFromLaw {
 /// force. So is reading a multiplier that the motion does not determine, of redundant constraints.
 template <int Rows, class... P, class Law>
 [[nodiscard]] auto friction_law(Constraint<Rows> of, std::tuple<P...> on, Law law) {
-  return FrictionFromLaw<Rows, std::tuple<P...>, Law>{of, std::move(on), std::move(law)};
+  using Force = FrictionFromLaw<Rows, std::tuple<P...>, Law>;
+  if constexpr (detail::written_for_any_scalar<std::tuple<P...>, Law>())
+    static_assert(
+        FrictionForce<Force>,
+        "the lambda of a friction law takes lambda, the position of each of its points and then the "
+        "velocity of each, and time in front of them if it depends on time");
+  return Force{of, std::move(on), std::move(law)};
 }
 
 }  // namespace dalembert

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/core/mistakes.h>
 #include <dalembert/core/vec.h>
 
 #include <array>
@@ -89,7 +90,12 @@ struct Driven {
 /// A driven point from its path: `driven([](auto t) { return vec(0.1 * sin(10.0 * t), 0.0); })`.
 template <class Path>
 [[nodiscard]] auto driven(Path path) {
+  static_assert(
+      !detail::NamesItsArguments<Path>,
+      "write `auto` for the time that a path takes: it is called with numbers that carry derivatives");
   using Position = decltype(path(0.0));
+  static_assert(detail::Column<Position>,
+                "a path returns a plain column of fixed size, vec(x, y); of an Eigen expression its .eval()");
   return Driven<Position::RowsAtCompileTime, Path>{std::move(path)};
 }
 

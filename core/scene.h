@@ -93,6 +93,16 @@ class Scene {
     place_force<FrictionBatch<E>>(frictions_, std::move(force), own);
   }
 
+  /// Everything else is a mistake, which the compiler tells.
+  template <class E>
+  void add(E /*element*/, const std::string& /*name*/ = {}) {
+    static_assert(HasPoints<E>, "a scene adds constraints, forces and its own UniformGravity<D>");
+    if constexpr (HasPoints<E>) require_points<E>();
+    static_assert(!HasPoints<E> || !ActsOnPoints<E>,
+                  "a constraint is called with the positions of its points, one that is velocity_level and a "
+                  "force law also with their velocities, and for any scalar type");
+  }
+
   [[nodiscard]] const std::string& name() const { return layout_.scene; }
   /// Initial coordinates and velocities, of particles and rotors in the order of adding.
   [[nodiscard]] std::span<const double> initial_positions() const { return q_; }
@@ -119,10 +129,19 @@ class Scene {
   [[nodiscard]] std::string unique_name(std::string_view kind, const std::string& name,
                                         std::size_t number) const;
 
+  template <class E>
+  static constexpr void require_points() {
+    static_assert(PointFacts<E>::template in_space<D>,
+                  "all points of a constraint or force must have the dimension of the scene");
+    static_assert(PointFacts<E>::inputs > 0,
+                  "at least one point of a constraint or force must be able to move");
+  }
+
   /// Checks an element's parameters and points and returns its name. What is refused leaves no trace.
   template <class Element>
   std::string admit(const Element& element, std::string_view kind, const std::string& name,
                     std::size_t number) {
+    require_points<Element>();
     const std::string own = unique_name(kind, name, number);
     const std::string label = std::string(kind) + " \"" + own + '"';
     if constexpr (requires { element.fault(); }) {
@@ -143,8 +162,6 @@ class Scene {
   }
   template <Point P>
   void admit_point(const P& point, const std::string& label, Eigen::AlignedBox<double, D>& extent) const {
-    static_assert(P::dimension == D || std::is_same_v<P, Rotor>,
-                  "a point of this constraint or force has another dimension than the scene");
     if constexpr (requires { point.particles; }) {
       for (const auto& particle : point.particles) admit_point(particle, label, extent);
     } else if constexpr (P::coordinates > 0) {

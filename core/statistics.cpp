@@ -11,8 +11,9 @@ std::string Statistics::report() const {
   if (singular_positions > 0) out << singular_positions << " singular positions crossed, ";
   out << steps << " steps, accuracy " << accuracy << ", " << evaluations << " evaluations, " << factorisations
       << " factorisations, " << error_test_failures << " error test failures, " << convergence_failures
-      << " convergence failures, residuals " << residual_position << " (position) " << residual_velocity
-      << " (velocity), correction " << correction << ", " << run_time << " s";
+      << " convergence failures, length " << length << ", time " << time << ", residuals "
+      << residual_position << " (position) " << residual_velocity << " (velocity), correction " << correction
+      << ", " << run_time << " s";
   if (!linear_algebra.empty()) out << ", " << linear_algebra;
   if (!advice.empty()) out << "; " << advice;
   return out.str();

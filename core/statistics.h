@@ -18,10 +18,12 @@ struct Statistics {
   long error_test_failures = 0;   ///< steps repeated because their error was too large
   long convergence_failures = 0;  ///< steps repeated because Newton's iteration did not converge
   /// Steps of the explicit stepper held down by stability, not accuracy (counted by samples). If
-  /// these are most of the steps the scene is stiff: Stepper::ida will be faster.
+  /// these are most of the steps, Stepper::ida may be faster: where nothing fast needs to be followed.
   long stability_limited = 0;
   std::string advice;              ///< what held up the run, if that is known, and what to do about it
   std::string linear_algebra;      ///< what factors the matrices: LDL the Schur complement, KLU the whole
+  double length = 0.0;             ///< the scene's, to which tolerances were relative [length]
+  double time = 0.0;               ///< the scene's, in which it moves by that length [time]
   double residual_position = 0.0;  ///< largest |g|/|grad g| at any sample [length]
   double residual_velocity = 0.0;  ///< largest |psi|/|W row| at any sample [speed]
   double correction = 0.0;         ///< largest move that put a sample onto its constraints [length]

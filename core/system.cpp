@@ -159,7 +159,8 @@ void System::bias(const Instant& at, std::span<double> gamma) const {
   });
 }
 
-void System::linearise(const Instant& at, std::span<const double> lambda, Linearisation& out) const {
+void System::linearise_constraints(const Instant& at, std::span<const double> lambda,
+                                   Linearisation& out) const {
   on_constraints(at.t, [&](const ConstraintBatch& batch, const Offsets& first) {
     const ConstraintShape shape = batch.shape();
     const auto width = static_cast<std::size_t>(shape.width);
@@ -167,6 +168,10 @@ void System::linearise(const Instant& at, std::span<const double> lambda, Linear
     batch.linearise(at, lambda.subspan(first.row, count), part(out.psi_q, first.w, count * width),
                     part(out.stiffness, first.stiffness, batch.size() * width * width));
   });
+}
+
+void System::linearise(const Instant& at, std::span<const double> lambda, Linearisation& out) const {
+  linearise_constraints(at, lambda, out);
   on_forces(at.t, [&](const ForceBatch& batch, const Offsets& first) {
     const ForceShape shape = batch.shape();
     const std::size_t entries = batch.size() * static_cast<std::size_t>(shape.width * shape.width);

@@ -98,6 +98,8 @@ class System {
   void bias(const Instant& at, std::span<double> gamma) const;
   /// Derivatives for the multipliers lambda (m numbers). Throws like `evaluate`.
   void linearise(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
+  /// What of it the constraints say: the first `stiffness_of_constraints` entries, and psi_q.
+  void linearise_constraints(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
 
   /// Adds F_f for the multipliers lambda to F. Throws like `evaluate`.
   void add_friction(const Instant& at, std::span<const double> lambda, std::span<double> F) const;

@@ -60,6 +60,24 @@ AnyStepper make_stepper(const System& system, const Start& start, const Options&
   return AnyStepper(std::in_place_type<IdaStepper>, system, start, options);
 }
 
+/// The start of a run. What has no length but that of its path gets that of a first explicit step, whose
+/// error is within the tolerance of its own length.
+Start first_start(const System& system, std::span<const double> q, std::span<const double> v,
+                  const Options& options) {
+  Start start = consistent_start(system, q, v, options);
+  if (!start.scales.of_path) return start;
+  try {
+    ErkStepper first(system, start, options);
+    first.step(options.t_end);
+    const Scales& scales = first.scales();
+    start.scales.of_path = scales.way.length > Scales::least;  // else it rests, and any length will do
+    if (start.scales.of_path) start.scales.take(scales.way);
+  } catch (const StepFailure&) {
+    start.scales.of_path = false;  // the run will stop, and say why
+  }
+  return start;
+}
+
 }  // namespace
 
 struct Integrator::State {
@@ -67,7 +85,7 @@ struct Integrator::State {
       : options(o),
         times(sample_times(o)),
         system(std::move(s)),
-        start(consistent_start(system, q0, v0, o)),
+        start(first_start(system, q0, v0, o)),
         lever(start.scales.lever()),
         manifold(std::in_place, system, start.rows, lever),
         stepper(make_stepper(system, start, o)),
@@ -224,7 +242,7 @@ struct Integrator::State {
     try {
       interpolate(stepper_time(), next.q, next.v);
       if (!manifold->solve_motion(stepper_time(), next.q, next.v, next.a, next.lambda)) return {};
-      return outgrown_constraint(system, start.scales, manifold->equations().w, next.lambda);
+      return outgrown_constraint(system, start.scales, manifold->equations().w, next.lambda, lambda_at_start);
     } catch (const std::exception&) {
       return {};  // the run is stopping: what stops it is known already
     }
@@ -264,7 +282,8 @@ struct Integrator::State {
   std::vector<double> times;
   System system;
   Start start;
-  std::vector<double> lever;         // see Scales
+  std::vector<double> lever;  // see Scales
+  std::vector<double> lambda_at_start = start.lambda;
   std::optional<Manifold> manifold;  // of the current rows
   AnyStepper stepper;
   long steps = 0;

@@ -13,6 +13,16 @@ namespace {
 constexpr double smallest_tolerance = 1e-13;
 constexpr double largest_tolerance = 1e-1;
 
+/// More are no result that one could hold, at some hundred bytes each.
+constexpr double most_samples = 1e8;
+constexpr const char* too_many = "asks for more than 1e8 samples; use a Simulation and its steps";
+
+std::string text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
 template <class T>
 void require(bool good, const char* option, const T& value, const std::string& rule) {
   if (good) return;
@@ -23,6 +33,7 @@ void require(bool good, const char* option, const T& value, const std::string& r
 
 std::vector<double> equally_spaced(const Options& o) {
   require(o.samples >= 2, "samples", o.samples, "must be at least 2, one for either end of the run");
+  require(o.samples <= most_samples, "samples", o.samples, too_many);
   std::vector<double> times(static_cast<std::size_t>(o.samples));
   for (std::size_t i = 0; i < times.size(); ++i) {
     times[i] =
@@ -37,8 +48,10 @@ std::vector<double> every_interval(const Options& o) {
           "must be finite and > 0");
   // An interval that divides the run up to round-off must not lose its last sample.
   const double count = std::floor((o.t_end - o.t_start) / o.sample_interval * (1.0 + 1e-12));
-  require(count < 1e9, "sample_interval", o.sample_interval,
-          "asks for more than 1e9 samples; use an observer and steps");
+  require(count >= 1.0, "sample_interval", o.sample_interval,
+          "is longer than the run, so that nothing would be integrated; must be at most t_end - t_start = " +
+              text(o.t_end - o.t_start));
+  require(count < most_samples, "sample_interval", o.sample_interval, too_many);
   std::vector<double> times;
   for (double i = 0.0; i <= count; i += 1.0)
     times.push_back(std::min(o.t_start + i * o.sample_interval, o.t_end));
@@ -52,9 +65,11 @@ const char* name(Stepper stepper) { return stepper == Stepper::erk ? "erk" : "id
 void validate(const Options& o) {
   require(std::isfinite(o.t_start), "t_start", o.t_start, "must be finite");
   require(std::isfinite(o.t_end) && o.t_end > o.t_start, "t_end", o.t_end,
-          "must be finite and later than t_start = " + std::to_string(o.t_start));
+          "must be finite and later than t_start = " + text(o.t_start));
   require(o.tolerance >= smallest_tolerance && o.tolerance <= largest_tolerance, "tolerance", o.tolerance,
           "must lie between 1e-13, what double precision can deliver, and 0.1");
+  require(std::isfinite(o.length) && o.length >= 0.0, "length", o.length,
+          "must be finite and > 0, or 0 for the scene's own");
   require(o.max_steps > 0, "max_steps", o.max_steps, "must be > 0");
 }
 

@@ -17,9 +17,9 @@ struct Options {
   double t_end = 0.0;    ///< where the run ends, > t_start [time]
   double t_start = 0.0;  ///< time of the initial state [time]
 
-  /// Number of samples, equally spaced, with one at either end; >= 2. Unless one of the next two is given.
+  /// Number of samples, equally spaced, with one at either end; 2 to 1e8. Unless one of the next two is given.
   int samples = 101;
-  double sample_interval = 0.0;  ///< or a sample every so often, from t_start [time]
+  double sample_interval = 0.0;  ///< or a sample every so often, from t_start; at most the run's length [time]
   std::vector<double> times{};   ///< or samples at these very times, increasing, within the run
 
   /// Relative accuracy: the steps are chosen so that each errs by the tolerance (of `ida`, whose steps are
@@ -33,6 +33,11 @@ struct Options {
   /// False: an initial state that violates a constraint is an error. True: it is moved onto the
   /// constraints, in Newton steps of which each is the least mass-weighted one.
   bool assemble = false;
+
+  /// The scene's own length, to which the tolerance is relative; 0: the box around its points, or, of a lone
+  /// particle, the radius of its curve or surface, or the extent that its path has covered so far. See
+  /// Statistics for what was used. Finite, >= 0 [length]
+  double length = 0.0;
 };
 
 /// The sample times that the options ask for. Throws InvalidScene, naming the option, its value

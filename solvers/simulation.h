@@ -63,7 +63,8 @@ class Simulation {
 /// Runs a scene and returns its motion and forces of constraint. Throws InvalidScene,
 /// InconsistentStart, IntegrationFailure; see there.
 template <int D>
-[[nodiscard]] Trajectory<D> simulate(const Scene<D>& scene, const Options& options) {
+[[nodiscard]] Trajectory<D> simulate(  // is an option misspelled, or not in the order of solvers/options.h?
+    const Scene<D>& scene, const Options& options) {
   return Simulation<D>(scene, options).run();
 }
 

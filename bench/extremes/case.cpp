@@ -28,7 +28,8 @@ Result run(const Case& extreme, double parameter, Stepper stepper) try {
 std::vector<Group> groups() {
   return {{"stiffness", stiffness()}, {"ratios", ratios()},   {"near-singular", near_singular()},
           {"linkages", linkages()},   {"driving", driving()}, {"length", length()},
-          {"units", units()},         {"starts", starts()},   {"failures", failures()}};
+          {"paths", paths()},         {"units", units()},     {"starts", starts()},
+          {"failures", failures()}};
 }
 
 Verdict judge(const Case& extreme, double parameter, Stepper stepper) {

@@ -51,6 +51,7 @@ struct Group {
 [[nodiscard]] std::vector<Case> linkages();
 [[nodiscard]] std::vector<Case> driving();
 [[nodiscard]] std::vector<Case> length();
+[[nodiscard]] std::vector<Case> paths();
 [[nodiscard]] std::vector<Case> units();
 [[nodiscard]] std::vector<Case> starts();
 [[nodiscard]] std::vector<Case> failures();

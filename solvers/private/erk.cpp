@@ -48,6 +48,7 @@ double ErkStepper::State::round_off_of_projection() const {
 /// Tries a step into `next`. Returns its error over the tolerance; infinite, with the reason in
 /// `fault`, if the equations cannot be evaluated on its way.
 double ErkStepper::State::attempt(double step) {
+  scales.way = covered;
   try {
     run_stages(to, step, stages - 1);
     finish(to, step, next);
@@ -87,6 +88,7 @@ double ErkStepper::State::step_towards(double wanted) const {
 /// Takes `next` for the end of a step.
 void ErkStepper::State::accept(bool by_extrapolation) {
   usual = std::max(next.t - to.t, forgetting * usual);
+  covered = scales.way;
   ++steps;
   has_middle = false;
   crossed = by_extrapolation;
@@ -124,6 +126,7 @@ void ErkStepper::step(double wanted) {
   s.accept(false);
 }
 
+const Scales& ErkStepper::scales() const { return state_->scales; }
 double ErkStepper::time() const { return state_->to.t; }
 double ErkStepper::sine() const { return state_->to.sine; }
 
@@ -149,6 +152,8 @@ void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v)
 void ErkStepper::count(Statistics& statistics) const {
   const State& s = *state_;
   statistics.steps += s.steps;
+  statistics.length = s.scales.length;
+  statistics.time = s.scales.time;
   statistics.evaluations += s.manifold.evaluations();
   statistics.factorisations += s.manifold.factorisations();
   statistics.error_test_failures += s.failures;
@@ -157,7 +162,9 @@ void ErkStepper::count(Statistics& statistics) const {
   statistics.linear_algebra = s.manifold.method();
   statistics.stability_limited += s.stability_limited;
   if (2 * s.stability_limited > s.steps)
-    statistics.advice = "stiff: stability, not accuracy, held down most steps; use Stepper::ida";
+    statistics.advice =
+        "stability, not accuracy, held down most steps: looser tolerances will hardly be faster; "
+        "Stepper::ida has no such limit, but more steps of its own: try whether it is faster";
 }
 
 }  // namespace dalembert

@@ -42,6 +42,7 @@ class ErkStepper {
   /// last one and end earlier than that. Throws StepFailure.
   void step(double wanted);
   [[nodiscard]] double time() const;
+  [[nodiscard]] const Scales& scales() const;
   /// See Manifold::sine; where the last step ended.
   [[nodiscard]] double sine() const;
   /// The state at a time inside the last step (or at the start, before the first). Throws

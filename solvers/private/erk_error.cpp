@@ -16,7 +16,7 @@ constexpr double stable = 3.3;
 void ErkStepper::State::weigh(const Node& at) {
   for (std::size_t i = 0; i < n; ++i) {
     weight[i] = 1.0 / scales.position_error(i, at.q[i], tolerance);
-    weight[n + i] = 1.0 / (tolerance * (scales.coordinate[i] / scales.time + std::abs(at.va[i])));
+    weight[n + i] = 1.0 / scales.velocity_error(i, at.q[i], at.va[i], tolerance);
   }
 }
 
@@ -32,6 +32,7 @@ double ErkStepper::State::size() const {
 
 /// The estimated error of a step to `next` over the tolerance.
 double ErkStepper::State::error(double step) {
+  if (scales.of_path) scales.take(scales.further(next.q, halves(next.va).first, step, tolerance));
   weigh(next);
   d.apply(step, k, difference.data(), 2 * n);
   return std::max(size(), error_of_springs(std::span(difference).first(n)));

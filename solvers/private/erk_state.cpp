@@ -34,6 +34,7 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
       stage_q(start.q.size()),
       difference(2 * start.q.size()),
       weight(difference.size()),
+      covered(start.scales.way),
       // A third of the step that an error constant of 1 allows.
       h(std::min(0.3 * std::pow(options.tolerance, 1.0 / pair.order) * start.scales.time,
                  options.t_end - options.t_start)),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 #include <sstream>
+#include <utility>
 
 namespace dalembert {
 
@@ -52,18 +53,30 @@ bool FrictionSolver::settled() const {
   return difference <= same * std::max(largest(force_), largest(predicted_));
 }
 
-bool FrictionSolver::solve(const Instant& at, std::span<const double> w, std::span<const double> s,
-                           std::span<double> x) {
-  const std::size_t n = force_.size();
-  std::ranges::copy(x, given_.begin());
+/// The multipliers that the motion would have without friction.
+bool FrictionSolver::begin(std::span<const double> w, std::span<const double> s) {
+  if (!matrix_.factorise(w, s)) return false;
+  std::vector<double> x = given_;
+  matrix_.solve(x);
   std::ranges::fill(lambda_, 0.0);
+  spread(x);
+  return std::ranges::all_of(x, [](double value) { return std::isfinite(value); });
+}
+
+void FrictionSolver::spread(std::span<const double> x) {
+  for (std::size_t r = 0; r < rows_.rows.size(); ++r)
+    lambda_[static_cast<std::size_t>(rows_.rows[r])] = x[force_.size() + r];
+}
+
+FrictionSolver::Outcome FrictionSolver::iterate(const Instant& at, std::span<const double> w,
+                                                std::span<const double> s, std::span<double> x) {
+  const std::size_t n = force_.size();
   std::ranges::fill(force_, 0.0);
   system_->add_friction(at, lambda_, force_);
   for (int step = 0; step < most_steps; ++step) {
     system_->friction_slope(at, lambda_, slope_);
-    const bool regular = matrix_.factorise_with_friction(w, s, slope_);
-    if (!regular && !matrix_.factorise(w, s)) return false;
-    require_regular(regular, at.t);
+    if (!matrix_.factorise_with_friction(w, s, slope_))
+      return matrix_.factorise(w, s) ? Outcome::none : Outcome::singular;
     // F_f(lambda) - slope lambda: what stands on the right of (2), and with slope times the new lambda
     // the force predicted there.
     std::ranges::copy(force_, predicted_.begin());
@@ -71,24 +84,50 @@ bool FrictionSolver::solve(const Instant& at, std::span<const double> w, std::sp
     std::ranges::copy(given_, x.begin());
     for (std::size_t i = 0; i < n; ++i) x[i] += predicted_[i];
     matrix_.solve(x);
-    if (!std::ranges::all_of(x, [](double value) { return std::isfinite(value); })) return false;
-    for (std::size_t r = 0; r < rows_.rows.size(); ++r)
-      lambda_[static_cast<std::size_t>(rows_.rows[r])] = x[n + r];
+    if (!std::ranges::all_of(x, [](double value) { return std::isfinite(value); })) return Outcome::singular;
+    spread(x);
     add_slope(1.0, lambda_, predicted_);
     std::ranges::fill(force_, 0.0);
     system_->add_friction(at, lambda_, force_);
-    if (!settled()) continue;
-    require_regular(matrix_.sign_of_determinant() > 0, at.t);
-    return true;
+    if (settled()) return matrix_.sign_of_determinant() > 0 ? Outcome::solved : Outcome::none;
   }
-  refuse(at.t);
+  return Outcome::none;
+}
+
+/// From the multipliers of the last solution, if there is one and that leads to another.
+FrictionSolver::Outcome FrictionSolver::iterate_from_last(const Instant& at, std::span<const double> w,
+                                                          std::span<const double> s,
+                                                          std::span<double> x) try {
+  return std::exchange(begun_, false) ? iterate(at, w, s, x) : Outcome::none;
+} catch (const EquationFault&) {
+  return Outcome::none;
+}
+
+bool FrictionSolver::solve(const Instant& at, std::span<const double> w, std::span<const double> s,
+                           std::span<double> x) {
+  std::ranges::copy(x, given_.begin());
+  Outcome outcome = iterate_from_last(at, w, s, x);
+  if (outcome == Outcome::none) {
+    if (!begin(w, s)) return false;
+    outcome = iterate(at, w, s, x);
+  }
+  if (outcome == Outcome::none) refuse(at.t);
+  begun_ = outcome == Outcome::solved;
+  return begun_;
+}
+
+/// A law that has no slope at -lambda has no solution there either.
+bool FrictionSolver::mirrored_slope(const Instant& at) try {
+  for (const double value : lambda_) mirrored_.push_back(-value);
+  system_->friction_slope(at, mirrored_, slope_mirrored_);
+  return true;
+} catch (const EquationFault&) {
+  return false;
 }
 
 void FrictionSolver::require_unique(const Instant& at, std::span<const double> w, std::span<const double> s) {
-  for (double& value : lambda_) value = -value;
-  system_->friction_slope(at, lambda_, slope_mirrored_);
-  for (double& value : lambda_) value = -value;
-  if (slope_mirrored_ == slope_) return;
+  mirrored_.clear();
+  if (!mirrored_slope(at) || slope_mirrored_ == slope_) return;
   require_regular(matrix_.factorise_with_friction(w, s, slope_mirrored_) && matrix_.sign_of_determinant() > 0,
                   at.t);
 }

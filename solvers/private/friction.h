@@ -13,7 +13,7 @@ namespace dalembert {
 ///   [ M  -W^T ] [ v'     ]   [ F + F_f(lambda) ]
 ///   [ W   s   ] [ lambda ] = [ b               ],                                        (1)
 ///
-/// by Newton's iteration from lambda = 0 with
+/// by Newton's iteration, from the multipliers of the last solution or of the motion without friction, with
 ///
 ///   [ M  -(W^T + dF_f/dlambda) ]
 ///   [ W   s                    ].                                                        (2)
@@ -51,13 +51,22 @@ class FrictionSolver {
   /// y += factor dF_f/dlambda x, for one number per row of the system.
   void add_slope(double factor, std::span<const double> x, std::span<double> y) const;
   [[nodiscard]] bool settled() const;
+  enum class Outcome { solved, none, singular };  // none: no or no unique solution; singular: W is
+  [[nodiscard]] bool begin(std::span<const double> w, std::span<const double> s);
+  [[nodiscard]] Outcome iterate(const Instant& at, std::span<const double> w, std::span<const double> s,
+                                std::span<double> x);
+  [[nodiscard]] Outcome iterate_from_last(const Instant& at, std::span<const double> w,
+                                          std::span<const double> s, std::span<double> x);
+  void spread(std::span<const double> x);
+  [[nodiscard]] bool mirrored_slope(const Instant& at);
   void require_regular(bool regular, double t);
   [[noreturn]] void refuse(double t) const;
 
   const System* system_;
   ActiveRows rows_;
   KktMatrix matrix_;
-  std::vector<double> given_, lambda_, slope_, slope_mirrored_;
+  bool begun_ = false;  // lambda_ solved (1) the last time
+  std::vector<double> given_, lambda_, mirrored_, slope_, slope_mirrored_;
   std::vector<double> force_, predicted_;
   std::vector<char> reads_;  // per entry of the slope; empty until it is asked for
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace dalembert {
 
@@ -34,9 +35,11 @@ IdaStepper::IdaStepper(const System& system, const Start& start, const Options& 
   };
   const auto weigh = [](N_Vector x, N_Vector weight, void* data) noexcept {
     State& own = *static_cast<State*>(data);
-    own.weights = weight;
-    own.weigh(x, weight);
-    return 0;
+    return guarded(own, own.t, [&] {
+      own.weights = weight;
+      own.weigh(x, weight);
+      return 0;
+    });
   };
   const auto record = [](double t, double c, N_Vector x, N_Vector, N_Vector, SUNMatrix, void* data, N_Vector,
                          N_Vector, N_Vector) noexcept {
@@ -133,6 +136,7 @@ void IdaStepper::step(double /*wanted*/) {
   if (s.order_changed) s.change_order();
   const double before = s.t;
   const int code = IDASolve(s.ida.get(), s.t_end, &s.t, s.y.get(), s.yp.get(), IDA_ONE_STEP);
+  if (s.thrown) std::rethrow_exception(std::exchange(s.thrown, {}));
   if (code < 0) throw StepFailure{s.explain(code), s.t};
   ++s.steps;
   s.noise_of_steps += s.noise_of_step;
@@ -188,6 +192,11 @@ void IdaStepper::count(Statistics& statistics) const {
   statistics.steps += s.steps;
   if (s.steps > 0)
     statistics.accuracy = std::max(statistics.accuracy, s.asked_for + s.noise_of_steps / (s.t - s.t_start));
+  Scales scales = s.scales;
+  const Instant now = s.instant(s.t, s.y.get());
+  if (scales.of_path) scales.take(scales.further(now.q, now.v, scales.way.step, s.tolerance));
+  statistics.length = scales.length;
+  statistics.time = scales.time;
   statistics.evaluations += s.evaluations;
   statistics.factorisations += s.newton.factorisations();
   statistics.linear_algebra = s.newton.method();

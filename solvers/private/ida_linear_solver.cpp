@@ -29,10 +29,10 @@ void IdaStepper::State::make_linear_solver() {
   };
   solver->ops->solve = [](SUNLinearSolver self, SUNMatrix, N_Vector x, N_Vector b, double) noexcept {
     State& s = *static_cast<State*>(self->content);
-    double c = 0.0;
-    IDAGetCurrentCj(s.ida.get(), &c);
     if (x != b) N_VScale(1.0, b, x);
     return guarded(s, s.evaluated_at, [&] {
+      double c = 0.0;
+      check(IDAGetCurrentCj(s.ida.get(), &c), "IDAGetCurrentCj");
       // IDA keeps a matrix as long as Newton converges; fresh factors cost less than that saves.
       if (s.evaluated_at != s.factored_at) {
         s.factored_at = s.evaluated_at;

@@ -36,6 +36,7 @@ IdaStepper::State::State(const System& s, const Start& start, const Options& opt
       e(s.evaluation()),
       lambda(start.lambda),
       impulse_row(static_cast<std::size_t>(start.rows.size())),
+      compliance_row(impulse_row.size()),
       newton(s, start.rows, start.scales.time),
       t(options.t_start) {
   y.reset(check(N_VNew_Serial(static_cast<sunindextype>(unknowns()), context.get())));
@@ -58,18 +59,19 @@ IdaStepper::State::State(const System& s, const Start& start, const Options& opt
     const auto row = static_cast<std::size_t>(rows.rows[r]);
     if (system->compliance()[row] > 0.0) yp0[2 * n() + r] = -e.psi[row] / system->compliance()[row];
   }
-  const auto lever = scales.lever();
-  for (std::size_t r = 0; r < m(); ++r)
-    impulse_row[r] =
-        impulse_of_row(*system, e.w, lever, static_cast<std::size_t>(rows.rows[r]), scales.speed());
-
-  for (std::size_t r = 0; r < m(); ++r) {
-    const auto row = static_cast<std::size_t>(rows.rows[r]);
-    compliance_row.push_back(system->compliance()[row] / gradient_length(*system, e.w, lever, row));
-  }
+  find_impulses();
 
   ida.reset(check(IDACreate(context.get())));
   make_linear_solver();
+}
+
+void IdaStepper::State::find_impulses() {
+  const auto lever = scales.lever();
+  for (std::size_t r = 0; r < m(); ++r) {
+    const auto row = static_cast<std::size_t>(rows.rows[r]);
+    impulse_row[r] = impulse_of_row(*system, e.w, lever, row, scales.speed());
+    compliance_row[r] = system->compliance()[row] / gradient_length(*system, e.w, lever, row);
+  }
 }
 
 /// IDA's multipliers, one per active row, into one per row of the system.
@@ -142,11 +144,15 @@ void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
   if (h == 0.0) h = first_step;
   const auto value = entries(x);
   const auto w = entries(weight);
+  if (scales.of_path) {
+    scales.take(scales.further(value.first(n()), value.subspan(n(), n()), h, tolerance));
+    find_impulses();
+  }
   const double eps = roundings * std::numeric_limits<double>::epsilon();
   noise_of_step = 0.0;
   for (std::size_t i = 0; i < n(); ++i) {
-    const double scale = scales.coordinate[i], noise = eps * std::abs(value[i]);
-    const double speed = tolerance * (scale / scales.time + std::abs(value[n() + i]));
+    const double noise = eps * std::abs(value[i]);
+    const double speed = scales.velocity_error(i, value[i], value[n() + i], tolerance);
     w[i] = 1.0 / (scales.position_error(i, value[i], tolerance) + noise);
     w[n() + i] = 1.0 / (speed + noise / h);
     noise_of_step = std::max(noise_of_step, noise * tolerance / speed);

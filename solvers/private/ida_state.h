@@ -8,6 +8,7 @@
 
 #include <ida/ida.h>
 
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,7 @@ struct IdaStepper::State {
   // Where `e` holds.
   double evaluated_at = 0.0, factored_at = 0.0;
   N_Vector evaluated = nullptr;
+  std::exception_ptr thrown;  // by a callback, to be thrown again when IDA has returned
 
   [[nodiscard]] std::size_t n() const { return static_cast<std::size_t>(system->coordinates()); }
   [[nodiscard]] std::size_t m() const { return static_cast<std::size_t>(rows.size()); }
@@ -67,6 +69,7 @@ struct IdaStepper::State {
   void watch_order();
   void change_order();
   void count_failures(long& error_tests, long& convergence) const;
+  void find_impulses();
   void spread_multipliers(N_Vector x);
   void residual(double at, N_Vector x, N_Vector xp, N_Vector r);
   [[nodiscard]] double sine() const { return newton.factorisations() > 0 ? newton.sine() : 1.0; }
@@ -85,7 +88,7 @@ struct IdaStepper::State {
 };
 
 /// Runs `f` for C: +1, recoverable, for a fault of the user's equations at a time; the step is then
-/// tried shorter. -1 for anything else.
+/// tried shorter. -1 for anything else, which is kept.
 template <class State, class F>
 int guarded(State& state, double at, const F& f) noexcept {
   try {
@@ -94,6 +97,7 @@ int guarded(State& state, double at, const F& f) noexcept {
     state.blame(at, error.what());
     return 1;
   } catch (...) {
+    state.thrown = std::current_exception();
     return -1;
   }
 }

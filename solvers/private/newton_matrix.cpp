@@ -114,11 +114,20 @@ void NewtonMatrix::judge(double c) {
   }
 }
 
+/// A force whose own damping is beyond critical does not vibrate; the stiffness of a damper that turns is
+/// one.
 void NewtonMatrix::find_fastest_vibration() {
+  std::ranges::fill(p_, 0.0);
+  for (std::size_t k = 0; k < linear_.damping.size(); ++k) {
+    double& most = p_[static_cast<std::size_t>(system_->damping_pattern()[k].row)];
+    most = std::max(most, std::abs(linear_.damping[k]));
+  }
   double square = 0.0;
   for (std::size_t k = first_force_entry_; k < linear_.stiffness.size(); ++k) {
     const auto row = static_cast<std::size_t>(system_->stiffness_pattern()[k].row);
     const double own = std::abs(linear_.stiffness[k]) / system_->masses()[row];
+    const double damped = p_[row] / system_->masses()[row];
+    if (damped * damped > 4.0 * own) continue;
     if (own > square) stiffest_ = k;
     square = std::max(square, own);
   }

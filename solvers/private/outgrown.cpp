@@ -2,6 +2,7 @@
 
 #include <dalembert/solvers/private/rows.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -16,13 +17,13 @@ constexpr double unexplained = 1e4;
 }  // namespace
 
 std::string outgrown_constraint(const System& system, const Scales& scales, std::span<const double> w,
-                                std::span<const double> lambda) {
+                                std::span<const double> lambda, std::span<const double> lambda_at_start) {
   const auto lever = scales.lever();
   double most = unexplained;
   int row = -1;
   for (std::size_t r = 0; r < lambda.size(); ++r) {
-    const double size =
-        std::abs(lambda[r]) * scales.time / impulse_of_row(system, w, lever, r, scales.speed());
+    const double unit = impulse_of_row(system, w, lever, r, scales.speed()) / scales.time;
+    const double size = std::abs(lambda[r]) / std::max(unit, std::abs(lambda_at_start[r]));
     if (!(size > most)) continue;
     most = size;
     row = static_cast<int>(r);

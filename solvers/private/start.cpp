@@ -79,35 +79,37 @@ double smallest_radius(const System& system, const Instant& at, const System::Ev
     }
     unit[r] = 1.0 / std::sqrt(square);
   }
-  auto with = system.linearisation();
-  auto without = system.linearisation();
-  system.linearise(at, unit, with);
-  std::ranges::fill(unit, 0.0);
-  system.linearise(at, unit, without);
+  auto bent = system.linearisation();
+  system.linearise_constraints(at, unit, bent);
   double curvature = 0.0;
   const auto length = lengths_only(system);
   for (std::size_t k = 0; k < system.stiffness_of_constraints(); ++k) {
     const auto [row, column] = system.stiffness_pattern()[k];
     if (length[static_cast<std::size_t>(row)] == 0.0 || length[static_cast<std::size_t>(column)] == 0.0)
       continue;
-    curvature = std::max(curvature, std::abs(with.stiffness[k] - without.stiffness[k]));
+    curvature = std::max(curvature, std::abs(bent.stiffness[k]));
   }
   return 1.0 / curvature;
 }
 
-/// The length of the scene: the box around its points; for a lone particle on a surface or curve
-/// the radius of curvature, unless it does not get so far (what is nearly flat has no length of its
-/// own); for a free one the radius of its path, or how far it gets.
-double length_scale(const System& system, const Instant& at, const System::Evaluation& e, double duration) {
-  if (const double extent = system.extent(at.t); extent > 0.0) return extent;
+/// Sets the length of the scene: the box around its points; for a lone particle on a surface or curve
+/// the radius of curvature, unless it does not get so far. What is free or on something nearly flat has no
+/// length but that of its path, of which the first instant gives a guess. (On a compliant constraint that
+/// guess has to do: an explicit step would tell the vibration of the spring.)
+void set_length(const System& system, const Instant& at, const System::Evaluation& e, const Options& options,
+                Scales& scales) {
+  const double duration = options.t_end - options.t_start;
+  scales.length = options.length > 0.0 ? options.length : system.extent(at.t);
+  if (scales.length > 0.0) return;
   const double radius = smallest_radius(system, at, e);
   const auto lengths = lengths_only(system);
   const double v = largest_scaled(at.v, lengths);
   const double a = largest_scaled(forced_acceleration(system, e), lengths);
   const double reach = v * duration + a * duration * duration;
-  if (std::isfinite(radius)) return reach > 0.0 ? std::min(radius, reach) : radius;
-  if (v > 0.0 && a > 0.0) return v * v / a;
-  return reach > 0.0 ? reach : 1.0;  // nothing moves: any length will do
+  scales.length = reach > 0.0 ? std::min(radius, reach) : std::isfinite(radius) ? radius : 1.0;
+  scales.of_path = !system.compliant() && scales.length < radius && largest_entry(lengths) > 0.0;
+  if (std::isinf(radius) && v > 0.0 && a > 0.0) scales.length = v * v / a;
+  scales.forced = a;
 }
 
 /// Squares of lengths and their inverses occur everywhere.
@@ -240,9 +242,10 @@ Start consistent_start(const System& system, std::span<const double> q, std::spa
     auto e = system.evaluation();
     evaluate_relaxed(system, {t, q, v}, e);
     require_gradients(system, e, t);
-    start.scales.length = length_scale(system, {t, q, v}, e, duration);
+    set_length(system, {t, q, v}, e, options, start.scales);
     require_size(start.scales.length);
     start.scales.coordinate = system.coordinate_scales(start.scales.length);
+    start.scales.is_angle = system.coordinate_scales(0.0);
 
     start_positions(system, start, e, options);
     evaluate_relaxed(system, {t, start.q, start.v}, e);

@@ -163,5 +163,24 @@ TEST(System, ABadNumberOrAnExceptionNamesTheConstraintAndTheTime) {
                                                  HasSubstr("not a finite number"), HasSubstr("t = 0.25"))));
 }
 
+TEST(System, DescriptionCountsRotors) {
+  Scene<2> scene;
+  const auto a = scene.add_rotor({.inertia = 1.0});
+  const auto b = scene.add_rotor({.inertia = 2.0});
+  scene.add(holonomic(points(a, b), [](auto x, auto y) { return x[0] - y[0]; }));
+  EXPECT_THAT(scene.describe(), HasSubstr("0 particles and 2 rotors in 2 dimensions"));
+}
+
+// Eight equations for two coordinates: no count of freedom is below 0, and the rank is what counts.
+TEST(System, DescriptionOfTooManyEquationsHasNoNegativeFreedom) {
+  Scene<2> scene;
+  const auto p = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
+  for (int i = 0; i < 8; ++i) scene.add(Distance{Fixed<2>{}, p, 1.0});
+  const std::string text = scene.describe();
+  EXPECT_THAT(text, HasSubstr("not to be counted: 6 equations too many"));
+  EXPECT_THAT(text, HasSubstr("1 of 8 constraint equations independent, 1 degrees of freedom"));
+  EXPECT_EQ(text.find(": -"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace dalembert

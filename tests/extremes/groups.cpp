@@ -25,6 +25,7 @@ TEST(Extremes, MotionsCloseToSingularOnesAreRight) { expect_right(near_singular(
 TEST(Extremes, LinkagesPassTheirSingularPositions) { expect_right(linkages()); }
 TEST(Extremes, FastAndBrokenDrivesAreFollowed) { expect_right(driving()); }
 TEST(Extremes, LongRunsAndLargeScenesAreRight) { expect_right(length()); }
+TEST(Extremes, FreeParticlesHaveTheLengthOfTheirPath) { expect_right(paths()); }
 TEST(Extremes, UnitsAndTheOriginOfTimeAreOfNoAccount) { expect_right(units()); }
 TEST(Extremes, StartsAreAssembledOrRefusedByName) { expect_right(starts()); }
 TEST(Extremes, FailuresInMidRunSayWhenAndWhat) { expect_right(failures()); }

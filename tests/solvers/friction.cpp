@@ -221,5 +221,23 @@ TEST_P(Sliding, IntoPainlevesParadoxStopsTheRunByName) {
   }
 }
 
+/// A block on a level table, N = m g: a law may have no value or no derivative at lambda = 0, as Hertz's
+/// N^(1/3) has none, and is never asked for it.
+TEST_P(Sliding, ALawNeedsNoDerivativeWhereThereIsNoForce) {
+  const double c = 0.1, v0 = 3.0;
+  double least = g;
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto block = scene.add_particle({.mass = 1.0, .velocity = {v0, 0.0}});
+  const auto table = scene.add(OnCurve{block, Plane<2>{}});
+  scene.add(friction_law(table, points(block), [c, &least](auto lambda, auto, auto v) {
+    if constexpr (std::is_same_v<decltype(lambda), double>) least = std::min(least, std::abs(lambda));
+    return (-c * pow(lambda, 1.0 / 3.0) * v).eval();
+  }));
+  const auto run = simulate(scene, options(1.0));
+  EXPECT_NEAR(run.velocity(block, run.size() - 1).x(), v0 * std::exp(-c * std::cbrt(g)), error * v0);
+  EXPECT_GT(least, 0.5 * g);
+}
+
 }  // namespace
 }  // namespace dalembert

@@ -36,11 +36,22 @@ TEST(Options, ThereMustBeTwoSamplesAtLeast) {
     expect_refused({.t_end = 1.0, .samples = samples}, "samples", "at least 2");
 }
 
+TEST(Options, SamplesHaveABound) {
+  expect_refused({.t_end = 1.0, .samples = 2'000'000'000}, "samples", "more than 1e8 samples");
+}
+
+TEST(Options, TheLengthMustBeOne) {
+  for (const double length : {-1.0, nan, infinity})
+    expect_refused({.t_end = 1.0, .length = length}, "length", "must be finite and > 0, or 0");
+}
+
 TEST(Options, TheIntervalMustBePositive) {
   for (const double interval : {-1.0, nan, infinity}) {
     expect_refused({.t_end = 1.0, .sample_interval = interval}, "sample_interval", "must be finite and > 0");
   }
-  expect_refused({.t_end = 1.0, .sample_interval = 1e-10}, "sample_interval", "1e9 samples");
+  expect_refused({.t_end = 1.0, .sample_interval = 1.5}, "sample_interval", "longer than the run");
+  EXPECT_THAT(sample_times({.t_end = 1.0, .sample_interval = 1.0}), ElementsAre(0.0, 1.0));
+  expect_refused({.t_end = 1.0, .sample_interval = 1e-10}, "sample_interval", "1e8 samples");
 }
 
 TEST(Options, TheToleranceMustBeOneThatDoublePrecisionCanDeliver) {

@@ -195,5 +195,31 @@ TEST(Simulation, RefusesAForeignHandle) {
   EXPECT_THROW((void)simulation.multiplier(other.rod), InvalidScene);
 }
 
+/// The box around the pivot and the bob is 1 m long, or what the options say; in its time gravity moves the
+/// bob by that length.
+TEST(Simulation, StatisticsSayLengthAndTime) {
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    const Statistics own = simulate(Pendulum().scene, {.t_end = 1.0, .stepper = stepper}).statistics();
+    EXPECT_EQ(own.length, 1.0);
+    EXPECT_DOUBLE_EQ(own.time, 1.0 / std::sqrt(9.81));
+    const Statistics given =
+        simulate(Pendulum().scene, {.t_end = 1.0, .stepper = stepper, .length = 0.25}).statistics();
+    EXPECT_EQ(given.length, 0.25);
+    EXPECT_DOUBLE_EQ(given.time, 0.5 / std::sqrt(9.81));
+  }
+}
+
+/// A stone that falls from rest has come g t^2/2 far, and moves by that in t/2.
+TEST(Simulation, ALoneParticleHasTheLengthOfItsPath) {
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -9.81}});
+  scene.add_particle({.mass = 1.0});
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    const Statistics s = simulate(scene, {.t_end = 2.0, .stepper = stepper}).statistics();
+    EXPECT_NEAR(s.length, 0.5 * 9.81 * 4.0, 1e-4);
+    EXPECT_NEAR(s.time, 1.0, 1e-4);
+  }
+}
+
 }  // namespace
 }  // namespace dalembert

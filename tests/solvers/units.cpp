@@ -121,5 +121,19 @@ TEST(Units, ARadiusFarBeyondTheWayOfABeadIsNotItsLength) {
   }
 }
 
+// Nor has a charge that starts at the cusp of a cycloid.
+TEST(Units, ACycloidTakesAsManyStepsInAny) {
+  const auto charge = [](const Units& u) {
+    Scene<2> scene;
+    const double acceleration = u.length / (u.time * u.time), B = 3.0 * u.mass / u.time;
+    scene.add(UniformGravity<2>{{0.0, -9.81 * acceleration}});
+    const auto p = scene.add_particle({.mass = u.mass});
+    scene.add(force_law(points(p), [B](auto, auto v) { return vec(B * v.y(), -B * v.x()); }));
+    return scene;
+  };
+  const long metres = steps(charge({1.0, 1.0, 1.0}), 10.0);
+  for (const Units& u : {nano, giga}) expect_as_many(steps(charge(u), 10.0 * u.time), metres);
+}
+
 }  // namespace
 }  // namespace dalembert

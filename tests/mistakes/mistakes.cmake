@@ -1,0 +1,30 @@
+# cmake -D compiler=<path> -D "includes=<folders>" -D source=<mistakes.cpp> -P mistakes.cmake
+#
+# Fails unless the source compiles, but not with any of its mistakes: `#ifdef MISTAKE_...  // <sentence>` must
+# put the sentence into the first ten lines of what the compiler says.
+
+list(TRANSFORM includes PREPEND -I)
+set(compile ${compiler} -std=c++20 -fsyntax-only ${includes} ${source})
+
+execute_process(COMMAND ${compile} RESULT_VARIABLE failed ERROR_VARIABLE said)
+if(failed)
+  message(FATAL_ERROR "without a mistake:\n${said}")
+endif()
+
+set(wrong OFF)
+file(STRINGS ${source} mistakes REGEX "^#ifdef MISTAKE")
+foreach(line IN LISTS mistakes)
+  string(REGEX MATCH "^#ifdef ([A-Za-z_]+)  // (.*)$" matched "${line}")
+  set(mistake ${CMAKE_MATCH_1})
+  set(sentence "${CMAKE_MATCH_2}")
+  execute_process(COMMAND ${compile} -D${mistake} RESULT_VARIABLE failed ERROR_VARIABLE said)
+  string(REGEX MATCH "^([^\n]*\n?[^\n]*\n?[^\n]*\n?[^\n]*\n?[^\n]*\n?[^\n]*\n?[^\n]*\n?[^\n]*\n?[^\n]*\n?[^\n]*)" first "${said}")
+  string(FIND "${first}" "${sentence}" place)
+  if(NOT failed OR place EQUAL -1)
+    message("${mistake} must be refused with \"${sentence}\" in the first ten lines, which are:\n${first}\n")
+    set(wrong ON)
+  endif()
+endforeach()
+if(wrong)
+  message(FATAL_ERROR "see above")
+endif()

@@ -1,0 +1,57 @@
+// Mistakes, of which each must be answered by its sentence within the first ten lines; none by default.
+#include <dalembert/dalembert.h>
+
+using namespace dalembert;
+
+[[maybe_unused]] const auto make = [](Scene<2>& scene) {
+  const auto bead = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}}, "bead");
+  [[maybe_unused]] const auto rod = scene.add(Distance{Fixed<2>{}, bead, 1.0});
+#ifdef MISTAKE_dynamic_size  // a constraint's equation returns a number or a plain column
+  scene.add(holonomic(points(bead), [](auto r) { return Eigen::VectorX<typename decltype(r)::Scalar>(r); }));
+#endif
+#ifdef MISTAKE_row  // a constraint's equation returns a number or a plain column
+  scene.add(nonholonomic(points(bead), [](auto, auto v) { return v.transpose().eval(); }));
+#endif
+#ifdef MISTAKE_matrix  // a constraint's equation returns a number or a plain column
+  scene.add(holonomic(points(bead), [](auto r) { return (r * r.transpose()).eval(); }));
+#endif
+#ifdef MISTAKE_curve_of_dynamic_size  // a constraint's equation returns a number or a plain column
+  scene.add(OnCurve{bead, [](auto r) { return Eigen::VectorX<typename decltype(r)::Scalar>(r); }});
+#endif
+#ifdef MISTAKE_dimensions  // all points of a constraint or force must have the dimension of the scene
+  scene.add(Distance{Fixed<3>{}, bead, 1.0});
+#endif
+#ifdef MISTAKE_dimensions_of_lambda  // all points of a constraint or force must have the same dimension
+  scene.add(holonomic(points(Fixed<3>{}, bead), [](auto a, auto b) { return (a - b).norm() - 1.0; }));
+#endif
+#ifdef MISTAKE_an_argument_less  // the lambda of a holonomic constraint takes the position
+  scene.add(holonomic(points(bead, bead), [](auto a) { return a.norm() - 1.0; }));
+#endif
+#ifdef MISTAKE_an_argument_more  // gets time in front of them
+  scene.add(holonomic(points(bead), [](auto a, auto b) { return (a - b).norm() - 1.0; }));
+#endif
+#ifdef MISTAKE_arguments_of_law  // the lambda of a force law takes the position of each of its points
+  scene.add(force_law(points(bead), [](auto v) { return (-0.1 * v).eval(); }));
+#endif
+#ifdef MISTAKE_named_arguments  // write `auto` for the lambda's arguments
+  scene.add(holonomic(points(bead), [](Vec<2> r) { return r.norm() - 1.0; }));
+#endif
+#ifdef MISTAKE_named_time  // write `auto` for the time that a path takes
+  scene.add(Distance{driven([](double t) { return vec(t, 0.0); }), bead, 1.0});
+#endif
+#ifdef MISTAKE_force  // a force law returns one column of its point's dimension
+  scene.add(force_law(points(bead), [](auto, auto v) { return vec(v.x(), v.y(), 0.0); }));
+#endif
+#ifdef MISTAKE_energy  // a potential returns its energy, one number
+  scene.add(potential(points(bead), [](auto r) { return r; }));
+#endif
+#ifdef MISTAKE_sine_of_std  // call sin(...) without std::
+  scene.add(holonomic(points(bead), [](auto r) { return r.y() - std::sin(r.x()); }));
+#endif
+#ifdef MISTAKE_root_of_std  // call sqrt(...) without std::
+  scene.add(OnCurve{bead, [](auto r) { return std::sqrt(r.dot(r)) - 1.0; }});
+#endif
+#ifdef MISTAKE_option  // is an option misspelled, or not in the order of solvers/options.h?
+  const auto run = simulate(scene, {.t_end = 1.0, .tolerence = 1e-8});
+#endif
+};
