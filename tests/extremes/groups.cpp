@@ -27,6 +27,7 @@ TEST(Extremes, FastAndBrokenDrivesAreFollowed) { expect_right(driving()); }
 TEST(Extremes, LongRunsAndLargeScenesAreRight) { expect_right(length()); }
 TEST(Extremes, UnitsAndTheOriginOfTimeAreOfNoAccount) { expect_right(units()); }
 TEST(Extremes, StartsAreAssembledOrRefusedByName) { expect_right(starts()); }
+TEST(Extremes, KinksJumpsAndSticking) { expect_right(discontinuities()); }
 TEST(Extremes, FailuresInMidRunSayWhenAndWhat) { expect_right(failures()); }
 
 }  // namespace
