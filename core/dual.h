@@ -1,5 +1,7 @@
 #pragma once
 
+#include <dalembert/core/branches.h>
+
 #include <Eigen/Core>
 
 #include <cmath>
@@ -97,9 +99,12 @@ class Dual {
   friend Dual operator/(const Dual& a, const Dual& b) { return a * (1.0 / b); }
 
   friend bool operator==(const Dual& a, const Dual& b) { return a.value == b.value; }
-  friend auto operator<=>(const Dual& a, const Dual& b) { return a.value <=> b.value; }
+  friend auto operator<=>(const Dual& a, const Dual& b) { return a <=> b.value; }
   friend bool operator==(const Dual& a, double b) { return a.value == b; }
-  friend auto operator<=>(const Dual& a, double b) { return a.value <=> b; }
+  friend auto operator<=>(const Dual& a, double b) {
+    Branches::compare(a.value, b);
+    return a.value <=> b;
+  }
 
   friend Dual sqrt(const Dual& a) {
     const double f = std::sqrt(a.value);
@@ -151,7 +156,7 @@ class Dual {
     const double f_a = 1.0 - f * f;
     return chain(a, f, f_a, -2.0 * f * f_a);
   }
-  friend Dual abs(const Dual& a) { return a.value < 0.0 ? -a : a; }
+  friend Dual abs(const Dual& a) { return a < 0.0 ? -a : a; }
   friend Dual abs2(const Dual& a) { return a * a; }
   friend Dual pow(const Dual& a, double p) {
     // A zero factor must win against 0^(p-2) = inf, or x^1 would be NaN at x = 0.

@@ -76,18 +76,19 @@ struct FrictionFromLaw {
 ///
 /// lambda is a number, or a vector for a constraint of several equations, and has the sign that
 /// Sample::multiplier has: positive pushes towards g > 0. Where it may have either, as on a wire, the
-/// law takes abs(lambda). Time may stand in front; for several points return std::tuple{f_a, f_b}. The
-/// force is an applied one, F in M q'' = F + W^T lambda: it is no part of the constraint's force, and
-/// its power is listed by `audit`.
+/// law takes abs(lambda), whose kink the explicit stepper finds and steps over. Time may stand in front; for
+/// several points return std::tuple{f_a, f_b}. The force is an applied one, F in M q'' = F + W^T lambda: it
+/// is no part of the constraint's force, and its power is listed by `audit`.
 ///
 /// The law is called with multipliers near those of the motion: with the ones that it would have without
 /// friction at first, later with the last ones, and with what Newton's iteration makes of them, which may for
 /// a moment lie on the other side of 0. It must have a value and a derivative where lambda itself lies, none
 /// at 0.
 ///
-/// It describes sliding. Nothing sticks: near v = 0 a law that jumps there stops the run or chatters;
-/// smooth it, v / sqrt(v^2 + small^2), or end the run before. Nor does a constraint let go where lambda
-/// changes sign.
+/// It describes sliding. Nothing sticks: where the sliding velocity comes to zero and friction exceeds what
+/// drives it either way, or holds what is at rest, the run stops and says so; smooth the law,
+/// v / sqrt(v^2 + small^2), or end the run there. Where friction is the weaker, sliding turns back. Nor does
+/// a constraint let go where lambda changes sign.
 ///
 /// Friction that changes, through other constraints, the very multiplier that it reads has a limit
 /// beyond which no or no unique acceleration exists (Painleve); reaching it is an error that names the

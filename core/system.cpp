@@ -1,5 +1,6 @@
 #include "dalembert/core/system.h"
 
+#include <dalembert/core/branches.h>
 #include <dalembert/core/errors.h>
 
 #include <algorithm>
@@ -162,6 +163,7 @@ void System::bias(const Instant& at, std::span<double> gamma) const {
 void System::linearise_constraints(const Instant& at, std::span<const double> lambda,
                                    Linearisation& out) const {
   on_constraints(at.t, [&](const ConstraintBatch& batch, const Offsets& first) {
+    Branches::begin_batch();
     const ConstraintShape shape = batch.shape();
     const auto width = static_cast<std::size_t>(shape.width);
     const std::size_t count = batch.size() * static_cast<std::size_t>(shape.rows);
@@ -173,6 +175,7 @@ void System::linearise_constraints(const Instant& at, std::span<const double> la
 void System::linearise(const Instant& at, std::span<const double> lambda, Linearisation& out) const {
   linearise_constraints(at, lambda, out);
   on_forces(at.t, [&](const ForceBatch& batch, const Offsets& first) {
+    Branches::begin_batch();
     const ForceShape shape = batch.shape();
     const std::size_t entries = batch.size() * static_cast<std::size_t>(shape.width * shape.width);
     batch.linearise(at, part(out.stiffness, first.stiffness, entries),

@@ -131,6 +131,8 @@ class System {
   [[nodiscard]] std::string force_of_stiffness(std::size_t entry) const;
   /// The label of the force that an entry of dF_f/dlambda belongs to.
   [[nodiscard]] std::string force_of_friction(std::size_t entry) const;
+  /// The label of what a batch holds, by its place in the Branches of `linearise`.
+  [[nodiscard]] std::string label_of_batch(std::size_t batch) const;
   /// The label of the constraint that row r belongs to.
   [[nodiscard]] std::string row_label(int row) const;
   /// What a constraint of this row says when it is singular; may be empty.

@@ -1,3 +1,4 @@
+#include <dalembert/core/branches.h>
 #include <dalembert/core/errors.h>
 #include <dalembert/core/system.h>
 
@@ -62,11 +63,34 @@ void System::linearise_frictions(const Instant& at, std::span<const double> lamb
                                  Linearisation& out) const {
   on_frictions(at, lambda,
                [&](const MultiplierForceBatch& batch, const Multipliers& read, const FrictionPlace& place) {
+                 Branches::begin_batch();
                  batch.slope(at, read, std::span(out.friction).subspan(place.slope, place.slope_count));
                  batch.linearise(at, read,
                                  std::span(out.stiffness).subspan(place.stiffness, place.block_count),
                                  std::span(out.damping).subspan(place.damping, place.block_count));
                });
+}
+
+std::string System::label_of_batch(std::size_t batch) const {
+  const auto of = [](std::size_t size, auto label, std::string_view kind) {
+    return size == 1 ? label() : "one of the " + std::to_string(size) + ' ' + std::string(kind);
+  };
+  if (batch < parts_.constraints.size()) {
+    const auto& constraints = *parts_.constraints[batch];
+    const auto first = static_cast<std::size_t>(parts_.constraint_numbers[batch].front());
+    return of(
+        constraints.size(), [&] { return layout_->constraints[first].label(); }, constraints.shape().kind);
+  }
+  batch -= parts_.constraints.size();
+  if (batch < parts_.forces.size()) {
+    const auto& forces = *parts_.forces[batch];
+    return of(
+        forces.size(), [&] { return force_label(batch, 0); }, forces.shape().kind);
+  }
+  batch -= parts_.forces.size();
+  const auto& frictions = *parts_.frictions[batch];
+  return of(
+      frictions.size(), [&] { return friction_label(batch, 0); }, frictions.shape().kind);
 }
 
 std::string System::force_of_friction(std::size_t entry) const {

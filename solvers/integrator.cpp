@@ -8,6 +8,7 @@
 #include <dalembert/solvers/private/recovery.h>
 #include <dalembert/solvers/private/singularity.h>
 #include <dalembert/solvers/private/start.h>
+#include <dalembert/solvers/private/sticking.h>
 
 #include <algorithm>
 #include <cmath>
@@ -102,6 +103,8 @@ struct Integrator::State {
     record.tolerance = o.tolerance;
     record.statistics.degrees_of_freedom = system.coordinates() + system.compliant_rows() - start.rows.size();
     record.statistics.redundant_equations = system.rows() - start.rows.size();
+    if (system.frictional() && o.stepper == Stepper::ida)
+      sticking.emplace(system, start, o.t_start, o.tolerance);
     visit(o.t_start);
     chosen_sine = manifold->sine();
   } catch (const StepFailure& failure) {  // before the first step it is a fault of the start
@@ -152,6 +155,7 @@ struct Integrator::State {
     // Before a step, so that all output within the last has been read from the stepper that took it.
     if (start.rows.size() < system.rows()) follow_rows();
     if (options.stepper == Stepper::ida) watch_angle();
+    if (steps == 1) watch_sliding();
     try {
       std::visit([wanted](auto& s) { s.step(wanted); }, stepper);
     } catch (const StepFailure&) {
@@ -160,6 +164,14 @@ struct Integrator::State {
       if (handed_over || options.stepper == Stepper::erk || !(sine() < handover_sine)) throw;
       hand_over();
     }
+    watch_sliding();
+  }
+
+  /// The explicit stepper finds itself where friction sticks.
+  void watch_sliding() {
+    if (!sticking) return;
+    interpolate(stepper_time(), next.q, next.v);
+    sticking->watch(stepper_time(), next.q, next.v);
   }
 
   [[nodiscard]] double sine() const {
@@ -216,6 +228,7 @@ struct Integrator::State {
     start = begin_anew(system, start, t, q0, v0);
     manifold.emplace(system, start.rows, lever);
     stepper = make_stepper(system, start, from_here);
+    if (sticking) sticking.emplace(system, start, t, options.tolerance);
     next = Moment(system, start);
     angle = {t, 1.0};
   }
@@ -286,6 +299,7 @@ struct Integrator::State {
   std::vector<double> lambda_at_start = start.lambda;
   std::optional<Manifold> manifold;  // of the current rows
   AnyStepper stepper;
+  std::optional<Sticking> sticking;  // for the implicit stepper, if there is friction
   long steps = 0;
 
   Moment now, next;

@@ -26,10 +26,17 @@ Result run(const Case& extreme, double parameter, Stepper stepper) try {
 }  // namespace
 
 std::vector<Group> groups() {
-  return {{"stiffness", stiffness()}, {"ratios", ratios()},   {"near-singular", near_singular()},
-          {"linkages", linkages()},   {"driving", driving()}, {"length", length()},
-          {"paths", paths()},         {"units", units()},     {"starts", starts()},
-          {"failures", failures()}};
+  return {{"stiffness", stiffness()},
+          {"ratios", ratios()},
+          {"near-singular", near_singular()},
+          {"linkages", linkages()},
+          {"driving", driving()},
+          {"length", length()},
+          {"paths", paths()},
+          {"units", units()},
+          {"starts", starts()},
+          {"failures", failures()},
+          {"discontinuities", discontinuities()}};
 }
 
 Verdict judge(const Case& extreme, double parameter, Stepper stepper) {

@@ -55,6 +55,7 @@ struct Group {
 [[nodiscard]] std::vector<Case> units();
 [[nodiscard]] std::vector<Case> starts();
 [[nodiscard]] std::vector<Case> failures();
+[[nodiscard]] std::vector<Case> discontinuities();
 
 /// All of them.
 [[nodiscard]] std::vector<Group> groups();

@@ -49,26 +49,29 @@ double ErkStepper::State::round_off_of_projection() const {
 /// `fault`, if the equations cannot be evaluated on its way.
 double ErkStepper::State::attempt(double step) {
   scales.way = covered;
+  passed_switch = passed_several = false;
   try {
     run_stages(to, step, stages - 1);
     finish(to, step, next);
-    const double e = error(step) * (step < far_too_short * usual ? unreliable : 1.0);
+    const double e = error(step) * (step < far_too_short * usual && over == 0.0 ? unreliable : 1.0);
     if (e > 1.0) return e;
     if (steps % stability_check_interval == 0) watch_stability(step);
     const double correction = land();
     next.sine = manifold.sine();
     return std::max({e, correction / (most_correction + round_off_of_projection()),
-                     disagreement(step) / most_disagreement});
+                     disagreement(step) / most_disagreement, error_of_switch(step)});
   } catch (const EquationFault& error) {
     fault = error.what();
     return std::numeric_limits<double>::infinity();
   }
 }
 
+double ErkStepper::State::shortest() const {
+  return 16.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(to.t), scales.time);
+}
+
 double ErkStepper::State::shorter(double step, double factor) const {
-  const double shortest =
-      16.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(to.t), scales.time);
-  if (step * factor > shortest) return step * factor;
+  if (step * factor > shortest()) return step * factor;
   throw StepFailure{fault.empty() ? "the error tolerance cannot be met with any step that double precision "
                                     "resolves; ask for a looser tolerance, or look for a discontinuous or "
                                     "very stiff force"
@@ -100,13 +103,19 @@ void ErkStepper::State::accept(bool by_extrapolation) {
 void ErkStepper::step(double wanted) {
   State& s = *state_;
   s.fault.clear();
-  if (s.cross() == State::Crossing::passed) return s.accept(true);
+  if (s.end) throw StepFailure(*s.end);
+  if (s.steps == 0 && s.switches.any()) s.find_first_side();
+  if (s.cross() == State::Crossing::passed) {
+    s.accept(true);
+    return s.find_side_anew();
+  }
   double growth = most_growth;
   for (;;) {
-    const double step = s.step_towards(wanted);
+    const double step = s.over > 0.0 ? std::min(s.over, s.t_end - s.to.t) : s.step_towards(wanted);
     const double error = s.attempt(step);
     if (s.may_have_crossed()) {  // look again from closer
       s.h = s.shorter(step, 0.5 * (s.least.t - s.to.t) / step);
+      s.over = 0.0;
       growth = 1.0;
       continue;
     }
@@ -114,16 +123,20 @@ void ErkStepper::step(double wanted) {
         std::isfinite(error) ? safety * std::pow(error, -1.0 / State::pair.order) : after_fault;
     if (error <= 1.0) {
       s.h = step * std::min(factor, growth);
+      s.over = 0.0;
       break;
     }
     ++s.failures;
     growth = 1.0;
+    s.over = 0.0;
+    if (s.stop_short(step)) break;
     s.h = s.shorter(step, std::max(factor, most_shrinking));
   }
   // Round-off in the sum must not let the last part of the way fall short of its goal.
   const double goal = std::min(wanted, s.t_end);
   if (std::abs(s.next.t - goal) <= 1e-14 * std::max(std::abs(goal), s.scales.time)) s.next.t = goal;
   s.accept(false);
+  if (!s.switches.same(s.from.side, s.to.side)) s.go_on_behind();
 }
 
 const Scales& ErkStepper::scales() const { return state_->scales; }

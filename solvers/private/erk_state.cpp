@@ -38,13 +38,16 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
       // A third of the step that an error constant of 1 allows.
       h(std::min(0.3 * std::pow(options.tolerance, 1.0 / pair.order) * start.scales.time,
                  options.t_end - options.t_start)),
-      passage(n) {
-  for (Node* node : {&from, &to, &middle, &next}) {
+      passage(n),
+      switches(s, {options.t_start, start.q, start.v}, start.lambda),
+      multipliers(start.lambda.size()) {
+  for (Node* node : {&from, &to, &middle, &next, &short_of, &beyond}) {
     node->t = options.t_start;
     node->q = start.q;
     node->va = start.v;
     node->va.insert(node->va.end(), start.a.begin(), start.a.end());
   }
+  if (switches.any()) sticking.emplace(s, start, options.t_start, tolerance);
   for (std::size_t i = 1; i < stage.size(); ++i) {
     stage[i].resize(2 * n);
     k[i] = stage[i].data();
@@ -84,6 +87,7 @@ void ErkStepper::State::run_stages(const Node& start, double step, std::size_t l
     const double t = start.t + pair.c[i] * step;
     require(project ? manifold.land(t, stage_q, v, v_dot) : manifold.accelerate({t, stage_q, v}, v_dot));
     if (manifold.sine() < least.sine) least = {t, manifold.sine()};
+    if (&start == &to) look(i, t);
   }
 }
 

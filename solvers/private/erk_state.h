@@ -6,6 +6,7 @@
 #include <dalembert/solvers/private/manifold.h>
 #include <dalembert/solvers/private/passage.h>
 #include <dalembert/solvers/private/singularity.h>
+#include <dalembert/solvers/private/sticking.h>
 #include <dalembert/solvers/private/verner.h>
 
 #include <array>
@@ -33,6 +34,7 @@ struct ErkStepper::State {
     double t = 0.0;
     std::vector<double> q, va;
     double sine = 1.0;  // see Manifold
+    Side side{};        // of the switches in the equations; unset if there are none
 
     [[nodiscard]] Angle angle() const { return {t, sine}; }
   };
@@ -57,6 +59,20 @@ struct ErkStepper::State {
   void watch_stability(double step);
 
   [[nodiscard]] double round_off_of_projection() const;
+  // See erk_switch.cpp.
+  void find_first_side();
+  void find_side(Node& node);
+  void find_side_anew();
+  void look(std::size_t i, double t);
+  [[nodiscard]] bool failed_behind_switch();
+  [[nodiscard]] double effect_of_switch(const Node& a, const Node& b, double step);
+  [[nodiscard]] double error_of_switch(double step);
+  [[nodiscard]] bool stop_short(double step);
+  [[nodiscard]] StepFailure why_not_over(Node& before);
+  [[nodiscard]] bool driven_back();
+  void go_on_behind();
+  [[nodiscard]] Motion motion(const Node& node) const;
+
   [[nodiscard]] double attempt(double step);
   void accept(bool by_extrapolation);
 
@@ -70,6 +86,7 @@ struct ErkStepper::State {
   /// From the last node to t, see Passage.
   void extrapolate(std::size_t nodes, double t, Node& out);
   void read_crossing(double t, std::span<double> q, std::span<double> v) const;
+  [[nodiscard]] double shortest() const;
   [[nodiscard]] double shorter(double step, double factor) const;
   [[nodiscard]] double step_towards(double wanted) const;
 
@@ -106,6 +123,16 @@ struct ErkStepper::State {
   double largest_passage_error = 0.0;  // of those taken
   int singular_positions = 0;
   std::string fault;  // of the last attempt that failed
+
+  Switches switches;
+  std::optional<Sticking> sticking;  // if there are any
+  std::vector<double> multipliers;   // work
+  Side stage_side, behind_side;      // of stages, the latter behind a switch
+  bool passed_switch = false;        // by the last attempt,
+  bool passed_several = false;       // and more than one
+  Node short_of, beyond;             // where steps end in front of a switch, and behind it
+  double over = 0.0;                 // the step to take next, over a switch
+  std::optional<StepFailure> end;    // what the run ends with where the last step ended
 };
 
 }  // namespace dalembert

@@ -194,6 +194,13 @@ bool Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
   return true;
 }
 
+void Manifold::multipliers(std::span<double> lambda) const {
+  const std::size_t n = x_.size() - rows_.rows.size();
+  std::ranges::fill(lambda, 0.0);
+  for (std::size_t r = 0; r < rows_.rows.size(); ++r)
+    lambda[static_cast<std::size_t>(rows_.rows[r])] = x_[n + r];
+}
+
 bool Manifold::accelerate(const Instant& at, std::span<double> a) {
   evaluate(at);
   if (friction_) {
@@ -220,7 +227,6 @@ bool Manifold::land(double t, std::span<double> q, std::span<double> v, std::spa
 
 bool Manifold::solve_motion(double t, std::span<const double> q, std::span<double> v, std::span<double> a,
                             std::span<double> lambda) {
-  const std::size_t n = q.size();
   evaluate({t, q, v});
   if (!factorise()) return false;
   if (!rows_.rows.empty()) {
@@ -228,9 +234,7 @@ bool Manifold::solve_motion(double t, std::span<const double> q, std::span<doubl
     evaluate({t, q, v});
   }
   if (!solve_for_accelerations({t, q, v}, a)) return false;
-  std::ranges::fill(lambda, 0.0);
-  for (std::size_t r = 0; r < rows_.rows.size(); ++r)
-    lambda[static_cast<std::size_t>(rows_.rows[r])] = x_[n + r];
+  multipliers(lambda);
   const bool finite = std::ranges::all_of(x_, [](double x) { return std::isfinite(x); });
   if (finite && minimum_norm_.needed()) {
     minimum_norm_.spread([this](std::span<double> x) { kkt_.solve(x); }, {t, q, v}, e_, lambda);

@@ -75,6 +75,9 @@ class Manifold {
   /// it.
   double weakest_direction(std::span<const double> lever, std::span<double> n);
 
+  /// The multipliers last found, one per row of the system; 0 in rows that are not in use.
+  void multipliers(std::span<double> lambda) const;
+
   /// Per row of the system, whether its last multiplier is determined by the motion.
   [[nodiscard]] std::span<const char> unique() const { return minimum_norm_.unique(); }
 

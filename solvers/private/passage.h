@@ -26,6 +26,8 @@ class Passage {
 
   /// After each step, and before the first: the accelerations at t.
   void remember(double t, std::span<const double> a);
+  /// Accelerations that others do not continue.
+  void forget() { known_ = 0; }
 
   /// Chooses, from the last node back, those whose distances from `singular` grow by at least `spread`.
   /// Returns how many: at most `most_nodes`.

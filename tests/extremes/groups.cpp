@@ -28,6 +28,7 @@ TEST(Extremes, LongRunsAndLargeScenesAreRight) { expect_right(length()); }
 TEST(Extremes, FreeParticlesHaveTheLengthOfTheirPath) { expect_right(paths()); }
 TEST(Extremes, UnitsAndTheOriginOfTimeAreOfNoAccount) { expect_right(units()); }
 TEST(Extremes, StartsAreAssembledOrRefusedByName) { expect_right(starts()); }
+TEST(Extremes, KinksJumpsAndSticking) { expect_right(discontinuities()); }
 TEST(Extremes, FailuresInMidRunSayWhenAndWhat) { expect_right(failures()); }
 
 }  // namespace

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace dalembert {
+
+/// Which way the equations of a scene went wherever they compare numbers: what a user writes with abs, max or
+/// `if (x > 0)` has a kink or a jump where one of its comparisons changes its outcome, and nowhere else. So a
+/// discontinuity is found where it is stated, however small it is and wherever between two stages it falls.
+///
+/// Duals report their comparisons to the one that listens in this thread, if there is one. (A scalar type of
+/// its own would need no such thing, but every equation compiled once more.)
+class Branches {
+ public:
+  /// One number for all comparisons (less, equal, greater) of each batch in turn.
+  using Outcomes = std::vector<std::uint64_t>;
+
+  explicit Branches(Outcomes& out) : out_(&out), outer_(std::exchange(listening, this)) { out.clear(); }
+  Branches(const Branches&) = delete;
+  Branches& operator=(const Branches&) = delete;
+  ~Branches() { listening = outer_; }
+
+  /// Of how many comparisons it has heard.
+  [[nodiscard]] long count() const { return count_; }
+
+  static void begin_batch() {
+    if (listening != nullptr) listening->out_->push_back(0);
+  }
+  static void compare(double a, double b) {
+    if (listening != nullptr) listening->add(a < b ? 1U : a == b ? 2U : 3U);
+  }
+
+ private:
+  void add(std::uint64_t outcome) {
+    ++count_;
+    if (out_->empty()) return;
+    constexpr std::uint64_t fnv_prime = 1099511628211U;
+    out_->back() = (out_->back() ^ outcome) * fnv_prime;
+  }
+
+  static inline thread_local constinit Branches* listening = nullptr;
+  Outcomes* out_;
+  Branches* outer_;
+  long count_ = 0;
+};
+
+}  // namespace dalembert
