@@ -40,8 +40,10 @@ concept HasCompliance = requires(const C& c) {
 
 namespace detail {
 
+/// What an equation is tried with to see whether it can be called: a scalar it is evaluated with as well,
+/// so that trying costs no compilation of its own.
 template <class C>
-using Probe = Dual<2 * PointFacts<C>::inputs + 1, 1>;
+using Probe = Dual<PointFacts<C>::inputs, 1>;
 template <class C>
 using ProbePositions = typename PointFacts<C>::template Positions<Probe<C>>;
 template <class C>
@@ -131,8 +133,10 @@ using Residual = std::remove_cvref_t<decltype(call<takes_time<C>>(
 
 }  // namespace detail
 
-/// Scalar equations of a constraint type.
+/// Scalar equations of a constraint type. (Of no other type: clang substitutes a return type before it checks
+/// what a template requires.)
 template <class C>
+  requires HolonomicConstraint<C> || NonholonomicConstraint<C>
 inline constexpr int rows_of_constraint = detail::rows_in<detail::Residual<C>>;
 
 /// Whether a constraint depends on time explicitly (rheonomic), by its equation or a driven point.

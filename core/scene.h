@@ -133,7 +133,7 @@ class Scene {
     }
     Eigen::AlignedBox<double, D> extent = extent_;
     std::apply([&](const auto&... point) { (admit_point(point, label, extent), ...); }, element.points());
-    std::apply([this](const auto&... point) { (remember_path(point), ...); }, element.points());
+    std::apply([this](const auto&... point) { (this->remember_path(point), ...); }, element.points());
     take(own, extent);
     return own;
   }
