@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// A linear combination of stages, h sum_j weight_j k_j, with the zero weights left out; in one pass over
 /// memory, unrolled over j.
@@ -75,4 +75,4 @@ class Combination {
   std::array<std::size_t, Stages> stage_{};
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

@@ -7,7 +7,7 @@
 #include <memory>
 #include <span>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// Steps the equations of motion by an explicit Runge-Kutta pair of orders 8 and 7 (verner87), with
 /// accelerations from the constraints differentiated twice, and puts each accepted step back onto
@@ -55,4 +55,4 @@ class ErkStepper {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// The pair and what a step of it needs.
 struct ErkStepper::State {
@@ -107,4 +107,4 @@ struct ErkStepper::State {
   std::string fault;  // of the last attempt that failed
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

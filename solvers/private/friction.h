@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// Accelerations and multipliers where forces F_f read multipliers,
 ///
@@ -62,4 +62,4 @@ class FrictionSolver {
   std::vector<char> reads_;  // per entry of the slope; empty until it is asked for
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// The polynomial of degree 3 Nodes - 1 through the value and two derivatives of a function at each
 /// of several times, by Newton's divided differences (Stoer, Bulirsch, Numerical Analysis, 2.1.5).
@@ -59,4 +59,4 @@ class Hermite {
   std::array<std::array<double, data>, data> inverse_gap_;
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

@@ -9,7 +9,7 @@
 #include <memory>
 #include <span>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// Steps the stabilised index-2 equations (see NewtonMatrix) by SUNDIALS' IDA: variable-order,
 /// variable-step BDF.
@@ -49,4 +49,4 @@ class IdaStepper {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 struct FreeIda {
   void operator()(void* memory) const { IDAFree(&memory); }
@@ -98,4 +98,4 @@ int guarded(State& state, double at, const F& f) noexcept {
   }
 }
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// The saddle-point matrix that every solve of this library is about,
 ///
@@ -58,4 +58,4 @@ class KktMatrix {
   std::size_t first_force_entry_;
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

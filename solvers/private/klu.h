@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// A sparse unsymmetric matrix with a fixed pattern, factored by SuiteSparse's KLU: ordered once,
 /// pivoted at the first factorisation and again whenever the pivots have become bad, refactored
@@ -40,4 +40,4 @@ class SparseLU {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// A sparse symmetric positive definite matrix with a fixed pattern, factored as L D L^T by
 /// SuiteSparse's LDL: ordered once (by AMD, unless the given order fills in no more), factored
@@ -40,4 +40,4 @@ class SparseLdl {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// The largest violation of the constraints at a state, and which row has it. A row's residual is
 /// divided by the length of its gradient: |g|/|G| is the distance to the constraint, |psi|/|W| a
@@ -111,4 +111,4 @@ class Manifold {
   long evaluations_ = 0;
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// Forces of dependent constraints. Where rows of W depend on each other, W^T lambda is unique but lambda
 /// is not. With a an independent set of rows, d the others, and N a basis of the null space of W^T,
@@ -71,4 +71,4 @@ class MinimumNorm {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr_;
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

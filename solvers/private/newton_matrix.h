@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// Solves the linear systems of Newton's iteration for the stabilised index-2 equations
 ///
@@ -140,4 +140,4 @@ class NewtonMatrix {
   double rho_compliant_ = 0.0, rho_forces_ = 0.0;
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// Chooses the highest order that BDF may use where vibrations hold the step down.
 ///
@@ -42,4 +42,4 @@ class OrderGuard {
   int patience_ = 1;  // windows until the next trial
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

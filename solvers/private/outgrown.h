@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// For the message of a run that stopped: the constraint whose force has outgrown all that the scene's
 /// masses, speed and time explain, with its multiplier and what it says of itself when singular. Empty if
@@ -13,4 +13,4 @@ namespace dalembert {
 [[nodiscard]] std::string outgrown_constraint(const System& system, const Scales& scales,
                                               std::span<const double> w, std::span<const double> lambda);
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// The accelerations of the last steps, to go on with where those of the equations are worth nothing:
 ///
@@ -48,4 +48,4 @@ class Passage {
   std::size_t count_ = 0;  // of those
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

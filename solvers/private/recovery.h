@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// Everything that can be read at one instant.
 struct Moment {
@@ -54,4 +54,4 @@ class Recovery {
   std::vector<double> w_;
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

@@ -4,7 +4,7 @@
 
 #include <span>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// w M^-1 w^T of a row: the inverse of the mass that its multiplier moves.
 [[nodiscard]] double mobility(const System& system, std::span<const double> w, std::size_t row);
@@ -16,4 +16,4 @@ namespace dalembert {
 [[nodiscard]] double impulse_of_row(const System& system, std::span<const double> w,
                                     std::span<const double> lever, std::size_t row, double speed);
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

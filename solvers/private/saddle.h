@@ -5,7 +5,7 @@
 
 #include <optional>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// The matrix of projections and accelerations,
 ///
@@ -48,4 +48,4 @@ class SaddleMatrix {
   long factorisations_ = 0;
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// How close the constraints are to dependent at a time: see Manifold::sine.
 struct Angle {
@@ -21,4 +21,4 @@ inline constexpr double close_to_dependent = 0.5;
                : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// The multipliers of compliant constraints, g + C lambda = 0, where they are part of a stepper's
 /// state. One number per row of the system; those of rigid rows do not count. Empty if none is compliant.
@@ -12,4 +12,4 @@ struct Springs {
   double c = 0.0;
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

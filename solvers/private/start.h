@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// The scene's own length and time, from which absolute tolerances and the first step follow, so
 /// that a scene runs alike in any units.
@@ -48,4 +48,4 @@ struct Start {
 [[nodiscard]] Start begin_anew(const System& system, const Start& before, double t, std::span<const double> q,
                                std::span<const double> v);
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// Thrown when a step cannot be taken; the integrator adds the trajectory so far.
 struct StepFailure {
@@ -10,4 +10,4 @@ struct StepFailure {
   double time;
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sundials/sundials_config.h>
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
@@ -11,7 +12,7 @@
 #include <string>
 
 /// SUNDIALS' objects as owners that free them, and its return codes as exceptions.
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 struct FreeContext {
   void operator()(SUNContext c) const { SUNContext_Free(&c); }
@@ -38,10 +39,20 @@ Pointer check(Pointer pointer) {
   return pointer;
 }
 
+#if SUNDIALS_VERSION_MAJOR >= 7
+inline constexpr SUNComm no_communicator = SUN_COMM_NULL;
+#else
+inline constexpr void* no_communicator = nullptr;
+#endif
+
+/// A context that says nothing: errors are return codes.
 [[nodiscard]] inline Owned<SUNContext, FreeContext> make_context() {
   SUNContext context = nullptr;
-  check(SUNContext_Create(nullptr, &context), "SUNContext_Create");
+  check(SUNContext_Create(no_communicator, &context), "SUNContext_Create");
+#if SUNDIALS_VERSION_MAJOR >= 7
+  check(SUNContext_ClearErrHandlers(context), "SUNContext_ClearErrHandlers");  // the library prints nothing
+#endif
   return Owned<SUNContext, FreeContext>(context);
 }
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

@@ -2,7 +2,7 @@
 
 #include <sundials/sundials_nvector.h>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// Gives a serial N_Vector, and all that are cloned from it, operations that the compiler can
 /// vectorise: SUNDIALS' own sum in one chain, which floating-point rules forbid to reorder.
@@ -11,4 +11,4 @@ namespace dalembert {
 /// Masks must hold zeros and ones only.
 void vectorise(N_Vector x);
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace dalembert {
+namespace [[gnu::visibility("hidden")]] dalembert {
 
 /// The direction n of the coordinates that the constraints hold least: the right singular vector of the
 /// smallest singular value of W M^-1/2 with rows of unit length, by inverse iteration with
@@ -27,4 +27,4 @@ class WeakestDirection {
   std::vector<double> x_, u_;
 };
 
-}  // namespace dalembert
+}  // namespace gnu::visibility("hidden")]]dalembert
