@@ -1,12 +1,13 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/kkt.h>
 
 #include <span>
 #include <string>
 #include <vector>
 
-namespace [[gnu::visibility("hidden")]] dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// Accelerations and multipliers where forces F_f read multipliers,
 ///
@@ -62,4 +63,4 @@ class FrictionSolver {
   std::vector<char> reads_;  // per entry of the slope; empty until it is asked for
 };
 
-}  // namespace gnu::visibility("hidden")]]dalembert
+}  // namespace dalembert

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
+
 #include <array>
 #include <cstddef>
 
-namespace [[gnu::visibility("hidden")]] dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// The polynomial of degree 3 Nodes - 1 through the value and two derivatives of a function at each
 /// of several times, by Newton's divided differences (Stoer, Bulirsch, Numerical Analysis, 2.1.5).
@@ -59,4 +61,4 @@ class Hermite {
   std::array<std::array<double, data>, data> inverse_gap_;
 };
 
-}  // namespace gnu::visibility("hidden")]]dalembert
+}  // namespace dalembert

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/ida.h>
 #include <dalembert/solvers/private/newton_matrix.h>
 #include <dalembert/solvers/private/order_guard.h>
@@ -11,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace [[gnu::visibility("hidden")]] dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 struct FreeIda {
   void operator()(void* memory) const { IDAFree(&memory); }
@@ -98,4 +99,4 @@ int guarded(State& state, double at, const F& f) noexcept {
   }
 }
 
-}  // namespace gnu::visibility("hidden")]]dalembert
+}  // namespace dalembert

@@ -1,6 +1,8 @@
 #pragma once
 
-namespace [[gnu::visibility("hidden")]] dalembert {
+#include <dalembert/solvers/private/hidden.h>
+
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// Chooses the highest order that BDF may use where vibrations hold the step down.
 ///
@@ -42,4 +44,4 @@ class OrderGuard {
   int patience_ = 1;  // windows until the next trial
 };
 
-}  // namespace gnu::visibility("hidden")]]dalembert
+}  // namespace dalembert

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/start.h>
 
 #include <span>
 #include <string>
 
-namespace [[gnu::visibility("hidden")]] dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// For the message of a run that stopped: the constraint whose force has outgrown all that the scene's
 /// masses, speed and time explain, with its multiplier and what it says of itself when singular. Empty if
@@ -13,4 +14,4 @@ namespace [[gnu::visibility("hidden")]] dalembert {
 [[nodiscard]] std::string outgrown_constraint(const System& system, const Scales& scales,
                                               std::span<const double> w, std::span<const double> lambda);
 
-}  // namespace gnu::visibility("hidden")]]dalembert
+}  // namespace dalembert

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <dalembert/core/rank.h>
+#include <dalembert/solvers/private/hidden.h>
 
 #include <span>
 
-namespace [[gnu::visibility("hidden")]] dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// w M^-1 w^T of a row: the inverse of the mass that its multiplier moves.
 [[nodiscard]] double mobility(const System& system, std::span<const double> w, std::size_t row);
@@ -16,4 +17,4 @@ namespace [[gnu::visibility("hidden")]] dalembert {
 [[nodiscard]] double impulse_of_row(const System& system, std::span<const double> w,
                                     std::span<const double> lever, std::size_t row, double speed);
 
-}  // namespace gnu::visibility("hidden")]]dalembert
+}  // namespace dalembert

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/kkt.h>
 #include <dalembert/solvers/private/schur.h>
 
 #include <optional>
 
-namespace [[gnu::visibility("hidden")]] dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// The matrix of projections and accelerations,
 ///
@@ -48,4 +49,4 @@ class SaddleMatrix {
   long factorisations_ = 0;
 };
 
-}  // namespace gnu::visibility("hidden")]]dalembert
+}  // namespace dalembert

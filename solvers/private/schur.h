@@ -1,12 +1,13 @@
 #pragma once
 
 #include <dalembert/core/system.h>
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/ldl.h>
 
 #include <span>
 #include <vector>
 
-namespace [[gnu::visibility("hidden")]] dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// Solves
 ///
@@ -72,4 +73,4 @@ class SchurComplement {
   SparseLdl ldl_;
 };
 
-}  // namespace gnu::visibility("hidden")]]dalembert
+}  // namespace dalembert

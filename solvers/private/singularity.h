@@ -1,8 +1,10 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
+
 #include <limits>
 
-namespace [[gnu::visibility("hidden")]] dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// How close the constraints are to dependent at a time: see Manifold::sine.
 struct Angle {
@@ -21,4 +23,4 @@ inline constexpr double close_to_dependent = 0.5;
                : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace gnu::visibility("hidden")]]dalembert
+}  // namespace dalembert

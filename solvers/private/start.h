@@ -2,13 +2,14 @@
 
 #include <dalembert/core/system.h>
 #include <dalembert/solvers/options.h>
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/rows.h>
 
 #include <cmath>
 #include <limits>
 #include <vector>
 
-namespace [[gnu::visibility("hidden")]] dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// The scene's own length and time, from which absolute tolerances and the first step follow, so
 /// that a scene runs alike in any units.
@@ -48,4 +49,4 @@ struct Start {
 [[nodiscard]] Start begin_anew(const System& system, const Start& before, double t, std::span<const double> q,
                                std::span<const double> v);
 
-}  // namespace gnu::visibility("hidden")]]dalembert
+}  // namespace dalembert

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
+
 #include <sundials/sundials_config.h>
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_linearsolver.h>
@@ -12,7 +14,7 @@
 #include <string>
 
 /// SUNDIALS' objects as owners that free them, and its return codes as exceptions.
-namespace [[gnu::visibility("hidden")]] dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 struct FreeContext {
   void operator()(SUNContext c) const { SUNContext_Free(&c); }
@@ -55,4 +57,4 @@ inline constexpr void* no_communicator = nullptr;
   return Owned<SUNContext, FreeContext>(context);
 }
 
-}  // namespace gnu::visibility("hidden")]]dalembert
+}  // namespace dalembert

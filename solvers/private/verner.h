@@ -1,8 +1,10 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
+
 #include <array>
 
-namespace [[gnu::visibility("hidden")]] dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// An explicit Runge-Kutta pair: stage i at t + c_i h, Y_i = y + h sum_j a_ij k_j, the step
 /// y + h sum_i b_i k_i, its error estimate h sum_i d_i k_i with d = b - b^.
@@ -47,4 +49,4 @@ inline constexpr ButcherTable<13> verner87{
     {-3.272103901028138e-05, 0, 0, 0, 0, -0.0005046250618777704, 0.0001211723589784759, -20.142336771313868,
      5.2371785994398286, -8.156744408794658, 22.938283273988784, -0.2361324633071542, 0.36016794372897754}};
 
-}  // namespace gnu::visibility("hidden")]]dalembert
+}  // namespace dalembert
