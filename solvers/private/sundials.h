@@ -41,18 +41,14 @@ Pointer check(Pointer pointer) {
   return pointer;
 }
 
-#if SUNDIALS_VERSION_MAJOR >= 7
-inline constexpr SUNComm no_communicator = SUN_COMM_NULL;
-#else
-inline constexpr void* no_communicator = nullptr;
-#endif
-
 /// A context that says nothing: errors are return codes.
 [[nodiscard]] inline Owned<SUNContext, FreeContext> make_context() {
   SUNContext context = nullptr;
-  check(SUNContext_Create(no_communicator, &context), "SUNContext_Create");
 #if SUNDIALS_VERSION_MAJOR >= 7
-  check(SUNContext_ClearErrHandlers(context), "SUNContext_ClearErrHandlers");  // the library prints nothing
+  check(SUNContext_Create(SUN_COMM_NULL, &context), "SUNContext_Create");
+  check(SUNContext_ClearErrHandlers(context), "SUNContext_ClearErrHandlers");
+#else  // IDA itself is told to be silent
+  check(SUNContext_Create(nullptr, &context), "SUNContext_Create");
 #endif
   return Owned<SUNContext, FreeContext>(context);
 }
