@@ -1,5 +1,6 @@
 #include "dalembert/bench/report.h"
 
+#include <dalembert/bench/sundials.h>
 #include <dalembert/core/errors.h>
 
 #include <filesystem>
@@ -25,7 +26,8 @@ std::string processor() {
 void print(std::ostream& out, const std::string& question, const Table& table, const std::string& note) {
   out << "# " << question << '\n'
       << "# " << processor() << ", " << std::thread::hardware_concurrency() << " threads\n"
-      << "# " << BENCH_COMPILER << ", " << BENCH_BUILD_TYPE << ": " << BENCH_CXX_FLAGS << '\n';
+      << "# " << BENCH_COMPILER << ", " << BENCH_BUILD_TYPE << ": " << BENCH_CXX_FLAGS << '\n'
+      << "# " << sundials() << '\n';
   if (!note.empty()) out << "# " << note << '\n';
   out << '\n';
   table.print(out);

@@ -11,3 +11,16 @@ install(FILES ${PROJECT_BINARY_DIR}/dalembertConfig.cmake ${PROJECT_BINARY_DIR}/
               cmake/FindKLU.cmake cmake/FindLDL.cmake
         DESTINATION ${package_dir})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# For pkg-config; found from its own place, so that the package may be moved. What a static library is linked
+# with stands among `Libs`, as its users do not ask for --static.
+cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig OUTPUT_VARIABLE pc_prefix)
+set(pc_solvers "-lsundials_ida -lsundials_nvecserial -lklu -lbtf -lcolamd -lldl -lamd -lsuitesparseconfig -lm")
+if(SUNDIALS_VERSION VERSION_GREATER_EQUAL 7)
+  string(REPLACE "nvecserial" "nvecserial -lsundials_core" pc_solvers "${pc_solvers}")
+endif()
+if(NOT BUILD_SHARED_LIBS)
+  set(pc_libs " ${pc_solvers}")
+endif()
+configure_file(cmake/dalembert.pc.in ${PROJECT_BINARY_DIR}/dalembert.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/dalembert.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -113,7 +113,4 @@ DiskRolling(C, A, B, double) -> DiskRolling<C, A, B>;
 template <class C, class A, class B>
 DiskRolling(C, A, B, double, Plane<3>) -> DiskRolling<C, A, B>;
 
-static_assert(HolonomicConstraint<DiskContact<Particle<3>, Particle<3>, Particle<3>>>);
-static_assert(NonholonomicConstraint<DiskRolling<Particle<3>, Particle<3>, Particle<3>>>);
-
 }  // namespace dalembert

@@ -37,6 +37,12 @@ struct Distance {
 template <class A, class B>
 Distance(A, B, double) -> Distance<A, B>;
 
-static_assert(HolonomicConstraint<Distance<Particle<3>, Fixed<3>>>);
+// Compiled once, in the library.
+extern template struct BatchOf<ConstraintBatch, Distance<Fixed<2>, Particle<2>>>;
+extern template struct BatchOf<ConstraintBatch, Distance<Particle<2>, Fixed<2>>>;
+extern template struct BatchOf<ConstraintBatch, Distance<Particle<2>, Particle<2>>>;
+extern template struct BatchOf<ConstraintBatch, Distance<Fixed<3>, Particle<3>>>;
+extern template struct BatchOf<ConstraintBatch, Distance<Particle<3>, Fixed<3>>>;
+extern template struct BatchOf<ConstraintBatch, Distance<Particle<3>, Particle<3>>>;
 
 }  // namespace dalembert

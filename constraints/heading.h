@@ -32,6 +32,4 @@ struct Heading {
 template <class P, class From, class To>
 Heading(P, From, To) -> Heading<P, From, To>;
 
-static_assert(NonholonomicConstraint<Heading<Particle<2>, Particle<2>, Fixed<2>>>);
-
 }  // namespace dalembert

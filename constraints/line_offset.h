@@ -36,6 +36,4 @@ struct LineOffset {
 template <class P, class A, class B>
 LineOffset(P, A, B, double) -> LineOffset<P, A, B>;
 
-static_assert(HolonomicConstraint<LineOffset<Particle<2>, Fixed<2>, Fixed<2>>>);
-
 }  // namespace dalembert

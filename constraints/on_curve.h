@@ -31,6 +31,8 @@ struct OnCurve {
 template <class P, class Curve>
 OnCurve(P, Curve) -> OnCurve<P, Curve>;
 
-static_assert(HolonomicConstraint<OnCurve<Particle<2>, Sphere<2>>>);
+// Compiled once, in the library.
+extern template struct BatchOf<ConstraintBatch, OnCurve<Particle<2>, Plane<2>>>;
+extern template struct BatchOf<ConstraintBatch, OnCurve<Particle<2>, Sphere<2>>>;
 
 }  // namespace dalembert

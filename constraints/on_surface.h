@@ -45,7 +45,10 @@ struct OnSurface {
 template <class P, class Surface>
 OnSurface(P, Surface) -> OnSurface<P, Surface>;
 
-static_assert(HolonomicConstraint<OnSurface<Particle<3>, Cone>>);
-static_assert(HolonomicConstraint<OnSurface<Particle<3>, Plane<3>>>);
+// Compiled once, in the library.
+extern template struct BatchOf<ConstraintBatch, OnSurface<Particle<3>, Plane<3>>>;
+extern template struct BatchOf<ConstraintBatch, OnSurface<Particle<3>, Sphere<3>>>;
+extern template struct BatchOf<ConstraintBatch, OnSurface<Particle<3>, Cylinder>>;
+extern template struct BatchOf<ConstraintBatch, OnSurface<Particle<3>, Cone>>;
 
 }  // namespace dalembert

@@ -34,6 +34,4 @@ struct Pursuit {
 template <class P, class Prey>
 Pursuit(P, Prey) -> Pursuit<P, Prey>;
 
-static_assert(NonholonomicConstraint<Pursuit<Particle<2>, Fixed<2>>>);
-
 }  // namespace dalembert

@@ -47,6 +47,4 @@ struct Rolling {
 template <class P, class A, class B>
 Rolling(P, Rotor, A, B, double) -> Rolling<P, A, B>;
 
-static_assert(NonholonomicConstraint<Rolling<Particle<2>, Fixed<2>, Fixed<2>>>);
-
 }  // namespace dalembert

@@ -2,6 +2,8 @@
 
 #include <dalembert/core/constraint.h>
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <initializer_list>
 #include <string>

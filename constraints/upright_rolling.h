@@ -39,7 +39,7 @@ struct UprightRolling {
 template <class P>
 UprightRolling(P, Rotor, Rotor, double) -> UprightRolling<P>;
 
-static_assert(NonholonomicConstraint<UprightRolling<Particle<2>>>);
-static_assert(rows_of_constraint<UprightRolling<Particle<2>>> == 2);
+// Compiled once, in the library.
+extern template struct BatchOf<ConstraintBatch, UprightRolling<Particle<2>>>;
 
 }  // namespace dalembert

@@ -142,6 +142,16 @@ class MultiplierForceBatch {
   virtual void power(const Instant& at, const Multipliers& lambda, std::span<double> out) const = 0;
 };
 
+/// The batch for one type of element, as a scene makes and fills it, in the one place that instantiates
+/// its code (batch_of.h). Declared `extern template` where an element's code is compiled once, in the
+/// library: naming such an element costs its user nothing, as no derivative of it is compiled again.
+template <class Batch, class Element>
+struct BatchOf {
+  [[nodiscard]] static std::unique_ptr<Batch> empty();
+  /// Adds the element and says so, if the batch is of its type.
+  static bool add(Batch& batch, const Element& element);
+};
+
 /// The elements of a batch and the coordinates they read.
 template <class Element>
 class Elements {

@@ -44,6 +44,4 @@ struct BodyPoint {
   }
 };
 
-static_assert(Point<BodyPoint<2>> && Point<BodyPoint<3>> && Point<BodyPoint<3, 2>>);
-
 }  // namespace dalembert

@@ -41,8 +41,10 @@ concept HasCompliance = requires(const C& c) {
 
 namespace detail {
 
+/// What an equation is tried with to see whether it can be called: a scalar it is evaluated with as well,
+/// so that trying costs no compilation of its own.
 template <class C>
-using Probe = Dual<2 * PointFacts<C>::inputs + 1, 1>;
+using Probe = Dual<PointFacts<C>::inputs, 1>;
 template <class C>
 using ProbePositions = typename PointFacts<C>::template Positions<Probe<C>>;
 template <class C>

@@ -133,8 +133,11 @@ struct ElasticString {
 template <class A, class B>
 ElasticString(A, B, double, double) -> ElasticString<A, B>;
 
-static_assert(PotentialForce<Torque> && LawForce<QuadraticDrag<Particle<3>>>);
-static_assert(LawForce<Couple<Fixed<2>, Particle<2>>>);
-static_assert(PotentialForce<ElasticString<Fixed<2>, Particle<2>>>);
+// Compiled once, in the library.
+extern template struct BatchOf<ForceBatch, LinearDrag<Particle<2>>>;
+extern template struct BatchOf<ForceBatch, LinearDrag<Particle<3>>>;
+extern template struct BatchOf<ForceBatch, QuadraticDrag<Particle<2>>>;
+extern template struct BatchOf<ForceBatch, QuadraticDrag<Particle<3>>>;
+extern template struct BatchOf<ForceBatch, Torque>;
 
 }  // namespace dalembert

@@ -121,7 +121,14 @@ template <class... P, class Law>
   return Force{std::move(on), std::move(law)};
 }
 
-static_assert(PotentialForce<Spring<Fixed<2>, Particle<2>>>);
-static_assert(LawForce<Damper<Particle<3>, Particle<3>>>);
+// Compiled once, in the library.
+extern template struct BatchOf<ForceBatch, Spring<Fixed<2>, Particle<2>>>;
+extern template struct BatchOf<ForceBatch, Spring<Particle<2>, Particle<2>>>;
+extern template struct BatchOf<ForceBatch, Spring<Fixed<3>, Particle<3>>>;
+extern template struct BatchOf<ForceBatch, Spring<Particle<3>, Particle<3>>>;
+extern template struct BatchOf<ForceBatch, Damper<Fixed<2>, Particle<2>>>;
+extern template struct BatchOf<ForceBatch, Damper<Particle<2>, Particle<2>>>;
+extern template struct BatchOf<ForceBatch, Damper<Fixed<3>, Particle<3>>>;
+extern template struct BatchOf<ForceBatch, Damper<Particle<3>, Particle<3>>>;
 
 }  // namespace dalembert

@@ -123,7 +123,8 @@ std::vector<std::vector<int>> connected_rows(const System& system) {
 
 /// Directions that the given rows allow, as orthonormal columns.
 Eigen::MatrixXd allowed(const Eigen::MatrixXd& all, const std::vector<int>& rows) {
-  const Eigen::MatrixXd I = all(rows, Eigen::all);
+  Eigen::MatrixXd I(std::ssize(rows), all.cols());
+  for (Eigen::Index r = 0; r < I.rows(); ++r) I.row(r) = all.row(rows[static_cast<std::size_t>(r)]);
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(I.transpose());
   qr.setThreshold(1e-9);
   const Eigen::MatrixXd Q = qr.householderQ();

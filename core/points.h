@@ -117,6 +117,4 @@ template <Point... P>
   return {std::move(point)...};
 }
 
-static_assert(Point<Fixed<2>> && Point<Particle<3>> && Point<Rotor>);
-
 }  // namespace dalembert

@@ -121,10 +121,12 @@ void Scene<D>::require_constraint(std::uint64_t scene, int index, int rows, cons
 }
 
 template <int D>
-void Scene<D>::require_finite(const Vec<D>& fixed, const std::string& label) {
+void Scene<D>::admit_fixed(const Vec<D>& fixed, const std::string& label,
+                           Eigen::AlignedBox<double, D>& extent) {
   if (!fixed.allFinite()) {
     throw InvalidScene(label + ": its fixed point " + text<D>(fixed) + " must be finite");
   }
+  extent.extend(fixed);
 }
 
 template <int D>
@@ -133,6 +135,27 @@ void Scene<D>::require_compliance(double compliance, const std::string& label) {
   std::ostringstream what;
   what << label << ": compliance = " << compliance << ", must be finite and >= 0; 0 is rigid";
   throw InvalidScene(what.str());
+}
+
+template <int D>
+void Scene<D>::take(const std::string& name, const Eigen::AlignedBox<double, D>& extent) {
+  names_.insert(name);
+  extent_ = extent;
+}
+
+template <int D>
+ConstraintBatch& Scene<D>::begin_group(std::unique_ptr<ConstraintBatch> batch) {
+  return *constraints_.emplace_back(ConstraintGroup{std::move(batch), {}}).batch;
+}
+
+template <int D>
+int Scene<D>::enter(std::size_t group, const std::string& name) {
+  const int number = static_cast<int>(layout_.constraints.size());
+  const ConstraintShape shape = constraints_[group].batch->shape();
+  layout_.constraints.push_back(
+      {std::string(shape.kind), name, shape.rows, shape.width, shape.inputs, shape.internal, 0, 0});
+  constraints_[group].numbers.push_back(number);
+  return number;
 }
 
 template <int D>

@@ -1,12 +1,9 @@
 #pragma once
 
+#include <dalembert/core/batch_of.h>
 #include <dalembert/core/errors.h>
-#include <dalembert/core/force.h>
 #include <dalembert/core/forces.h>
-#include <dalembert/core/friction_batch.h>
 #include <dalembert/core/handles.h>
-#include <dalembert/core/holonomic_batch.h>
-#include <dalembert/core/nonholonomic_batch.h>
 #include <dalembert/core/system.h>
 
 #include <Eigen/Geometry>
@@ -66,31 +63,31 @@ class Scene {
   Constraint<rows_of_constraint<C>> add(C constraint, const std::string& name = {}) {
     const std::string own =
         admit(constraint, detail::kind_of<C>("Holonomic"), name, layout_.constraints.size());
-    return place<HolonomicBatch<C>, rows_of_constraint<C>>(std::move(constraint), own);
+    return place<rows_of_constraint<C>>(constraint, own);
   }
   template <NonholonomicConstraint C>
   Constraint<rows_of_constraint<C>> add(C constraint, const std::string& name = {}) {
     const std::string own =
         admit(constraint, detail::kind_of<C>("Nonholonomic"), name, layout_.constraints.size());
-    return place<NonholonomicBatch<C>, rows_of_constraint<C>>(std::move(constraint), own);
+    return place<rows_of_constraint<C>>(constraint, own);
   }
 
   /// Adds a force; throws like a constraint.
   template <PotentialForce E>
   void add(E force, const std::string& name = {}) {
     const std::string own = admit(force, detail::kind_of<E>("Potential"), name, force_count_);
-    place_force<PotentialBatch<E>>(forces_, std::move(force), own);
+    place_force(forces_, force, own);
   }
   template <LawForce E>
   void add(E force, const std::string& name = {}) {
     const std::string own = admit(force, detail::kind_of<E>("ForceLaw"), name, force_count_);
-    place_force<LawBatch<E>>(forces_, std::move(force), own);
+    place_force(forces_, force, own);
   }
   /// Adds a force that reads a multiplier; throws also if its constraint is not one of this scene.
   template <FrictionForce E>
   void add(E force, const std::string& name = {}) {
     const std::string own = admit(force, detail::kind_of<E>("Friction"), name, force_count_);
-    place_force<FrictionBatch<E>>(frictions_, std::move(force), own);
+    place_force(frictions_, force, own);
   }
 
   /// Everything else is a mistake, which the compiler tells.
@@ -153,11 +150,10 @@ class Scene {
       const auto& read = element.constraint();
       require_constraint(read.scene, read.index, rows_read<Element>, label);
     }
-    auto extent = extent_;
+    Eigen::AlignedBox<double, D> extent = extent_;
     std::apply([&](const auto&... point) { (admit_point(point, label, extent), ...); }, element.points());
-    extent_ = extent;
-    std::apply([this](const auto&... point) { (remember_path(point), ...); }, element.points());
-    names_.insert(own);
+    std::apply([this](const auto&... point) { (this->remember_path(point), ...); }, element.points());
+    take(own, extent);
     return own;
   }
   template <Point P>
@@ -167,8 +163,7 @@ class Scene {
     } else if constexpr (P::coordinates > 0) {
       require_own(point.scene, point.coordinate, label);
     } else if constexpr (!P::driven) {
-      require_finite(point.position, label);
-      extent.extend(point.position);
+      admit_fixed(point.position, label, extent);
     }
   }
   template <Point P>
@@ -178,46 +173,32 @@ class Scene {
   }
   void require_own(std::uint64_t scene, int coordinate, const std::string& label) const;
   void require_constraint(std::uint64_t scene, int index, int rows, const std::string& label) const;
-  static void require_finite(const Vec<D>& fixed, const std::string& label);
+  static void admit_fixed(const Vec<D>& fixed, const std::string& label,
+                          Eigen::AlignedBox<double, D>& extent);
   static void require_compliance(double compliance, const std::string& label);
+  void take(const std::string& name, const Eigen::AlignedBox<double, D>& extent);
 
-  template <class Batch, int rows, class C>
-  Constraint<rows> place(C constraint, const std::string& name) {
-    Batch* batch = nullptr;
-    ConstraintGroup* group = nullptr;
-    for (ConstraintGroup& g : constraints_) {
-      if (auto* same = dynamic_cast<Batch*>(g.batch.get())) {
-        batch = same;
-        group = &g;
-      }
-    }
-    if (batch == nullptr) {
-      auto fresh = std::make_unique<Batch>();
-      batch = fresh.get();
-      group = &constraints_.emplace_back(ConstraintGroup{std::move(fresh), {}});
-    }
-    batch->add(std::move(constraint));
-    const int number = static_cast<int>(layout_.constraints.size());
-    group->numbers.push_back(number);
-    const ConstraintShape shape = batch->shape();
-    layout_.constraints.push_back(
-        {std::string(shape.kind), name, shape.rows, shape.width, shape.inputs, shape.internal, 0, 0});
-    return {number, layout_.id};
+  template <int rows, class C>
+  Constraint<rows> place(const C& constraint, const std::string& name) {
+    using Own = BatchOf<ConstraintBatch, C>;
+    std::size_t g = 0;
+    while (g < constraints_.size() && !Own::add(*constraints_[g].batch, constraint)) ++g;
+    if (g == constraints_.size()) Own::add(begin_group(Own::empty()), constraint);
+    return {enter(g, name), layout_.id};
   }
+  ConstraintBatch& begin_group(std::unique_ptr<ConstraintBatch> batch);
+  /// Takes the constraint last added to a group into the layout, and returns its number.
+  int enter(std::size_t group, const std::string& name);
 
-  template <class Batch, class Base, class E>
-  void place_force(std::vector<ForceGroup<Base>>& groups, E force, const std::string& name) {
+  template <class Batch, class E>
+  void place_force(std::vector<ForceGroup<Batch>>& groups, const E& force, const std::string& name) {
+    using Own = BatchOf<Batch, E>;
     ++force_count_;
-    for (auto& g : groups) {
-      if (auto* same = dynamic_cast<Batch*>(g.batch.get())) {
-        same->add(std::move(force));
-        g.names.push_back(name);
-        return;
-      }
+    for (auto& group : groups) {
+      if (Own::add(*group.batch, force)) return group.names.push_back(name);
     }
-    auto fresh = std::make_unique<Batch>();
-    fresh->add(std::move(force));
-    groups.push_back({std::move(fresh), {name}});
+    groups.push_back({Own::empty(), {name}});
+    Own::add(*groups.back().batch, force);
   }
 
   Layout layout_;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds and tests.  Usage: tests/run.sh [release|debug|threads|ci]
+# Installs what is missing, builds and tests.  Usage: tests/run.sh [release|debug|threads|clang]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=${1:-release}

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
+
 #include <array>
 #include <cstddef>
 #include <utility>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// A linear combination of stages, h sum_j weight_j k_j, with the zero weights left out; in one pass over
 /// memory, unrolled over j.

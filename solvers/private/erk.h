@@ -1,13 +1,14 @@
 #pragma once
 
 #include <dalembert/core/statistics.h>
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/start.h>
 #include <dalembert/solvers/private/step_failure.h>
 
 #include <memory>
 #include <span>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// Steps the equations of motion by an explicit Runge-Kutta pair of orders 8 and 7 (verner87), with
 /// accelerations from the constraints differentiated twice, and puts each accepted step back onto

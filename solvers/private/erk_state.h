@@ -3,6 +3,7 @@
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/private/combination.h>
 #include <dalembert/solvers/private/erk.h>
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/manifold.h>
 #include <dalembert/solvers/private/passage.h>
 #include <dalembert/solvers/private/singularity.h>
@@ -15,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// The pair and what a step of it needs.
 struct ErkStepper::State {

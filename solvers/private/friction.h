@@ -1,12 +1,13 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/kkt.h>
 
 #include <span>
 #include <string>
 #include <vector>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// Accelerations and multipliers where forces F_f read multipliers,
 ///

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
+
 #include <array>
 #include <cstddef>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// The polynomial of degree 3 Nodes - 1 through the value and two derivatives of a function at each
 /// of several times, by Newton's divided differences (Stoer, Bulirsch, Numerical Analysis, 2.1.5).

@@ -49,8 +49,10 @@ IdaStepper::IdaStepper(const System& system, const Start& start, const Options& 
     own.matrix_y = x;
     return 0;
   };
+#if SUNDIALS_VERSION_MAJOR < 7  // from 7 on the context is silent
   const auto silence = [](int, const char*, const char*, char*, void*) noexcept {};
   check(IDASetErrHandlerFn(ida, silence, nullptr), "IDASetErrHandlerFn");
+#endif
   check(IDAInit(ida, residual, s.t, s.y.get(), s.yp.get()), "IDAInit");
   check(IDASetUserData(ida, &s), "IDASetUserData");
   check(IDAWFtolerances(ida, weigh), "IDAWFtolerances");

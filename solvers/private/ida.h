@@ -2,6 +2,7 @@
 
 #include <dalembert/core/statistics.h>
 #include <dalembert/core/system.h>
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/springs.h>
 #include <dalembert/solvers/private/start.h>
 #include <dalembert/solvers/private/step_failure.h>
@@ -9,7 +10,7 @@
 #include <memory>
 #include <span>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// Steps the stabilised index-2 equations (see NewtonMatrix) by SUNDIALS' IDA: variable-order,
 /// variable-step BDF.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/ida.h>
 #include <dalembert/solvers/private/newton_matrix.h>
 #include <dalembert/solvers/private/order_guard.h>
@@ -12,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 struct FreeIda {
   void operator()(void* memory) const { IDAFree(&memory); }

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <dalembert/core/system.h>
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/klu.h>
 #include <dalembert/solvers/private/rows.h>
 
 #include <span>
 #include <vector>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// The saddle-point matrix that every solve of this library is about,
 ///

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
+
 #include <memory>
 #include <span>
 #include <vector>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// A sparse unsymmetric matrix with a fixed pattern, factored by SuiteSparse's KLU: ordered once,
 /// pivoted at the first factorisation and again whenever the pivots have become bad, refactored

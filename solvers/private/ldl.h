@@ -1,10 +1,12 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
+
 #include <memory>
 #include <span>
 #include <vector>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// A sparse symmetric positive definite matrix with a fixed pattern, factored as L D L^T by
 /// SuiteSparse's LDL: ordered once (by AMD, unless the given order fills in no more), factored

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/solvers/private/friction.h>
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/minimum_norm.h>
 #include <dalembert/solvers/private/saddle.h>
 #include <dalembert/solvers/private/springs.h>
@@ -9,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// The largest violation of the constraints at a state, and which row has it. A row's residual is
 /// divided by the length of its gradient: |g|/|G| is the distance to the constraint, |psi|/|W| a

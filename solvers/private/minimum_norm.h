@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/rows.h>
 
 #include <Eigen/Core>
@@ -9,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// Forces of dependent constraints. Where rows of W depend on each other, W^T lambda is unique but lambda
 /// is not. With a an independent set of rows, d the others, and N a basis of the null space of W^T,

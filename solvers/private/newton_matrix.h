@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/core/islands.h>
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/saddle.h>
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// Solves the linear systems of Newton's iteration for the stabilised index-2 equations
 ///

@@ -1,6 +1,8 @@
 #pragma once
 
-namespace dalembert {
+#include <dalembert/solvers/private/hidden.h>
+
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// Chooses the highest order that BDF may use where vibrations hold the step down.
 ///

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/start.h>
 
 #include <span>
 #include <string>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// For the message of a run that stopped: the constraint whose force has outgrown all that the scene's
 /// masses, speed and time explain, and has grown since the start as much, with its multiplier and what it

@@ -42,7 +42,7 @@ Passage::Passage(std::size_t n) : past_(kept) {
 }
 
 void Passage::remember(double t, std::span<const double> a) {
-  std::ranges::rotate(past_, past_.end() - 1);
+  std::rotate(past_.begin(), past_.end() - 1, past_.end());  // clang 14 has no std::ranges::rotate
   past_.front().t = t;
   std::ranges::copy(a, past_.front().a.begin());
   known_ = std::min(known_ + 1, past_.size() - 1);  // one more is there for those chosen before

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
+
 #include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// The accelerations of the last steps, to go on with where those of the equations are worth nothing:
 ///

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/manifold.h>
 #include <dalembert/solvers/private/start.h>
 
 #include <vector>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// Everything that can be read at one instant.
 struct Moment {

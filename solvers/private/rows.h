@@ -1,10 +1,11 @@
 #pragma once
 
 #include <dalembert/core/rank.h>
+#include <dalembert/solvers/private/hidden.h>
 
 #include <span>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// w M^-1 w^T of a row: the inverse of the mass that its multiplier moves.
 [[nodiscard]] double mobility(const System& system, std::span<const double> w, std::size_t row);

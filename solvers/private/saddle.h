@@ -1,11 +1,12 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/kkt.h>
 #include <dalembert/solvers/private/schur.h>
 
 #include <optional>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// The matrix of projections and accelerations,
 ///

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <dalembert/core/system.h>
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/ldl.h>
 
 #include <span>
 #include <vector>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// Solves
 ///

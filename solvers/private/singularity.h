@@ -1,8 +1,10 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
+
 #include <limits>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// How close the constraints are to dependent at a time: see Manifold::sine.
 struct Angle {

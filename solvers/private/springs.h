@@ -1,8 +1,10 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
+
 #include <vector>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// The multipliers of compliant constraints, g + C lambda = 0, where they are part of a stepper's
 /// state. One number per row of the system; those of rigid rows do not count. Empty if none is compliant.

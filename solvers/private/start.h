@@ -2,13 +2,14 @@
 
 #include <dalembert/core/system.h>
 #include <dalembert/solvers/options.h>
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/rows.h>
 
 #include <cmath>
 #include <limits>
 #include <vector>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// How far a scene without a length of its own has come so far, and how fast it has been.
 struct Way {

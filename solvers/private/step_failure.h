@@ -1,8 +1,10 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
+
 #include <string>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// Thrown when a step cannot be taken; the integrator adds the trajectory so far.
 struct StepFailure {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
+
+#include <sundials/sundials_config.h>
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
@@ -11,7 +14,7 @@
 #include <string>
 
 /// SUNDIALS' objects as owners that free them, and its return codes as exceptions.
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 struct FreeContext {
   void operator()(SUNContext c) const { SUNContext_Free(&c); }
@@ -38,9 +41,15 @@ Pointer check(Pointer pointer) {
   return pointer;
 }
 
+/// A context that says nothing: errors are return codes.
 [[nodiscard]] inline Owned<SUNContext, FreeContext> make_context() {
   SUNContext context = nullptr;
+#if SUNDIALS_VERSION_MAJOR >= 7
+  check(SUNContext_Create(SUN_COMM_NULL, &context), "SUNContext_Create");
+  check(SUNContext_ClearErrHandlers(context), "SUNContext_ClearErrHandlers");
+#else  // IDA itself is told to be silent
   check(SUNContext_Create(nullptr, &context), "SUNContext_Create");
+#endif
   return Owned<SUNContext, FreeContext>(context);
 }
 

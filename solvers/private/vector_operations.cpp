@@ -49,7 +49,9 @@ void linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector result) {
   const double* const v = NV_DATA_S(y);
   double* const z = NV_DATA_S(result);
   const std::size_t n = length(x);
+#ifndef __clang__
 #pragma GCC ivdep
+#endif
   for (std::size_t i = 0; i < n; ++i) z[i] = a * u[i] + b * v[i];
 }
 
@@ -57,7 +59,9 @@ void scale(double a, N_Vector x, N_Vector result) {
   const double* const u = NV_DATA_S(x);
   double* const z = NV_DATA_S(result);
   const std::size_t n = length(x);
+#ifndef __clang__
 #pragma GCC ivdep
+#endif
   for (std::size_t i = 0; i < n; ++i) z[i] = a * u[i];
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
+
 #include <sundials/sundials_nvector.h>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// Gives a serial N_Vector, and all that are cloned from it, operations that the compiler can
 /// vectorise: SUNDIALS' own sum in one chain, which floating-point rules forbid to reorder.

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
+
 #include <array>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// An explicit Runge-Kutta pair: stage i at t + c_i h, Y_i = y + h sum_j a_ij k_j, the step
 /// y + h sum_i b_i k_i, its error estimate h sum_i d_i k_i with d = b - b^.

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/saddle.h>
 
 #include <vector>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// The direction n of the coordinates that the constraints hold least: the right singular vector of the
 /// smallest singular value of W M^-1/2 with rows of unit length, by inverse iteration with

@@ -11,7 +11,7 @@
 #include <vector>
 
 /// What every constraint type must obey, whatever it says. A type is put under these laws by one
-/// line in laws.cpp.
+/// line in one of the laws_*.cpp.
 namespace dalembert::laws {
 
 /// A rotation and a translation. A constraint that is built through one of these is the same

@@ -1,0 +1,12 @@
+#include "dalembert/constraints/on_surface.h"
+
+#include <dalembert/core/batch_of.h>
+
+namespace dalembert {
+
+template struct BatchOf<ConstraintBatch, OnSurface<Particle<3>, Plane<3>>>;
+template struct BatchOf<ConstraintBatch, OnSurface<Particle<3>, Sphere<3>>>;
+template struct BatchOf<ConstraintBatch, OnSurface<Particle<3>, Cylinder>>;
+template struct BatchOf<ConstraintBatch, OnSurface<Particle<3>, Cone>>;
+
+}  // namespace dalembert

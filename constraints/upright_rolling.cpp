@@ -1,0 +1,9 @@
+#include "dalembert/constraints/upright_rolling.h"
+
+#include <dalembert/core/batch_of.h>
+
+namespace dalembert {
+
+template struct BatchOf<ConstraintBatch, UprightRolling<Particle<2>>>;
+
+}  // namespace dalembert

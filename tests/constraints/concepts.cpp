@@ -1,0 +1,32 @@
+// What each type of point, force and constraint of the library is. Asked here and not in the headers, where
+// every user would pay for the answers.
+#include <dalembert/dalembert.h>
+
+namespace dalembert {
+
+static_assert(Point<Fixed<2>> && Point<Particle<3>> && Point<Rotor>);
+static_assert(Point<BodyPoint<2>> && Point<BodyPoint<3>> && Point<BodyPoint<3, 2>>);
+
+static_assert(PotentialForce<Spring<Fixed<2>, Particle<2>>>);
+static_assert(LawForce<Damper<Particle<3>, Particle<3>>>);
+static_assert(PotentialForce<Torque> && LawForce<QuadraticDrag<Particle<3>>>);
+static_assert(LawForce<Couple<Fixed<2>, Particle<2>>>);
+static_assert(PotentialForce<ElasticString<Fixed<2>, Particle<2>>>);
+
+static_assert(HolonomicConstraint<Coincident<Particle<3>, Fixed<3>>>);
+static_assert(rows_of_constraint<Coincident<Particle<2>, Particle<2>>> == 2);
+static_assert(HolonomicConstraint<Distance<Particle<3>, Fixed<3>>>);
+static_assert(HolonomicConstraint<DiskContact<Particle<3>, Particle<3>, Particle<3>>>);
+static_assert(HolonomicConstraint<LineOffset<Particle<2>, Fixed<2>, Fixed<2>>>);
+static_assert(HolonomicConstraint<OnCurve<Particle<2>, Sphere<2>>>);
+static_assert(HolonomicConstraint<OnSurface<Particle<3>, Cone>>);
+static_assert(HolonomicConstraint<OnSurface<Particle<3>, Plane<3>>>);
+
+static_assert(NonholonomicConstraint<DiskRolling<Particle<3>, Particle<3>, Particle<3>>>);
+static_assert(NonholonomicConstraint<Heading<Particle<2>, Particle<2>, Fixed<2>>>);
+static_assert(NonholonomicConstraint<Pursuit<Particle<2>, Fixed<2>>>);
+static_assert(NonholonomicConstraint<Rolling<Particle<2>, Fixed<2>, Fixed<2>>>);
+static_assert(NonholonomicConstraint<UprightRolling<Particle<2>>>);
+static_assert(rows_of_constraint<UprightRolling<Particle<2>>> == 2);
+
+}  // namespace dalembert
