@@ -201,6 +201,16 @@ TEST(DoorOnTwoHinges, ExertTheSameForcesHoweverTheirEquationsAreWritten) {
   EXPECT_NEAR(force.dot(plain.n), 49.05, 1e-9);
 }
 
+TEST(DoorOnTwoHinges, HaveNoFourthComponent) {
+  const Door door(inertias[0], Vec<3>::UnitZ());
+  const Simulation<3> at(door.scene, {.t_end = 1.0});
+  for (const int component : {-1, 3}) {
+    EXPECT_THAT(
+        [&] { (void)at.sample().is_unique(door.upper, component); },
+        ThrowsMessage<InvalidScene>(AllOf(HasSubstr("Coincident \"upper\""), HasSubstr("counted from 0"))));
+  }
+}
+
 // The hinges' friction reads their horizontal forces, which the motion determines.
 TEST(DoorOnTwoHinges, LetFrictionReadTheirHorizontalForces) {
   Door door(inertias[0], Vec<3>::UnitZ());
