@@ -81,7 +81,7 @@ Start first_start(const System& system, std::span<const double> q, std::span<con
 
 }  // namespace
 
-struct Integrator::State {
+struct DALEMBERT_HIDDEN Integrator::State {
   State(System s, std::span<const double> q0, std::span<const double> v0, const Options& o) try
       : options(o),
         times(sample_times(o)),

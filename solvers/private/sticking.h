@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/manifold.h>
 #include <dalembert/solvers/private/start.h>
 #include <dalembert/solvers/private/switches.h>
@@ -8,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// A state, and the accelerations there.
 struct Motion {

@@ -2,6 +2,7 @@
 
 #include <dalembert/core/branches.h>
 #include <dalembert/core/system.h>
+#include <dalembert/solvers/private/hidden.h>
 
 #include <cmath>
 #include <optional>
@@ -9,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace dalembert {
+namespace DALEMBERT_HIDDEN dalembert {
 
 /// On which side of each switch in the equations a state lies.
 struct Side {
