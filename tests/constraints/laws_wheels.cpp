@@ -1,29 +1,16 @@
 #include "laws.h"
-#include <dalembert/constraints/disk_on_plane.h>
 #include <dalembert/constraints/heading.h>
 #include <dalembert/constraints/pursuit.h>
 #include <dalembert/constraints/rolling.h>
-#include <dalembert/constraints/upright_rolling.h>
 
 namespace dalembert::laws {
 namespace {
 
 // clang-format off: one line for each constraint type
 const bool registered = [] {
-  invariant<3>("DiskContact", [](auto& scene, auto& at, auto a, auto b) {
-    const Plane<3> plane{at.point(0.1, 0.2, 0.3), at.direction(1.0, 2.0, -2.0)};
-    scene.add(DiskContact{a, b, at.fixed(0.3, 1.4, -0.2), 0.8, plane});
-  });
-  invariant<3>("DiskRolling", [](auto& scene, auto& at, auto a, auto b) {
-    const Plane<3> plane{at.point(0.1, 0.2, 0.3), at.direction(1.0, 2.0, -2.0)};
-    scene.add(DiskRolling{a, b, at.fixed(0.3, 1.4, -0.2), 0.8, plane});
-  });
   any<2>("RollingOnATrackThatTurns", [](auto& scene, auto&, auto a, auto b) {
     scene.add(
         Rolling{a, scene.add_rotor({.inertia = 1.0}), driven([](auto t) { return vec(t, sin(t)); }), b, 0.4});
-  });
-  any<2>("UprightRolling", [](auto& scene, auto&, auto a, auto) {
-    scene.add(UprightRolling{a, scene.add_rotor({.inertia = 1.0}), scene.add_rotor({.inertia = 2.0}), 0.4});
   });
   invariant<2>("HeadingAlongADrivenDirection", [](auto& scene, auto& at, auto a, auto b) {
     scene.add(Heading{a, b, driven([at](auto t) { return at.point(2.0 + t, sin(t)); })});
