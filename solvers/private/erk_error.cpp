@@ -16,7 +16,7 @@ constexpr double stable = 3.3;
 void ErkStepper::State::weigh(const Node& at) {
   for (std::size_t i = 0; i < n; ++i) {
     weight[i] = 1.0 / scales.position_error(i, at.q[i], tolerance);
-    weight[n + i] = 1.0 / scales.velocity_error(i, at.q[i], at.va[i], tolerance);
+    weight[n + i] = 1.0 / scales.velocity_error(i, at.va[i], tolerance);
   }
 }
 

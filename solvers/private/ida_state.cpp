@@ -152,7 +152,7 @@ void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
   noise_of_step = 0.0;
   for (std::size_t i = 0; i < n(); ++i) {
     const double noise = eps * std::abs(value[i]);
-    const double speed = scales.velocity_error(i, value[i], value[n() + i], tolerance);
+    const double speed = scales.velocity_error(i, value[n() + i], tolerance);
     w[i] = 1.0 / (scales.position_error(i, value[i], tolerance) + noise);
     w[n() + i] = 1.0 / (speed + noise / h);
     noise_of_step = std::max(noise_of_step, noise * tolerance / speed);

@@ -46,9 +46,9 @@ struct Scales {
     return tolerance * (coordinate[i] + std::abs(q - origin[i])) +
            std::numeric_limits<double>::epsilon() * std::abs(q);
   }
-  /// The error allowed to velocity i: that of `length` in `time`, or relative to the velocity; or, of a path,
-  /// what moves it in a step by no more than it rounds.
-  [[nodiscard]] double velocity_error(std::size_t i, double q, double v, double tolerance) const;
+  /// The error allowed to velocity i: relative to `length` in `time`, or the top speed of a path, and to
+  /// itself.
+  [[nodiscard]] double velocity_error(std::size_t i, double v, double tolerance) const;
   /// The way when the next step, of h, is at (q, v).
   [[nodiscard]] Way further(std::span<const double> q, std::span<const double> v, double h,
                             double tolerance) const;

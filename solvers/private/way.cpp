@@ -1,6 +1,7 @@
 #include <dalembert/solvers/private/start.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace dalembert {
 
@@ -39,10 +40,9 @@ void Scales::take(const Way& next) {
     if (is_angle[i] == 0.0) coordinate[i] = length;
 }
 
-double Scales::velocity_error(std::size_t i, double q, double v, double tolerance) const {
-  if (!of_path) return tolerance * (coordinate[i] / time + std::abs(v));
-  const double rounding = std::numeric_limits<double>::epsilon() * std::abs(q) / way.step;
-  return tolerance * ((is_angle[i] > 0.0 ? way.rate : way.speed) + std::abs(v)) + rounding;
+double Scales::velocity_error(std::size_t i, double v, double tolerance) const {
+  const double speed = is_angle[i] > 0.0 ? way.rate : way.speed;
+  return tolerance * ((of_path ? speed : coordinate[i] / time) + std::abs(v));
 }
 
 }  // namespace dalembert
