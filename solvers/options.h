@@ -17,10 +17,12 @@ struct Options {
   double t_end = 0.0;    ///< where the run ends, > t_start [time]
   double t_start = 0.0;  ///< time of the initial state [time]
 
-  /// Number of samples, equally spaced, with one at either end; 2 to 1e8. Unless one of the next two is given.
+  /// Number of samples, equally spaced, with one at either end; 2 to 1e8. Unless one of the next two is
+  /// given.
   int samples = 101;
-  double sample_interval = 0.0;  ///< or a sample every so often, from t_start; at most the run's length [time]
-  std::vector<double> times{};   ///< or samples at these very times, increasing, within the run
+  double sample_interval =
+      0.0;                      ///< or a sample every so often, from t_start; at most the run's length [time]
+  std::vector<double> times{};  ///< or samples at these very times, increasing, within the run
 
   /// Relative accuracy: the steps are chosen so that each errs by the tolerance (of `ida`, whose steps are
   /// many, by a twentieth of it) times the scene's own length in position, and that length over the scene's

@@ -35,7 +35,7 @@ TEST(Allocation, DoesNotHappenWhileSteppingWithFriction) {
   EachKind each;
   each.scene.add(friction_law(
       each.upper_rod, points(each.upper, each.bead), [](auto lambda, auto, auto, auto v_u, auto v_b) {
-        return std::tuple{(-0.1 * lambda * v_u).eval(), (-0.01 * lambda * v_b).eval()};
+        return std::tuple{(-0.01 * lambda * lambda * v_u).eval(), (-0.01 * lambda * v_b).eval()};
       }));
   for (const auto stepper : {Stepper::ida, Stepper::erk}) {
     Simulation<2> simulation(each.scene, {.t_end = 10.0, .stepper = stepper});
