@@ -1,5 +1,6 @@
 #include "dalembert/core/audit.h"
 
+#include <dalembert/core/errors.h>
 #include <dalembert/core/rank.h>
 
 #include <Eigen/QR>
@@ -32,6 +33,13 @@ Audit audit(const System& system, const FlatSample& sample) {
   const Layout& layout = *system.layout();
   auto e = system.evaluation();
   system.evaluate(at, e);
+  for (const auto& constraint : layout.constraints) {
+    const auto own = sample.forces.subspan(static_cast<std::size_t>(constraint.first_slot),
+                                           static_cast<std::size_t>(constraint.width));
+    if (std::ranges::any_of(own, [](double Z) { return std::isnan(Z); }))
+      throw UndeterminedForce("No audit at this instant: the force of " + constraint.label() +
+                              " is not determined; choose another time");
+  }
   Audit result;
 
   Eigen::VectorXd Z = Eigen::VectorXd::Zero(system.coordinates());

@@ -35,6 +35,12 @@ class EquationFault : public Error {
   using Error::Error;
 };
 
+/// A force of constraint was asked for at an instant at which the constraints are so close to dependent that
+/// the state does not determine it. Motion can be read there; Sample::is_determined tells beforehand.
+class UndeterminedForce : public Error {
+  using Error::Error;
+};
+
 /// The integration could not go on. Nothing computed is lost: `trajectory<D>()` is the run up to
 /// the failure.
 class IntegrationFailure : public Error {

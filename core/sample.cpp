@@ -3,6 +3,9 @@
 #include <dalembert/core/errors.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
 
 namespace dalembert {
 
@@ -55,12 +58,31 @@ bool Sample<D>::unique(const Layout::Constraint& constraint, int component) cons
 }
 
 template <int D>
+bool Sample<D>::determined(const Layout::Constraint& constraint) const {
+  const auto own = flat_.lambda.subspan(static_cast<std::size_t>(constraint.first_row),
+                                        static_cast<std::size_t>(constraint.rows));
+  return std::ranges::none_of(own, [](double lambda) { return std::isnan(lambda); });
+}
+
+template <int D>
+void Sample<D>::refuse(const Layout::Constraint& constraint) const {
+  std::ostringstream what;
+  what << "The force of " << constraint.label() << " is not determined at t = " << std::setprecision(10)
+       << flat_.time
+       << ": the constraints are so close to dependent there that an error of the state, however small, "
+          "changes it; "
+          "read it at another time, or ask is_determined before";
+  throw UndeterminedForce(what.str());
+}
+
+template <int D>
 double Sample<D>::force_at(const Layout::Constraint& constraint, int coordinate) const {
   double Z = 0.0;
   for (int slot = constraint.first_slot; slot < constraint.first_slot + constraint.width; ++slot) {
     const auto s = static_cast<std::size_t>(slot);
     if (layout_->slot_coordinate[s] == coordinate) Z += flat_.forces[s];
   }
+  if (std::isnan(Z)) refuse(constraint);
   return Z;
 }
 

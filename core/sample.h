@@ -13,8 +13,8 @@ struct FlatSample {
   double time = 0.0;
   std::span<const double> q;       ///< n
   std::span<const double> v;       ///< n
-  std::span<const double> lambda;  ///< m
-  std::span<const double> forces;  ///< the slots of constraint forces
+  std::span<const double> lambda;  ///< m; NaN where the state does not determine it
+  std::span<const double> forces;  ///< the slots of constraint forces; likewise
   double energy = 0.0;             ///< kinetic plus all potential energies
   std::span<const char> unique{};  ///< m: is this multiplier determined? empty if all are
 };
@@ -22,7 +22,8 @@ struct FlatSample {
 /// One instant of a run, read by handle. A view: valid while the Trajectory or Simulation it comes
 /// from is alive and unchanged, inside an observer until it returns.
 ///
-/// Every function throws InvalidScene for a handle that is not one of this scene's.
+/// Every function throws InvalidScene for a handle that is not one of this scene's, and those that give a
+/// force UndeterminedForce where `is_determined` says no.
 template <int D>
 class Sample {
  public:
@@ -49,12 +50,21 @@ class Sample {
   /// the library's own; see the constraint for its direction.
   template <int Rows>
   [[nodiscard]] Multiplier<Rows> multiplier(Constraint<Rows> constraint) const {
-    const double* first = flat_.lambda.data() + info(constraint.index, constraint.scene).first_row;
+    const Layout::Constraint& its = info(constraint.index, constraint.scene);
+    if (!determined(its)) refuse(its);
+    const double* first = flat_.lambda.data() + its.first_row;
     if constexpr (Rows == 1) {
       return *first;
     } else {
       return Eigen::Map<const Vec<Rows>>(first);
     }
+  }
+
+  /// Whether the state determines this constraint's force. Close to an isolated singular position, where the
+  /// constraints are dependent for an instant, round-off or the tolerance may leave nothing of it.
+  template <int Rows>
+  [[nodiscard]] bool is_determined(Constraint<Rows> constraint) const {
+    return determined(info(constraint.index, constraint.scene));
   }
 
   /// Whether the motion determines this constraint's multipliers. Where constraints repeat each
@@ -104,6 +114,8 @@ class Sample {
   void require_coordinate(std::uint64_t scene, int coordinate) const;
   [[nodiscard]] Vec<D> force_of(const Layout::Constraint& constraint, Particle<D> particle) const;
   [[nodiscard]] bool unique(const Layout::Constraint& constraint, int component) const;
+  [[nodiscard]] bool determined(const Layout::Constraint& constraint) const;
+  [[noreturn]] void refuse(const Layout::Constraint& constraint) const;
   [[nodiscard]] double force_at(const Layout::Constraint& constraint, int coordinate) const;
 
   const Layout* layout_;

@@ -31,7 +31,8 @@ struct Record {
   /// The whole run as comma-separated values, all digits, behind lines that start with '#' and say
   /// what it is: scene, stepper, tolerance, versions, sign convention, statistics. Columns: t;
   /// position and velocity of each particle, angle and rate of each rotor; multipliers of each
-  /// constraint and its force on each particle it acts on; energy.
+  /// constraint and its force on each particle it acts on, "nan" where the state does not determine it;
+  /// energy.
   void write_csv(std::ostream& out) const;
   /// The same into a file; throws Error if it cannot be written.
   void write_csv(const std::string& path) const;
@@ -46,7 +47,7 @@ struct Record {
 /// M q'' = F + Z.
 ///
 /// Functions of a sample i throw InvalidScene if there is no such sample, and for a handle that is
-/// not one of this scene's.
+/// not one of this scene's; UndeterminedForce like those of Sample.
 template <int D>
 class Trajectory {
  public:
@@ -77,6 +78,10 @@ class Trajectory {
   template <int Rows>
   [[nodiscard]] Multiplier<Rows> multiplier(Constraint<Rows> constraint, std::size_t i) const {
     return sample(i).multiplier(constraint);
+  }
+  template <int Rows>
+  [[nodiscard]] bool is_determined(Constraint<Rows> constraint, std::size_t i) const {
+    return sample(i).is_determined(constraint);
   }
   template <int Rows>
   [[nodiscard]] bool is_unique(Constraint<Rows> constraint, std::size_t i) const {

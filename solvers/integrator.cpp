@@ -24,7 +24,7 @@ namespace {
 
 /// Where constraints repeat each other, those in use are chosen anew when the sine of the smallest angle
 /// among them has fallen to this part of what it was, if others are better by as much.
-constexpr double worse = 0.5;
+constexpr double worse = 0.25;
 
 /// The implicit stepper hands over to the explicit one where the constraints come so close to dependent,
 /// and would be dependent after so many of its steps: it feels the errors of its states times 1/sin.

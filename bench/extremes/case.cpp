@@ -36,6 +36,8 @@ std::vector<Group> groups() {
           {"units", units()},
           {"starts", starts()},
           {"failures", failures()},
+          {"redundancy", redundancy()},
+          {"round-off", at_round_off()},
           {"discontinuities", discontinuities()}};
 }
 

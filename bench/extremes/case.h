@@ -54,6 +54,8 @@ struct Group {
 [[nodiscard]] std::vector<Case> paths();
 [[nodiscard]] std::vector<Case> units();
 [[nodiscard]] std::vector<Case> starts();
+[[nodiscard]] std::vector<Case> redundancy();
+[[nodiscard]] std::vector<Case> at_round_off();
 [[nodiscard]] std::vector<Case> failures();
 [[nodiscard]] std::vector<Case> discontinuities();
 

@@ -1,6 +1,7 @@
 #include "dalembert/solvers/private/ida.h"
 
 #include <dalembert/solvers/private/ida_state.h>
+#include <dalembert/solvers/private/singularity.h>
 
 #include <algorithm>
 #include <limits>
@@ -13,6 +14,9 @@ namespace {
 /// Newton stops at this fraction of the error tolerance. IDA's 0.33 lets the multipliers' error
 /// into the step control.
 constexpr double newton_tolerance = 0.1;
+
+/// Below this tolerance round-off comes into question where Newton's iteration fails.
+constexpr double tight = 1e-9;
 
 /// Steps longer than this over a force's own rate do not follow its vibration.
 constexpr double unresolved = 0.45;
@@ -83,7 +87,14 @@ std::string IdaStepper::State::explain(int code) const {
       return "the error tolerance cannot be met with any step that double precision resolves; "
              "ask for a looser tolerance, or look for a discontinuous or very stiff force";
     case IDA_CONV_FAIL:
-      return fault_or("Newton's iteration does not converge; the constraints may be close to singular here");
+      return fault_or(
+          sine() < close_to_dependent
+              ? "Newton's iteration does not converge; the constraints are close to dependent here"
+          : asked_for < tight
+              ? "Newton's iteration does not converge: the tolerance asks for more than double "
+                "precision can deliver here; ask for one ten times as large, or look for a "
+                "discontinuous force"
+              : "Newton's iteration does not converge; look for a discontinuous or very stiff force");
     case IDA_TOO_MUCH_ACC:
       return "the tolerance asks for more than double precision can deliver; ask for a looser one";
     default:
@@ -124,6 +135,13 @@ void IdaStepper::State::change_order() {
   check(IDASetMaxOrd(ida.get(), guard.order()), "IDASetMaxOrd");
 }
 
+/// Newton's iteration that failed with forces left out of its matrix is to have them.
+void IdaStepper::State::watch_convergence() {
+  long failures = 0;
+  check(IDAGetNumStepSolveFails(ida.get(), &failures), "IDAGetNumStepSolveFails");
+  if (failures > std::exchange(solve_failures, failures)) newton.converged_badly();
+}
+
 /// Adds IDA's own counts since it began.
 void IdaStepper::State::count_failures(long& of_tests, long& of_newton) const {
   long tests = 0, newtons = 0;
@@ -142,6 +160,7 @@ void IdaStepper::step(double /*wanted*/) {
   if (code < 0) throw StepFailure{s.explain(code), s.t};
   ++s.steps;
   s.noise_of_steps += s.noise_of_step;
+  s.watch_convergence();
   // In front of a fault IDA would halve and double such steps for ever.
   if (code == IDA_SUCCESS && s.t - before <= 4.0 * std::numeric_limits<double>::epsilon() * std::abs(s.t)) {
     throw StepFailure{

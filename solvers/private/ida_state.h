@@ -44,6 +44,7 @@ struct IdaStepper::State {
   double t = 0.0;
   long steps = 0, evaluations = 0, error_tests = 0, convergence = 0;
   double noise_of_step = 0.0, noise_of_steps = 0.0;  // over the speed, the largest and its sum [time]
+  long solve_failures = 0;                           // of Newton, as IDA counted them last
   long unresolved_steps = 0;                         // longer than the vibration of a stiff force
   std::string fault;                                 // of the last evaluation that failed,
   double fault_time = 0.0;  // and where; no reason to stop once it has been stepped past
@@ -69,6 +70,7 @@ struct IdaStepper::State {
   void make_linear_solver();
   void watch_order();
   void change_order();
+  void watch_convergence();
   void count_failures(long& error_tests, long& convergence) const;
   void find_impulses();
   void spread_multipliers(N_Vector x);

@@ -7,9 +7,6 @@ namespace dalembert {
 
 namespace {
 
-/// Newton's iteration loses at most this factor in accuracy by leaving soft forces out.
-constexpr double still_soft = 0.1;
-
 /// The places of the rows that carry mu: the holonomic ones that are not slack.
 std::vector<std::size_t> carrying_rows(const ActiveRows& all) {
   std::vector<std::size_t> places;
@@ -109,7 +106,7 @@ void NewtonMatrix::judge(double c) {
     p_[static_cast<std::size_t>(system_->damping_pattern()[k].row)] += std::abs(linear_.damping[k]) / c;
   std::ranges::fill(stiff_, 0);
   for (std::size_t i = 0; i < p_.size(); ++i) {
-    if (p_[i] > still_soft * system_->masses()[i])
+    if (p_[i] > still_soft_ * system_->masses()[i])
       stiff_[static_cast<std::size_t>(islands_.of_coordinate[i])] = 1;
   }
 }
@@ -139,6 +136,11 @@ void NewtonMatrix::find_fastest_vibration() {
       square = std::max(square, mobility(*system_, w_, r) / system_->compliance()[r]);
   }
   rho_compliant_ = std::sqrt(square);
+}
+
+void NewtonMatrix::converged_badly() {
+  constexpr double softer = 0.1, nothing = 1e-4;
+  if (soft()) still_soft_ = std::max(softer * still_soft_, nothing);
 }
 
 std::string NewtonMatrix::stiffest_force() const { return system_->force_of_stiffness(stiffest_); }

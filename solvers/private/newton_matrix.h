@@ -86,6 +86,9 @@ class NewtonMatrix {
   [[nodiscard]] std::string stiffest_force() const;
   /// The sine of the smallest angle that a holonomic row makes with others, see SaddleMatrix.
   [[nodiscard]] double sine() const { return k2_.sine(); }
+  /// After an iteration that did not converge: what was left out then for being soft will be left out only
+  /// where it is softer still.
+  void converged_badly();
   /// Whether the last factors are those of W M^-1 W^T alone.
   [[nodiscard]] bool soft() const { return !k1_in_use_; }
   /// What factors the matrices, and of how many islands if it is not the same for all.
@@ -123,6 +126,8 @@ class NewtonMatrix {
   const System* system_;
   ActiveRows rows_;
   double time_;
+  double still_soft_ =
+      0.1;  ///< Newton's iteration may lose this factor in accuracy by leaving soft forces out
   Islands islands_;
   std::vector<char> needs_k1_;  // per island: nonholonomic or compliant rows, or friction
   std::vector<char> stiff_;     // per island: forces that a step feels

@@ -138,8 +138,8 @@ void Recovery::recover(Manifold& manifold, Moment& m) {
   m.correction = 0.0;
   for (std::size_t i = 0; i < q_given_.size(); ++i)
     m.correction = std::max(m.correction, std::abs(m.q[i] - q_given_[i]) * lever_[i]);
-  m.energy = system_->kinetic_energy(m.v) + system_->potential_energy({m.t, m.q, m.v}) +
-             system_->elastic_energy(m.lambda);
+  m.energy = system_->kinetic_energy(m.v) + system_->potential_energy({m.t, m.q, m.v});
+  if (system_->compliant()) m.energy += system_->elastic_energy(m.lambda);
   if (!std::isfinite(m.energy) || (known && !finite(m.forces))) {
     throw StepFailure{
         "the energy or a force of constraint exceeds what double precision holds; choose units in which "
