@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/models/chain.h>
+#include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/start.h>
 
 #include <numeric>
@@ -23,7 +24,7 @@ template <int D>
 }
 
 /// A scene's equations and a state of it, for a kernel to be called on.
-struct Problem {
+struct DALEMBERT_HIDDEN Problem {
   template <int D>
   explicit Problem(const Scene<D>& scene, const Options& options = {.t_end = 1.0})
       : system(scene.system()),
