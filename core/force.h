@@ -84,11 +84,12 @@ class PotentialBatch final : public ForceBatch {
   static constexpr int width = PointFacts<E>::coordinates;
   static constexpr bool takes_time =
       applicable_with_time<detail::EnergyOf<E>, detail::Probe<E>, detail::ProbePositions<E>>;
-  static_assert(
-      detail::Number<detail::ForceResult<detail::EnergyOf<E>, takes_time, E, detail::ProbePositions<E>>>,
-      "a potential returns its energy, one number; of an Eigen expression its .value()");
 
  public:
+  /// What Scene::add asks for.
+  static constexpr bool gives_what_it_should =
+      detail::Number<detail::ForceResult<detail::EnergyOf<E>, takes_time, E, detail::ProbePositions<E>>>;
+
   void add(E element) { elements_.add(std::move(element)); }
 
   [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override {
@@ -151,13 +152,13 @@ class LawBatch final : public ForceBatch {
   static constexpr int width = PointFacts<E>::coordinates;
   static constexpr bool takes_time =
       applicable_with_time<detail::ForceOf<E>, detail::Probe<E>, detail::ProbeMotion<E>>;
-  static_assert(
-      detail::are_forces<detail::ForceResult<detail::ForceOf<E>, takes_time, E, detail::ProbeMotion<E>>,
-                         PointTuple<E>>,
-      "a force law returns one column of its point's dimension, or one for each point, std::tuple{f_a, f_b}; "
-      "of an Eigen expression its .eval()");
 
  public:
+  /// What Scene::add asks for.
+  static constexpr bool gives_what_it_should =
+      detail::are_forces<detail::ForceResult<detail::ForceOf<E>, takes_time, E, detail::ProbeMotion<E>>,
+                         PointTuple<E>>;
+
   void add(E element) { elements_.add(std::move(element)); }
 
   [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override {

@@ -12,14 +12,13 @@ class FrictionBatch final : public MultiplierForceBatch {
   static constexpr int rows = rows_read<E>;
   static constexpr bool takes_time =
       applicable_with_time<detail::FrictionOf<E>, detail::Probe<E>, detail::ProbeFriction<E>>;
-  static_assert(
-      detail::are_forces<detail::ForceResult<detail::FrictionOf<E>, takes_time, E, detail::ProbeFriction<E>>,
-                         PointTuple<E>>,
-      "a friction law returns one column of its point's dimension, or one for each point, std::tuple{f_a, "
-      "f_b}; "
-      "of an Eigen expression its .eval()");
 
  public:
+  /// What Scene::add asks for.
+  static constexpr bool gives_what_it_should =
+      detail::are_forces<detail::ForceResult<detail::FrictionOf<E>, takes_time, E, detail::ProbeFriction<E>>,
+                         PointTuple<E>>;
+
   void add(E element) {
     constraints_.push_back(element.constraint().index);
     elements_.add(std::move(element));

@@ -13,9 +13,6 @@ class NonholonomicBatch final : public ConstraintBatch {
   static constexpr int inputs = PointFacts<C>::inputs;
   static constexpr int width = PointFacts<C>::coordinates;
   static constexpr int rows = rows_of_constraint<C>;
-  static_assert(detail::Equations<detail::Residual<C>>,
-                "a constraint's equation returns a number or a plain column of fixed size, vec(g_1, g_2): no "
-                "row, matrix or vector of dynamic size, and of an Eigen expression its .eval()");
 
  public:
   void add(C constraint) { elements_.add(std::move(constraint)); }

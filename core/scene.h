@@ -61,12 +61,20 @@ class Scene {
   /// particle of it does not belong to this scene.
   template <HolonomicConstraint C>
   Constraint<rows_of_constraint<C>> add(C constraint, const std::string& name = {}) {
+    static_assert(
+        detail::Equations<detail::Residual<C>>,
+        "a constraint's equation returns a number or a plain column of fixed size, vec(g_1, g_2): no "
+        "row, matrix or vector of dynamic size, and of an Eigen expression its .eval()");
     const std::string own =
         admit(constraint, detail::kind_of<C>("Holonomic"), name, layout_.constraints.size());
     return place<rows_of_constraint<C>>(constraint, own);
   }
   template <NonholonomicConstraint C>
   Constraint<rows_of_constraint<C>> add(C constraint, const std::string& name = {}) {
+    static_assert(
+        detail::Equations<detail::Residual<C>>,
+        "a constraint's equation returns a number or a plain column of fixed size, vec(g_1, g_2): no "
+        "row, matrix or vector of dynamic size, and of an Eigen expression its .eval()");
     const std::string own =
         admit(constraint, detail::kind_of<C>("Nonholonomic"), name, layout_.constraints.size());
     return place<rows_of_constraint<C>>(constraint, own);
@@ -75,17 +83,28 @@ class Scene {
   /// Adds a force; throws like a constraint.
   template <PotentialForce E>
   void add(E force, const std::string& name = {}) {
+    static_assert(PotentialBatch<E>::gives_what_it_should,
+                  "a potential returns its energy, one number; of an Eigen expression its .value()");
     const std::string own = admit(force, detail::kind_of<E>("Potential"), name, force_count_);
     place_force(forces_, force, own);
   }
   template <LawForce E>
   void add(E force, const std::string& name = {}) {
+    static_assert(LawBatch<E>::gives_what_it_should,
+                  "a force law returns one column of its point's dimension, or one for each point, "
+                  "std::tuple{f_a, f_b}; "
+                  "of an Eigen expression its .eval()");
     const std::string own = admit(force, detail::kind_of<E>("ForceLaw"), name, force_count_);
     place_force(forces_, force, own);
   }
   /// Adds a force that reads a multiplier; throws also if its constraint is not one of this scene.
   template <FrictionForce E>
   void add(E force, const std::string& name = {}) {
+    static_assert(
+        FrictionBatch<E>::gives_what_it_should,
+        "a friction law returns one column of its point's dimension, or one for each point, std::tuple{f_a, "
+        "f_b}; "
+        "of an Eigen expression its .eval()");
     const std::string own = admit(force, detail::kind_of<E>("Friction"), name, force_count_);
     place_force(frictions_, force, own);
   }

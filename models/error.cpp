@@ -23,8 +23,9 @@ template <int D>
 double force_error(const Observation<D>& a, const Observation<D>& b) {
   require_same(a.forces.size(), b.forces.size(), "forces");
   double error = 0.0;
+  // Of what a run gives only a force that is not determined is no number: all others are refused.
   for (std::size_t i = 0; i < a.forces.size(); ++i)
-    error = larger(error, std::abs(a.forces[i] - b.forces[i]));
+    if (!std::isnan(a.forces[i])) error = larger(error, std::abs(a.forces[i] - b.forces[i]));
   return error;
 }
 

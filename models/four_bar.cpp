@@ -79,7 +79,11 @@ Model<2> FourBar::model() const {
                       Observation<2> seen;
                       Vec<2> ground = Vec<2>::Zero();
                       for (const auto& rod : uprights) seen.positions.push_back(sample.position(rod.end()));
-                      for (const auto& pin : pins) ground += sample.multiplier(pin);
+                      bool known = true;  // not where the rods lie in line
+                      for (const auto& pin : pins) known = known && sample.is_determined(pin);
+                      for (const auto& pin : pins)
+                        if (known) ground += sample.multiplier(pin);
+                      if (!known) ground.fill(not_determined);
                       seen.forces = {ground.x(), ground.y()};
                       return seen;
                     }};

@@ -3,6 +3,7 @@
 #include <dalembert/dalembert.h>
 
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <variant>
@@ -16,6 +17,9 @@ struct Observation {
   std::vector<Vec<D>> positions;  ///< of the points that the derivation speaks of
   std::vector<double> forces;  ///< of constraint, in the derivation's own terms (a tension, a normal force)
 };
+
+/// In place of a force that cannot be read, see Sample::is_determined; it is not compared.
+inline constexpr double not_determined = std::numeric_limits<double>::quiet_NaN();
 
 /// A scene and how to read the observed quantities from a run of it.
 template <int D>

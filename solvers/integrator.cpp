@@ -225,6 +225,9 @@ struct DALEMBERT_HIDDEN Integrator::State {
     Options from_here = options;
     from_here.t_start = t;
     from_here.stepper = kind;
+    // Close to a singular position a step of the explicit stepper is to err by no more than one of the other.
+    if (kind != options.stepper)
+      from_here.tolerance = std::max(share_of_a_step * options.tolerance, smallest_tolerance);
     start = begin_anew(system, start, t, q0, v0);
     manifold.emplace(system, start.rows, lever);
     stepper = make_stepper(system, start, from_here);

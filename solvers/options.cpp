@@ -9,8 +9,6 @@ namespace dalembert {
 
 namespace {
 
-/// Below this, round-off in the velocities of BDF's divided differences decides the step size.
-constexpr double smallest_tolerance = 1e-13;
 constexpr double largest_tolerance = 1e-1;
 
 /// More are no result that one could hold, at some hundred bytes each.

@@ -12,6 +12,9 @@ enum class Stepper {
 };
 [[nodiscard]] const char* name(Stepper stepper);
 
+/// Below this, round-off in the velocities of BDF's divided differences decides the step size.
+inline constexpr double smallest_tolerance = 1e-13;
+
 /// How to run a scene. An aggregate: `simulate(scene, {.t_end = 10.0, .tolerance = 1e-8})`.
 struct Options {
   double t_end = 0.0;    ///< where the run ends, > t_start [time]

@@ -93,12 +93,12 @@ double ErkStepper::State::find_singular(double& t) {
 }
 
 /// Whether `next`, which errs by `error` over the tolerance, or the best passage so far in its place, is to
-/// be taken.
+/// be taken. The constraints make of an error there one that is larger by 1/sin.
 bool ErkStepper::State::worth_taking(double error) {
   if (error < best_passage) {
     best_passage = error;
     landing = next;
-    return error <= 1.0;
+    return error <= std::min(1.0, to.sine);
   }
   if (best_passage * tolerance > std::sqrt(tolerance)) return false;
   next = landing;

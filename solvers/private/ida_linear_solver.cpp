@@ -16,7 +16,9 @@ void IdaStepper::State::make_linear_solver() {
     State& s = *static_cast<State*>(self->content);
     return guarded(s, s.matrix_t, [&s] {
       // IDA weighs once per step, also where it goes on to shorten it; those of multipliers depend on h.
-      s.weigh(s.matrix_y, s.weights);
+      double h = 0.0;
+      check(IDAGetCurrentStep(s.ida.get(), &h), "IDAGetCurrentStep");
+      if (h != s.weighed_h) s.weigh(s.matrix_y, s.weights);
       s.spread_multipliers(s.matrix_y);
       const Instant at = s.instant(s.matrix_t, s.matrix_y);
       const bool known = s.evaluated_at == at.t && s.evaluated == s.matrix_y;  // by the residual just before

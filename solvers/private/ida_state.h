@@ -53,6 +53,7 @@ struct IdaStepper::State {
   double matrix_t = 0.0, matrix_c = 0.0;
   N_Vector matrix_y = nullptr;
   N_Vector weights = nullptr;  // IDA's own
+  double weighed_h = 0.0;      // of the step they are for
   // Where `e` holds.
   double evaluated_at = 0.0, factored_at = 0.0;
   N_Vector evaluated = nullptr;

@@ -18,9 +18,10 @@ TEST(Statistics, ReportIsOneLineWithEveryNumber) {
   s.correction = 0.125;
   s.run_time = 1.5;
   EXPECT_EQ(s.report(),
-            "0 degrees of freedom, 11 steps, 22 evaluations, 33 factorisations, 44 error test failures, 55 "
-            "convergence failures, "
-            "residuals 0.5 (position) 0.25 (velocity), correction 0.125, 1.5 s");
+            "0 degrees of freedom, 11 steps, accuracy 0, 22 evaluations, 33 factorisations, 44 error test "
+            "failures, 55 "
+            "convergence failures, length 0, time 0, residuals 0.5 (position) 0.25 (velocity), correction "
+            "0.125, 1.5 s");
 }
 
 }  // namespace

@@ -24,6 +24,11 @@ constexpr double audit_threshold = 1e-9;
 /// the residual speed that is tolerated, within the time the scene takes, is tolerated as well.)
 constexpr double agree = 1e-6;
 
+/// Or NaN, which marks a force that is not determined.
+bool finite_or_marked(std::span<const double> x) {
+  return std::ranges::none_of(x, [](double y) { return std::isinf(y); });
+}
+
 bool finite(std::span<const double> x) {
   return std::ranges::all_of(x, [](double y) { return std::isfinite(y); });
 }
@@ -166,7 +171,8 @@ std::string fault_of_run(const Draft<D>& draft, const Trajectory<D>& run, std::o
   for (std::size_t i = 0; i < run.size(); ++i) {
     const FlatSample s = run.sample(i).flat();
     if (!finite(s.q) || !finite(s.v)) return "a position or velocity is not finite";
-    if (!finite(s.lambda) || !finite(s.forces)) return "a force of constraint is not finite";
+    if (!finite_or_marked(s.lambda) || !finite_or_marked(s.forces))
+      return "a force of constraint is not finite";
     if (!std::isfinite(s.energy)) return "an energy is not finite";
     speed = std::max({speed, largest(s.v), length / draft.plan.time});
   }

@@ -92,25 +92,19 @@ Eigen::MatrixXd constraint_rows(const System& system, const Sample<3>& sample) {
   return W;
 }
 
-// One combination of the rows is zero; a multiplier is determined if its row has no part in it. Of all
-// forces along unit rows (a multiplier times the length of its row) with the same sum, the least have none of
-// that combination.
-TEST(Bricard, ForcesAreTheLeastAndMarkedWhereTheyAreNotUnique) {
+// One combination of the rows is zero; a multiplier is determined if its row has no part in it.
+TEST(Bricard, ForcesAreMarkedWhereTheyAreNotUnique) {
   const BricardScene built = Bricard{}.scene();
   const System system = built.scene.system();
   const auto run = simulate(built.scene, {.t_end = 3.0, .samples = 4, .tolerance = 1e-8});
   for (std::size_t i = 0; i < run.size(); ++i) {
     const FlatSample flat = run.sample(i).flat();
     const Eigen::MatrixXd W = constraint_rows(system, run.sample(i));
-    const Eigen::VectorXd lengths = W.rowwise().norm();
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(W.rowwise().normalized(), Eigen::ComputeFullU);
     const Eigen::VectorXd null = svd.matrixU().col(system.rows() - 1);
     // The other singular values are above 0.1: the null vector is exact to some 10 roundings.
     constexpr double round_off = 1e-14;
     ASSERT_LT(svd.singularValues()[system.rows() - 1], round_off);
-    const Eigen::VectorXd forces =
-        lengths.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(flat.lambda.data(), system.rows()));
-    EXPECT_NEAR(null.dot(forces), 0.0, 1e3 * round_off * forces.norm());
     for (int r = 0; r < system.rows(); ++r) {
       const bool unique = flat.unique[static_cast<std::size_t>(r)] != 0;
       EXPECT_EQ(unique, std::abs(null[r]) < 1e6 * round_off) << system.row_label(r) << " at " << flat.time;

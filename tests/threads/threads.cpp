@@ -43,7 +43,7 @@ std::vector<double> run_bodies(Stepper stepper) {
   const auto a = body("a", 0.5), b = body("b", 1.5);
   scene.add(Coincident{Fixed<3>{}, a.point({-0.5, 0.0, 0.0})});
   scene.add(Coincident{a.point({0.5, 0.0, 0.0}), b.point({-0.5, 0.0, 0.0})});
-  scene.add(Distance{a.particles[0], a.particles[1], 2.0 * std::hypot(a.arms.y(), a.arms.z())});
+  scene.add(Distance{a.point({0.1, 0.0, 0.0}), a.point({-0.1, 0.0, 0.0}), 0.2});
   return numbers(simulate(scene, {.t_end = 1.0, .samples = 11, .stepper = stepper}));
 }
 
