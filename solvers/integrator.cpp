@@ -202,14 +202,13 @@ struct DALEMBERT_HIDDEN Integrator::State {
       if (angle.sine < handover_sine && left < handover_steps * (angle.t - before.t)) hand_over();
       return;
     }
-    least_sine = std::min(least_sine, angle.sine);
-    if (angle.sine < 2.0 * least_sine) return;
+    if (angle.sine <= before.sine || angle.sine < sine_at_handover) return;
     handed_over = false;
     restart(Stepper::ida);
   }
   void hand_over() {
     handed_over = true;
-    least_sine = std::numeric_limits<double>::infinity();
+    sine_at_handover = angle.sine;
     restart(Stepper::erk);
   }
 
@@ -311,7 +310,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
   double chosen_sine = 1.0;  // of the rows in use, when they were chosen
   Angle angle;               // at the last step
   bool handed_over = false;  // to the explicit stepper, close to a singular position
-  double least_sine = 0.0;   // since then
+  double sine_at_handover = 0.0;
 
   Record record;
 };
