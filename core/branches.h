@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -14,10 +15,11 @@ namespace dalembert {
 /// its own would need no such thing, but every equation compiled once more.)
 class Branches {
  public:
-  /// One number for all comparisons (less, equal, greater) of each batch in turn.
+  /// One number for all comparisons (less, equal, greater) of each batch.
   using Outcomes = std::vector<std::uint64_t>;
 
-  explicit Branches(Outcomes& out) : out_(&out), outer_(std::exchange(listening, this)) { out.clear(); }
+  /// Goes on from what `out` holds.
+  explicit Branches(Outcomes& out) : out_(&out), outer_(std::exchange(listening, this)) {}
   Branches(const Branches&) = delete;
   Branches& operator=(const Branches&) = delete;
   ~Branches() { listening = outer_; }
@@ -25,24 +27,30 @@ class Branches {
   /// Of how many comparisons it has heard.
   [[nodiscard]] long count() const { return count_; }
 
-  static void begin_batch() {
-    if (listening != nullptr) listening->out_->push_back(0);
+  /// What is compared from here on belongs to this batch.
+  static void begin_batch(std::size_t number) {
+    if (listening != nullptr) listening->begin(number);
   }
   static void compare(double a, double b) {
     if (listening != nullptr) listening->add(a < b ? 1U : a == b ? 2U : 3U);
   }
 
  private:
+  void begin(std::size_t number) {
+    batch_ = number;
+    if (out_->size() <= number) out_->resize(number + 1);
+  }
   void add(std::uint64_t outcome) {
     ++count_;
     if (out_->empty()) return;
     constexpr std::uint64_t fnv_prime = 1099511628211U;
-    out_->back() = (out_->back() ^ outcome) * fnv_prime;
+    (*out_)[batch_] = ((*out_)[batch_] ^ outcome) * fnv_prime;
   }
 
   static inline thread_local constinit Branches* listening = nullptr;
   Outcomes* out_;
   Branches* outer_;
+  std::size_t batch_ = 0;
   long count_ = 0;
 };
 

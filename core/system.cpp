@@ -122,6 +122,7 @@ template <class F>
 void System::on_constraints(double t, const F& f) const {
   for (std::size_t b = 0; b < parts_.constraints.size(); ++b) {
     try {
+      Branches::begin_batch(b);
       f(*parts_.constraints[b], constraint_offsets_[b]);
     } catch (const ElementFault& fault) {
       const auto number = static_cast<std::size_t>(parts_.constraint_numbers[b][fault.element]);
@@ -134,6 +135,7 @@ template <class F>
 void System::on_forces(double t, const F& f) const {
   for (std::size_t b = 0; b < parts_.forces.size(); ++b) {
     try {
+      Branches::begin_batch(parts_.constraints.size() + b);
       f(*parts_.forces[b], force_offsets_[b]);
     } catch (const ElementFault& fault) {
       throw EquationFault(force_label(b, fault.element) + ' ' + fault.what + at_time(t));
@@ -163,7 +165,6 @@ void System::bias(const Instant& at, std::span<double> gamma) const {
 void System::linearise_constraints(const Instant& at, std::span<const double> lambda,
                                    Linearisation& out) const {
   on_constraints(at.t, [&](const ConstraintBatch& batch, const Offsets& first) {
-    Branches::begin_batch();
     const ConstraintShape shape = batch.shape();
     const auto width = static_cast<std::size_t>(shape.width);
     const std::size_t count = batch.size() * static_cast<std::size_t>(shape.rows);
@@ -174,8 +175,11 @@ void System::linearise_constraints(const Instant& at, std::span<const double> la
 
 void System::linearise(const Instant& at, std::span<const double> lambda, Linearisation& out) const {
   linearise_constraints(at, lambda, out);
+  linearise_forces(at, lambda, out);
+}
+
+void System::linearise_forces(const Instant& at, std::span<const double> lambda, Linearisation& out) const {
   on_forces(at.t, [&](const ForceBatch& batch, const Offsets& first) {
-    Branches::begin_batch();
     const ForceShape shape = batch.shape();
     const std::size_t entries = batch.size() * static_cast<std::size_t>(shape.width * shape.width);
     batch.linearise(at, part(out.stiffness, first.stiffness, entries),

@@ -100,6 +100,8 @@ class System {
   void linearise(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
   /// What of it the constraints say: the first `stiffness_of_constraints` entries, and psi_q.
   void linearise_constraints(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
+  /// And what the forces say: all the rest.
+  void linearise_forces(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
 
   /// Adds F_f for the multipliers lambda to F. Throws like `evaluate`.
   void add_friction(const Instant& at, std::span<const double> lambda, std::span<double> F) const;
@@ -131,7 +133,7 @@ class System {
   [[nodiscard]] std::string force_of_stiffness(std::size_t entry) const;
   /// The label of the force that an entry of dF_f/dlambda belongs to.
   [[nodiscard]] std::string force_of_friction(std::size_t entry) const;
-  /// The label of what a batch holds, by its place in the Branches of `linearise`.
+  /// The label of what a batch holds, by its number in Branches.
   [[nodiscard]] std::string label_of_batch(std::size_t batch) const;
   /// The label of the constraint that row r belongs to.
   [[nodiscard]] std::string row_label(int row) const;

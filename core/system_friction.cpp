@@ -38,6 +38,7 @@ void System::on_frictions(const Instant& at, std::span<const double> lambda, con
   for (std::size_t b = 0; b < parts_.frictions.size(); ++b) {
     const FrictionPlace& place = friction_places_[b];
     try {
+      Branches::begin_batch(parts_.constraints.size() + parts_.forces.size() + b);
       f(*parts_.frictions[b], Multipliers{lambda, place.first_row}, place);
     } catch (const ElementFault& fault) {
       throw EquationFault(friction_label(b, fault.element) + ' ' + fault.what + at_time(at.t));
@@ -63,7 +64,6 @@ void System::linearise_frictions(const Instant& at, std::span<const double> lamb
                                  Linearisation& out) const {
   on_frictions(at, lambda,
                [&](const MultiplierForceBatch& batch, const Multipliers& read, const FrictionPlace& place) {
-                 Branches::begin_batch();
                  batch.slope(at, read, std::span(out.friction).subspan(place.slope, place.slope_count));
                  batch.linearise(at, read,
                                  std::span(out.stiffness).subspan(place.stiffness, place.block_count),

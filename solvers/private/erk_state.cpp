@@ -47,7 +47,13 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
     node->va = start.v;
     node->va.insert(node->va.end(), start.a.begin(), start.a.end());
   }
-  if (switches.any()) sticking.emplace(s, start, options.t_start, tolerance);
+  if (switches.any()) {
+    sticking.emplace(s, start, options.t_start, tolerance);
+    manifold.listen();
+    for (Side* side : {&from.side, &to.side, &middle.side, &next.side, &short_of.side, &beyond.side,
+                       &stage_side, &behind_side})
+      switches.make_room(*side);
+  }
   for (std::size_t i = 1; i < stage.size(); ++i) {
     stage[i].resize(2 * n);
     k[i] = stage[i].data();

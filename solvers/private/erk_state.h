@@ -72,7 +72,7 @@ struct ErkStepper::State {
   [[nodiscard]] StepFailure why_not_over(Node& before);
   [[nodiscard]] bool driven_back();
   void go_on_behind();
-  [[nodiscard]] Motion motion(const Node& node) const;
+  void read(const Node& node, Motion& out) const;
 
   [[nodiscard]] double attempt(double step);
   void accept(bool by_extrapolation);
@@ -128,6 +128,7 @@ struct ErkStepper::State {
   Switches switches;
   std::optional<Sticking> sticking;  // if there are any
   std::vector<double> multipliers;   // work
+  Motion before_switch, behind_switch;  // work
   Side stage_side, behind_side;      // of stages, the latter behind a switch
   bool passed_switch = false;        // by the last attempt,
   bool passed_several = false;       // and more than one

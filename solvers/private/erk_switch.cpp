@@ -23,7 +23,7 @@ bool looks(std::size_t stage) { return verner87.b[stage] != 0.0; }
 /// Which side `node` is on, with the multipliers that its acceleration was found with.
 void ErkStepper::State::find_side(Node& node) {
   manifold.multipliers(multipliers);
-  switches.find({node.t, node.q, halves(node.va).first}, multipliers, node.side);
+  switches.find({node.t, node.q, halves(node.va).first}, multipliers, manifold.heard(), node.side);
 }
 
 /// Of the last node, where no attempt has led.
@@ -38,7 +38,7 @@ void ErkStepper::State::find_side_anew() {
 void ErkStepper::State::look(std::size_t i, double t) {
   if (!looks(i) || !switches.any()) return;
   manifold.multipliers(multipliers);
-  switches.find({t, stage_q, halves(stage[i]).first}, multipliers, stage_side);
+  switches.find({t, stage_q, halves(stage[i]).first}, multipliers, manifold.heard(), stage_side);
   if (switches.same(to.side, stage_side)) return;
   if (passed_switch && !switches.same(behind_side, stage_side)) passed_several = true;
   passed_switch = true;
@@ -170,7 +170,9 @@ void ErkStepper::State::go_on_behind() {
   passage.remember(to.t, halves(to.va).second);
   if (!driven_back()) return;
   if (const auto friction = switches.turned(from.side, to.side)) {
-    if (sticking->jumps(motion(from), motion(to), *friction))
+    read(from, before_switch);
+    read(to, behind_switch);
+    if (sticking->jumps(before_switch, behind_switch, *friction))
       end = StepFailure{sticking->would_stick(*friction), to.t};
     return;
   }
@@ -180,15 +182,18 @@ void ErkStepper::State::go_on_behind() {
                     to.t};
 }
 
-Motion ErkStepper::State::motion(const Node& node) const {
+void ErkStepper::State::read(const Node& node, Motion& out) const {
   const auto half = node.va.begin() + static_cast<std::ptrdiff_t>(n);
-  return {node.t, node.q, {node.va.begin(), half}, {half, node.va.end()}};
+  out.t = node.t;
+  out.q = node.q;
+  out.v.assign(node.va.begin(), half);
+  out.a.assign(half, node.va.end());
 }
 
 /// Before the first step: on which side it begins. A friction law has no direction where nothing slides yet.
 void ErkStepper::State::find_first_side() {
-  const Motion start = motion(to);
-  const Departure departure = sticking->leave(start.instant(), start.a, to.side);
+  read(to, before_switch);
+  const Departure departure = sticking->leave(before_switch.instant(), before_switch.a, to.side);
   if (departure.held_by) throw StepFailure{sticking->would_stick(*departure.held_by), to.t};
   if (departure.from_rest) std::ranges::copy(departure.a, halves(to.va).second.begin());
 }

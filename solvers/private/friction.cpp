@@ -56,11 +56,11 @@ bool FrictionSolver::settled() const {
 /// The multipliers that the motion would have without friction.
 bool FrictionSolver::begin(std::span<const double> w, std::span<const double> s) {
   if (!matrix_.factorise(w, s)) return false;
-  std::vector<double> x = given_;
-  matrix_.solve(x);
+  without_.assign(given_.begin(), given_.end());
+  matrix_.solve(without_);
   std::ranges::fill(lambda_, 0.0);
-  spread(x);
-  return std::ranges::all_of(x, [](double value) { return std::isfinite(value); });
+  spread(without_);
+  return std::ranges::all_of(without_, [](double value) { return std::isfinite(value); });
 }
 
 void FrictionSolver::spread(std::span<const double> x) {

@@ -67,7 +67,7 @@ class FrictionSolver {
   ActiveRows rows_;
   KktMatrix matrix_;
   bool begun_ = false;  // lambda_ solved (1) the last time
-  std::vector<double> given_, lambda_, mirrored_, slope_, slope_mirrored_;
+  std::vector<double> given_, without_, lambda_, mirrored_, slope_, slope_mirrored_;
   std::vector<double> force_, predicted_;
   std::vector<char> reads_;  // per entry of the slope; empty until it is asked for
 };

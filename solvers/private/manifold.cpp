@@ -105,8 +105,16 @@ bool Manifold::factorise() {
   return kkt_.factorise(e_.w, s_);
 }
 
+template <class F>
+void Manifold::hear(const F& equations) {
+  if (!listening_) return equations();
+  const Branches listening(heard_);
+  equations();
+}
+
 void Manifold::evaluate(const Instant& at) {
-  system_->evaluate(at, e_);
+  std::ranges::fill(heard_, 0);
+  hear([&] { system_->evaluate(at, e_); });
   add_springs();
   ++evaluations_;
 }
@@ -177,7 +185,7 @@ void Manifold::correct_velocities(std::span<double> v) {
 /// (3), with the matrix and the forces at hand. Friction has a matrix of its own.
 bool Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
   const std::size_t n = at.q.size();
-  system_->bias(at, gamma_);
+  hear([&] { system_->bias(at, gamma_); });
   std::ranges::copy(e_.force, x_.begin());
   for (std::size_t k = 0; k < rows_.rows.size(); ++k) {
     const auto r = static_cast<std::size_t>(rows_.rows[k]);
@@ -221,7 +229,7 @@ bool Manifold::land(double t, std::span<double> q, std::span<double> v, std::spa
   }
   if (!factorise()) return false;
   correct_velocities(v);
-  if (!system_->damping_pattern().empty()) evaluate({t, q, v});
+  if (!system_->damping_pattern().empty() || listening_) evaluate({t, q, v});
   return solve_for_accelerations({t, q, v}, a);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/core/branches.h>
 #include <dalembert/solvers/private/friction.h>
 #include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/minimum_norm.h>
@@ -76,6 +77,11 @@ class Manifold {
   /// it.
   double weakest_direction(std::span<const double> lever, std::span<double> n);
 
+  /// From here on comparisons that the constraints make are heard.
+  void listen() { listening_ = true; }
+  /// Those of the last `accelerate` or `land`.
+  [[nodiscard]] const Branches::Outcomes& heard() const { return heard_; }
+
   /// The multipliers last found, one per row of the system; 0 in rows that are not in use.
   void multipliers(std::span<double> lambda) const;
 
@@ -91,6 +97,8 @@ class Manifold {
   [[nodiscard]] const char* method() const { return kkt_.method(); }
 
  private:
+  template <class F>
+  void hear(const F& equations);
   void evaluate(const Instant& at);
   void add_springs();
   void weigh_springs();
@@ -107,7 +115,8 @@ class Manifold {
   std::vector<double> gamma_, x_, q_before_;
   Springs springs_, springs_before_;
   std::vector<double> s_;
-  bool following_ = false;
+  bool following_ = false, listening_ = false;
+  Branches::Outcomes heard_;
   SaddleMatrix kkt_;
   MinimumNorm minimum_norm_;
   WeakestDirection weakest_;

@@ -53,7 +53,9 @@ Sticking::Sticking(const System& system, const Start& start, double t_start, dou
       time_(start.scales.time),
       // The square of this, of the scene's time, is what the time of sticking may be wrong by.
       soon_(std::sqrt(tolerance) * time_),
-      lambda_(start.lambda) {}
+      lambda_(start.lambda) {
+  manifold_.listen();
+}
 
 void Sticking::find_slope(const Motion& at, Side& side) {
   side.slope.resize(system_->friction_pattern().size());
@@ -64,7 +66,7 @@ bool Sticking::accelerate(Motion& at, Side& side) {
   at.a.resize(at.q.size());
   if (!manifold_.accelerate(at.instant(), at.a)) return false;
   manifold_.multipliers(lambda_);
-  switches_.find(at.instant(), lambda_, side);
+  switches_.find(at.instant(), lambda_, manifold_.heard(), side);
   return true;
 }
 

@@ -18,17 +18,28 @@ Switches::Switches(const System& system, const Instant& at, std::span<const doub
   Branches::Outcomes heard;
   const Branches listening(heard);
   try {
-    system.linearise(at, lambda, work_);
-    any_ = system.frictional() || listening.count() > 0;
+    system.linearise_forces(at, lambda, work_);
+    of_forces_ = system.frictional() || listening.count() > 0;
+    system.linearise_constraints(at, lambda, work_);
+    any_ = of_forces_ || listening.count() > 0;
   } catch (const EquationFault&) {
-    any_ = true;
+    any_ = of_forces_ = true;
   }
+  batches_ = heard.size();
 }
 
-void Switches::find(const Instant& at, std::span<const double> lambda, Side& out) {
+void Switches::make_room(Side& side) const {
+  side.branches.reserve(batches_);
+  side.slope.reserve(work_.friction.size());
+}
+
+void Switches::find(const Instant& at, std::span<const double> lambda,
+                    const Branches::Outcomes& of_constraints, Side& out) {
+  out.branches = of_constraints;
+  if (!of_forces_) return;
   const Branches listening(out.branches);
   try {
-    system_->linearise(at, lambda, work_);
+    system_->linearise_forces(at, lambda, work_);
     out.slope = work_.friction;
   } catch (const EquationFault&) {  // a kink itself may have no derivative
     out.branches.clear();

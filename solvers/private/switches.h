@@ -29,7 +29,11 @@ class Switches {
   Switches(const System& system, const Instant& at, std::span<const double> lambda);
 
   [[nodiscard]] bool any() const { return any_; }
-  void find(const Instant& at, std::span<const double> lambda, Side& out);
+  /// So that `find` allocates nothing.
+  void make_room(Side& side) const;
+  /// `of_constraints` is what they compared in the evaluation that found lambda, see Manifold::listen.
+  void find(const Instant& at, std::span<const double> lambda, const Branches::Outcomes& of_constraints,
+            Side& out);
   [[nodiscard]] bool same(const Side& a, const Side& b) const;
   /// Whether what changed from `a` to `b` is at `c` as it was at `a`.
   [[nodiscard]] bool returns(const Side& a, const Side& b, const Side& c) const;
@@ -48,8 +52,9 @@ class Switches {
 
   const System* system_;
   System::Linearisation work_;
+  std::size_t batches_ = 0;
   std::vector<std::size_t> first_;  // entry of the slope of each friction, and the end
-  bool any_ = false;
+  bool any_ = false, of_forces_ = false;
 };
 
 }  // namespace dalembert

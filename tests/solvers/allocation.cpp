@@ -30,16 +30,20 @@ TEST(Allocation, DoesNotHappenWhileAdvancing) {
   EXPECT_EQ(allocations(), before);
 }
 
-// The first steps look whether what rests begins to slide; passing a switch, as of
-// abs(lambda) or of the direction of sliding.)
-TEST(Allocation, DoesNotHappenWhileSteppingWithFriction) {
+// The first steps look whether what rests begins to slide, and a step that fails, until the length of steps is
+// found, throws.
+class AllocationWithFriction : public testing::TestWithParam<Stepper> {};
+INSTANTIATE_TEST_SUITE_P(Steppers, AllocationWithFriction, testing::Values(Stepper::ida, Stepper::erk),
+                         [](const auto& tested) { return std::string(name(tested.param)); });
+
+TEST_P(AllocationWithFriction, DoesNotHappenWhileStepping) {
   EachKind each;
   each.scene.add(friction_law(
       each.upper_rod, points(each.upper, each.bead), [](auto lambda, auto, auto, auto v_u, auto v_b) {
         return std::tuple{(-0.01 * lambda * lambda * v_u).eval(), (-0.01 * lambda * v_b).eval()};
       }));
-  Simulation<2> simulation(each.scene, {.t_end = 10.0});
-  for (int i = 0; i < 4; ++i) simulation.step();
+  Simulation<2> simulation(each.scene, {.t_end = 10.0, .stepper = GetParam()});
+  for (int i = 0; i < 12; ++i) simulation.step();
   const long before = allocations();
   for (int i = 0; i < 4; ++i) simulation.step();
   simulation.advance_to(simulation.time() + 0.01);

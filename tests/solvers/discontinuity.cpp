@@ -21,7 +21,7 @@ TEST(Branches, TellTheSidesOfAKinkApartAndItsEdge) {
   const auto outcome = [](double x) {
     Branches::Outcomes outcomes;
     const Branches listening(outcomes);
-    Branches::begin_batch();
+    Branches::begin_batch(0);
     (void)abs(S::input(x, 0));
     return outcomes;
   };
