@@ -8,7 +8,9 @@
 #include <dalembert/models/catalogue.h>
 
 #include <CLI/CLI.hpp>
+#include <unistd.h>
 
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -163,6 +165,21 @@ void add_extremes(CLI::App& app, int& failures) {
   command->callback([options, &failures] { failures = bench::extremes(*options); });
 }
 
+/// A program of its own, beside this one: its solvers are built with constants that vary.
+void add_sensitivity(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "sensitivity", "Errors and work of many scenes with each of the solvers' constants halved and doubled");
+  const auto options = std::make_shared<bench::ReportOptions>();
+  add_report_options(*command, *options);
+  command->callback([options] {
+    const auto program =
+        std::filesystem::read_symlink("/proc/self/exe").parent_path() / "dalembert-sensitivity";
+    std::string csv = "--csv=" + options->csv, note = "--note=" + options->note, path = program.string();
+    execl(path.c_str(), path.c_str(), csv.c_str(), note.c_str(), nullptr);
+    throw Error(path + " could not be run: it is built with the benchmarks, but not with a shared library");
+  });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -176,6 +193,7 @@ int main(int argc, char** argv) try {
   add_leave_out(app, failures);
   add_ratios(app);
   add_extremes(app, failures);
+  add_sensitivity(app);
   CLI11_PARSE(app, argc, argv);
   return failures == 0 ? 0 : 1;
 } catch (const std::exception& error) {

@@ -1,6 +1,7 @@
 #include "dalembert/solvers/integrator.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/private/constants.h>
 #include <dalembert/solvers/private/erk.h>
 #include <dalembert/solvers/private/ida.h>
 #include <dalembert/solvers/private/manifold.h>
@@ -21,14 +22,6 @@
 namespace dalembert {
 
 namespace {
-
-/// Where constraints repeat each other, those in use are chosen anew when the sine of the smallest angle
-/// among them has fallen to this part of what it was, if others are better by as much.
-constexpr double worse = 0.25;
-
-/// The implicit stepper hands over to the explicit one where the constraints come so close to dependent,
-/// and would be dependent after so many of its steps: it feels the errors of its states times 1/sin.
-constexpr double handover_sine = 0.1, handover_steps = 20.0;
 
 /// Times known no better than to this part of the scene's own are worth a word when a run stops.
 constexpr double coarse_time = 1e-10;
@@ -106,7 +99,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
     if (system.frictional() && o.stepper == Stepper::ida)
       sticking.emplace(system, start, o.t_start, o.tolerance);
     visit(o.t_start);
-    chosen_sine = manifold->sine();
+    chosen_sine = output_sine = manifold->sine();
   } catch (const StepFailure& failure) {  // before the first step it is a fault of the start
     throw InconsistentStart(failure.what);
   } catch (const EquationFault& fault) {
@@ -118,6 +111,10 @@ struct DALEMBERT_HIDDEN Integrator::State {
   void visit(double time) {
     next.t = time;
     interpolate(time, next.q, next.v);
+    if (redundant() && better_rows(manifold->sine({time, next.q, next.v}), output_sine)) {
+      manifold.emplace(system, fresh_rows, lever);
+      interpolate(time, next.q, next.v);  // the manifold follows springs
+    }
     recover(next);
     std::swap(now, next);
   }
@@ -153,7 +150,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
                         stepper_time()};
     }
     // Before a step, so that all output within the last has been read from the stepper that took it.
-    if (start.rows.size() < system.rows()) follow_rows();
+    if (redundant()) follow_rows();
     if (options.stepper == Stepper::ida) watch_angle();
     if (steps == 1) watch_sliding();
     try {
@@ -161,7 +158,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
     } catch (const StepFailure&) {
       // Newton's iteration may fail anywhere; where the constraints are close to dependent the explicit
       // stepper goes on.
-      if (handed_over || options.stepper == Stepper::erk || !(sine() < handover_sine)) throw;
+      if (handed_over || options.stepper == Stepper::erk || !(sine() < constants.handover_sine)) throw;
       hand_over();
     }
     watch_sliding();
@@ -178,19 +175,28 @@ struct DALEMBERT_HIDDEN Integrator::State {
     return std::visit([](const auto& s) { return s.sine(); }, stepper);
   }
 
+  [[nodiscard]] bool redundant() const { return start.rows.size() < system.rows(); }
+
   /// The rows in use are independent at the start of the run; on the way they may come to depend on each
   /// other while others do not.
   void follow_rows() {
-    interpolate(stepper_time(), next.q, next.v);
-    const Instant at{stepper_time(), next.q, next.v};
-    const double own = manifold->sine(at);
-    if (own > worse * chosen_sine) return;
-    chosen_sine = own;
-    const ActiveRows fresh = independent_rows(system, manifold->equations().w, start.rows);
-    const double best = Manifold(system, fresh, lever).sine(at);
-    if (own > worse * best) return;
-    restart(handed_over ? Stepper::erk : options.stepper);
-    chosen_sine = best;
+    next.t = stepper_time();
+    interpolate(next.t, next.q, next.v);
+    if (better_rows(sine(), chosen_sine)) restart(handed_over ? Stepper::erk : options.stepper);
+  }
+
+  /// Whether other rows make larger angles at `next`, if those in use make one of sine `own` there, much less
+  /// than the one `chosen` for. Then they are `fresh_rows`, and that is theirs.
+  bool better_rows(double own, double& chosen) {
+    if (own > constants.worn * chosen) return false;
+    chosen = own;
+    const Instant at{next.t, next.q, next.v};
+    (void)manifold->sine(at);
+    fresh_rows = independent_rows(system, manifold->equations().w, start.rows);
+    const double best = Manifold(system, fresh_rows, lever).sine(at);
+    if (own > constants.worn * best) return false;
+    chosen = best;
+    return true;
   }
 
   /// Isolated singular positions are passed by the explicit stepper (see ErkStepper), from where they come in
@@ -199,7 +205,8 @@ struct DALEMBERT_HIDDEN Integrator::State {
     const Angle before = std::exchange(angle, {stepper_time(), sine()});
     if (!handed_over) {
       const double left = time_to_singular(before, angle);
-      if (angle.sine < handover_sine && left < handover_steps * (angle.t - before.t)) hand_over();
+      if (angle.sine < constants.handover_sine && left < constants.handover_steps * (angle.t - before.t))
+        hand_over();
       return;
     }
     if (angle.sine <= before.sine || angle.sine < sine_at_handover) return;
@@ -226,9 +233,10 @@ struct DALEMBERT_HIDDEN Integrator::State {
     from_here.stepper = kind;
     // Close to a singular position a step of the explicit stepper is to err by no more than one of the other.
     if (kind != options.stepper)
-      from_here.tolerance = std::max(share_of_a_step * options.tolerance, smallest_tolerance);
+      from_here.tolerance = std::max(constants.share_of_a_step * options.tolerance, smallest_tolerance);
     start = begin_anew(system, start, t, q0, v0);
     manifold.emplace(system, start.rows, lever);
+    output_sine = chosen_sine;
     stepper = make_stepper(system, start, from_here);
     if (sticking) sticking.emplace(system, start, t, options.tolerance);
     next = Moment(system, start);
@@ -307,9 +315,10 @@ struct DALEMBERT_HIDDEN Integrator::State {
   Moment now, next;
   Springs springs;  // of the implicit stepper's state, if any constraint is compliant
   Recovery recovery;
-  double chosen_sine = 1.0;  // of the rows in use, when they were chosen
-  Angle angle;               // at the last step
-  bool handed_over = false;  // to the explicit stepper, close to a singular position
+  double chosen_sine = 1.0, output_sine = 1.0;  // of the rows that step, and of output, when chosen
+  ActiveRows fresh_rows;                        // see better_rows
+  Angle angle;                                  // at the last step
+  bool handed_over = false;                     // to the explicit stepper, close to a singular position
   double sine_at_handover = 0.0;
 
   Record record;

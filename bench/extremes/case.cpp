@@ -17,6 +17,8 @@ Result run(const Case& extreme, double parameter, Stepper stepper) try {
   return extreme.run(parameter, stepper);
 } catch (const IntegrationFailure& failure) {
   return {.statistics = statistics_of(failure), .outcome = "IntegrationFailure", .said = failure.what()};
+} catch (const UndeterminedForce& refusal) {
+  return {.outcome = "UndeterminedForce", .said = refusal.what()};
 } catch (const InconsistentStart& refusal) {
   return {.outcome = "InconsistentStart", .said = refusal.what()};
 } catch (const InvalidScene& refusal) {

@@ -14,7 +14,7 @@ namespace {
 /// of round-off.
 double as_good(const Run& run) { return std::max(100.0 * run.parameter, 1e-12); }
 
-const std::vector<double> ladder = {1e-4, 1e-6, 1e-8, 1e-10};
+const std::vector<double> ladder = {1e-3, 1e-4, 1e-6, 1e-8, 1e-10};
 
 /// A rod of 1 m and a pin that carries its end around, (cos t, sin t): each implies the other, and at every
 /// quarter of a turn others of their three equations are independent. With g the force on 1 kg is

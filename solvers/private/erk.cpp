@@ -1,5 +1,6 @@
 #include "dalembert/solvers/private/erk.h"
 
+#include <dalembert/solvers/private/constants.h>
 #include <dalembert/solvers/private/erk_state.h>
 #include <dalembert/solvers/private/hermite.h>
 
@@ -7,29 +8,6 @@
 #include <cmath>
 
 namespace dalembert {
-
-namespace {
-
-// Step control as in Hairer, Norsett, Wanner, Solving ODEs I, II.4. With the usual safety of 0.9 a
-// quarter of the steps of a pendulum are repeated; 0.8 takes a sixth less time.
-constexpr double safety = 0.8;
-constexpr double most_growth = 6.0;
-constexpr double most_shrinking = 0.2;
-constexpr double after_fault = 0.25;
-
-/// The last stage, at t + h, and the end of a step have the same derivatives but for errors. Where these
-/// move the scene in a step by more than this part of its size, the step has jumped over something: a
-/// centre of force, whose two sides may deceive the error estimate.
-constexpr double most_disagreement = 0.05;
-
-/// A step that has to be so much shorter than usual meets something that is not smooth. There the estimate
-/// cannot be trusted: it weighs the first derivative a thousandth of what the step does.
-constexpr double far_too_short = 0.15, unreliable = 100.0;
-
-/// What is usual shrinks by at most so much a step.
-constexpr double forgetting = 0.9;
-
-}  // namespace
 
 ErkStepper::ErkStepper(const System& system, const Start& start, const Options& options)
     : state_(std::make_unique<State>(system, start, options)) {}
@@ -40,9 +18,8 @@ ErkStepper::~ErkStepper() = default;
 /// What round-off alone moves a state by when it is put onto the constraints, over the tolerance: velocities
 /// by eps/sin^2, see Passage.
 double ErkStepper::State::round_off_of_projection() const {
-  constexpr double roundings = 10.0;
   const double eps = std::numeric_limits<double>::epsilon();
-  return roundings * eps / (std::max(next.sine * next.sine, eps) * tolerance);
+  return constants.roundings_of_projection * eps / (std::max(next.sine * next.sine, eps) * tolerance);
 }
 
 /// Tries a step into `next`. Returns its error over the tolerance; infinite, with the reason in
@@ -53,13 +30,14 @@ double ErkStepper::State::attempt(double step) {
   try {
     run_stages(to, step, stages - 1);
     finish(to, step, next);
-    const double e = error(step) * (step < far_too_short * usual && over == 0.0 ? unreliable : 1.0);
+    const double e =
+        error(step) * (step < constants.far_too_short * usual && over == 0.0 ? constants.unreliable : 1.0);
     if (e > 1.0) return e;
     if (steps % stability_check_interval == 0) watch_stability(step);
     const double correction = land();
     next.sine = manifold.sine();
-    return std::max({e, correction / (most_correction + round_off_of_projection()),
-                     disagreement(step) / most_disagreement, error_of_switch(step)});
+    return std::max({e, correction / (constants.most_correction + round_off_of_projection()),
+                     disagreement(step) / constants.most_disagreement, error_of_switch(step)});
   } catch (const EquationFault& error) {
     fault = error.what();
     return std::numeric_limits<double>::infinity();
@@ -82,15 +60,14 @@ double ErkStepper::State::shorter(double step, double factor) const {
 /// The step to try: h, or an equal part of the way to where output is wanted or the run ends, unless
 /// several outputs fall into one step.
 double ErkStepper::State::step_towards(double wanted) const {
-  constexpr double stretch = 0.05;  // what `safety` leaves room for
   const double gap = std::min(wanted, t_end) - to.t;
   if (gap < 0.5 * h && wanted < t_end) return std::min(h, t_end - to.t);
-  return gap / std::max(1.0, std::ceil(gap / h - stretch));
+  return gap / std::max(1.0, std::ceil(gap / h - constants.stretch));
 }
 
 /// Takes `next` for the end of a step.
 void ErkStepper::State::accept(bool by_extrapolation) {
-  usual = std::max(next.t - to.t, forgetting * usual);
+  usual = std::max(next.t - to.t, constants.forgetting * usual);
   covered = scales.way;
   ++steps;
   has_middle = false;
@@ -109,7 +86,7 @@ void ErkStepper::step(double wanted) {
     s.accept(true);
     return s.find_side_anew();
   }
-  double growth = most_growth;
+  double growth = constants.most_growth;
   for (;;) {
     const double step = s.over > 0.0 ? std::min(s.over, s.t_end - s.to.t) : s.step_towards(wanted);
     const double error = s.attempt(step);
@@ -119,8 +96,8 @@ void ErkStepper::step(double wanted) {
       growth = 1.0;
       continue;
     }
-    const double factor =
-        std::isfinite(error) ? safety * std::pow(error, -1.0 / State::pair.order) : after_fault;
+    const double factor = std::isfinite(error) ? constants.safety * std::pow(error, -1.0 / State::pair.order)
+                                               : constants.after_fault;
     if (error <= 1.0) {
       s.h = step * std::min(factor, growth);
       s.over = 0.0;
@@ -130,7 +107,7 @@ void ErkStepper::step(double wanted) {
     growth = 1.0;
     s.over = 0.0;
     if (s.stop_short(step)) break;
-    s.h = s.shorter(step, std::max(factor, most_shrinking));
+    s.h = s.shorter(step, std::max(factor, constants.most_shrinking));
   }
   // Round-off in the sum must not let the last part of the way fall short of its goal.
   const double goal = std::min(wanted, s.t_end);

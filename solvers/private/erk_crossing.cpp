@@ -1,3 +1,4 @@
+#include <dalembert/solvers/private/constants.h>
 #include <dalembert/solvers/private/erk_state.h>
 
 #include <algorithm>
@@ -8,14 +9,6 @@
 namespace dalembert {
 
 namespace {
-
-/// A singular position is where the angle falls to this part of what it was at the last node, or less: far
-/// below what a passage at a distance shows, far above what the extrapolated state is good for.
-constexpr double vanished = 1e-3;
-/// If it does not fall to this part it does not vanish. In between the extrapolation is too coarse to tell.
-constexpr double clearly_there = 0.2;
-/// Steps that are short against the time left look for it from here on.
-constexpr double in_sight = 0.1;
 
 constexpr double not_ahead = std::numeric_limits<double>::infinity();
 
@@ -38,7 +31,11 @@ bool least_of_parabola(const std::array<Angle, 3>& at, double& t) {
 /// there. Steps towards t* go at most half of the way. The polynomial through one node less tells the error:
 /// at first that falls with each step, as the distance to a high power; if round-off makes it grow before it
 /// is within the tolerance, the best passage seen is taken.
+///
+/// Where constraints repeat each other, rows that come to depend on each other are replaced, and steps end in
+/// front of where that is due: nothing is singular before others are no better.
 ErkStepper::State::Crossing ErkStepper::State::cross() {
+  if (to.sine > worn) return Crossing::none;
   const double left = steps > 0 ? time_to_singular(from.angle(), to.angle()) : not_ahead;
   if (left == not_ahead) {
     next_passage = not_ahead;
@@ -46,14 +43,14 @@ ErkStepper::State::Crossing ErkStepper::State::cross() {
     only_close = false;
     return Crossing::none;
   }
-  if (h <= 0.5 * left && (to.sine > in_sight || left > next_passage)) return Crossing::none;
-  next_passage = left / Passage::spread;
+  if (h <= 0.5 * left && (to.sine > constants.in_sight || left > next_passage)) return Crossing::none;
+  next_passage = left / constants.spread;
   try {
     double singular = to.t + left;
     const double lowest = find_singular(singular);
-    only_close = lowest > clearly_there * to.sine;
+    only_close = lowest > constants.clearly_there * to.sine;
     if (only_close) return Crossing::none;
-    if (lowest <= vanished * to.sine && pass(singular)) return Crossing::passed;
+    if (lowest <= constants.vanished * to.sine && pass(singular)) return Crossing::passed;
     h = std::min(h, 0.5 * std::min(left, singular - to.t));
   } catch (const EquationFault& error) {
     fault = error.what();
@@ -65,7 +62,8 @@ ErkStepper::State::Crossing ErkStepper::State::cross() {
 
 /// Whether a long step may have gone over a singular position that was not in sight where it began.
 bool ErkStepper::State::may_have_crossed() const {
-  return !only_close && least.sine < close_to_dependent && least.sine < 0.5 * to.sine;
+  if (to.sine > worn) return least.sine < 0.5 * worn;
+  return !only_close && least.sine < constants.close_to_dependent && least.sine < 0.5 * to.sine;
 }
 
 void ErkStepper::State::extrapolate(std::size_t nodes, double t, Node& out) {
@@ -81,7 +79,7 @@ double ErkStepper::State::find_singular(double& t) {
   const double until = to.t + 4.0 * (t - to.t);
   const std::size_t nodes = passage.choose(t);
   Angle lowest = to.angle();
-  for (int i = 0; i < attempts && lowest.sine > vanished * to.sine; ++i) {
+  for (int i = 0; i < attempts && lowest.sine > constants.vanished * to.sine; ++i) {
     extrapolate(nodes, t, middle);
     at[2] = {t, manifold.sine({t, middle.q, halves(middle.va).first})};
     if (at[2].sine < lowest.sine) lowest = at[2];

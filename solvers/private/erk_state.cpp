@@ -1,5 +1,7 @@
 #include "dalembert/solvers/private/erk_state.h"
 
+#include <dalembert/solvers/private/constants.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -35,9 +37,9 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
       difference(2 * start.q.size()),
       weight(difference.size()),
       covered(start.scales.way),
-      // A third of the step that an error constant of 1 allows.
-      h(std::min(0.3 * std::pow(options.tolerance, 1.0 / pair.order) * start.scales.time,
-                 options.t_end - options.t_start)),
+      h(std::min(
+          constants.first_explicit_step * std::pow(options.tolerance, 1.0 / pair.order) * start.scales.time,
+          options.t_end - options.t_start)),
       passage(n),
       switches(s, {options.t_start, start.q, start.v}, start.lambda),
       multipliers(start.lambda.size()) {
@@ -60,6 +62,7 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
   }
   passage.remember(to.t, start.a);
   to.sine = manifold.sine({to.t, to.q, halves(to.va).first});
+  if (start.rows.size() < s.rows()) worn = constants.worn * to.sine;
   if (!system->compliant()) return;
   auto e = system->evaluation();
   system->evaluate({options.t_start, start.q, start.v}, e);
@@ -75,12 +78,11 @@ void ErkStepper::State::require(bool regular) {
   if (!regular) throw EquationFault("the constraints became dependent on each other");
 }
 
-/// Whether the angle between constraints changes by much in a step. An error e of a stage off the
-/// constraints is one of e/sin^2 in its accelerations; put onto them it is not felt.
+/// Whether the angle between constraints changes by constants.changing_angle in a step. An error e of a stage
+/// off the constraints is one of e/sin^2 in its accelerations; put onto them it is not felt.
 bool ErkStepper::State::close_to_singular(double step) const {
-  constexpr double much = 0.1;
   const double rate = steps > 0 ? std::abs(to.sine - from.sine) / (to.t - from.t) : 0.0;
-  return to.sine < close_to_dependent && step * rate > much * to.sine;
+  return to.sine < constants.close_to_dependent && step * rate > constants.changing_angle * to.sine;
 }
 
 void ErkStepper::State::run_stages(const Node& start, double step, std::size_t last) {

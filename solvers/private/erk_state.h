@@ -23,9 +23,6 @@ struct ErkStepper::State {
   static constexpr const ButcherTable<13>& pair = verner87;
   static constexpr int stages = pair.stages;
   static constexpr long stability_check_interval = 8;  // steps
-  /// A step goes back onto the constraints by about as much as it errs. One that has to be moved by more
-  /// than this many times the tolerance went wrong: over a jump of a driven point, or onto another branch.
-  static constexpr double most_correction = 10.0;
 
   State(const System& system, const Start& start, const Options& options);
 
@@ -123,18 +120,19 @@ struct ErkStepper::State {
   Node landing;                        // a passage that was not taken yet
   double largest_passage_error = 0.0;  // of those taken
   int singular_positions = 0;
-  std::string fault;  // of the last attempt that failed
+  double worn = none_yet;  // sine below which other rows may take over; infinite if all are in use
+  std::string fault;       // of the last attempt that failed
 
   Switches switches;
-  std::optional<Sticking> sticking;  // if there are any
-  std::vector<double> multipliers;   // work
+  std::optional<Sticking> sticking;     // if there are any
+  std::vector<double> multipliers;      // work
   Motion before_switch, behind_switch;  // work
-  Side stage_side, behind_side;      // of stages, the latter behind a switch
-  bool passed_switch = false;        // by the last attempt,
-  bool passed_several = false;       // and more than one
-  Node short_of, beyond;             // where steps end in front of a switch, and behind it
-  double over = 0.0;                 // the step to take next, over a switch
-  std::optional<StepFailure> end;    // what the run ends with where the last step ended
+  Side stage_side, behind_side;         // of stages, the latter behind a switch
+  bool passed_switch = false;           // by the last attempt,
+  bool passed_several = false;          // and more than one
+  Node short_of, beyond;                // where steps end in front of a switch, and behind it
+  double over = 0.0;                    // the step to take next, over a switch
+  std::optional<StepFailure> end;       // what the run ends with where the last step ended
 };
 
 }  // namespace dalembert

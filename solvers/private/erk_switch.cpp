@@ -1,3 +1,4 @@
+#include <dalembert/solvers/private/constants.h>
 #include <dalembert/solvers/private/erk_state.h>
 #include <dalembert/solvers/private/sticking.h>
 
@@ -130,7 +131,7 @@ StepFailure ErkStepper::State::why_not_over(Node& before) {
     find_side(next);
   } while (ahead < usual && switches.same(before.side, next.side));
   const Violation jump = velocity_violation(*system, manifold.equations(), scales.lever());
-  if (jump.size > most_correction * tolerance * scales.speed())
+  if (jump.size > constants.most_correction * tolerance * scales.speed())
     return {
         system->row_label(jump.row) +
             " changes its gradient by a jump here: the velocity before does not obey it behind. That is an "

@@ -1,5 +1,6 @@
 #include "dalembert/solvers/private/ida.h"
 
+#include <dalembert/solvers/private/constants.h>
 #include <dalembert/solvers/private/ida_state.h>
 #include <dalembert/solvers/private/singularity.h>
 
@@ -10,10 +11,6 @@
 namespace dalembert {
 
 namespace {
-
-/// Newton stops at this fraction of the error tolerance. IDA's 0.33 lets the multipliers' error
-/// into the step control.
-constexpr double newton_tolerance = 0.1;
 
 /// Below this tolerance round-off comes into question where Newton's iteration fails.
 constexpr double tight = 1e-9;
@@ -65,7 +62,7 @@ IdaStepper::IdaStepper(const System& system, const Start& start, const Options& 
   check(IDASetLinearSolutionScaling(ida, 0), "IDASetLinearSolutionScaling");  // NewtonMatrix knows c
   check(IDASetId(ida, s.id.get()), "IDASetId");
   check(IDASetSuppressAlg(ida, 1), "IDASetSuppressAlg");
-  check(IDASetNonlinConvCoef(ida, newton_tolerance), "IDASetNonlinConvCoef");
+  check(IDASetNonlinConvCoef(ida, constants.newton_tolerance), "IDASetNonlinConvCoef");
   check(IDASetInitStep(ida, s.first_step), "IDASetInitStep");
   check(IDASetStopTime(ida, s.t_end), "IDASetStopTime");
   check(IDASetMaxNumSteps(ida, -1), "IDASetMaxNumSteps");
@@ -88,7 +85,7 @@ std::string IdaStepper::State::explain(int code) const {
              "ask for a looser tolerance, or look for a discontinuous or very stiff force";
     case IDA_CONV_FAIL:
       return fault_or(
-          sine() < close_to_dependent
+          sine() < constants.close_to_dependent
               ? "Newton's iteration does not converge; the constraints are close to dependent here"
           : asked_for < tight
               ? "Newton's iteration does not converge: the tolerance asks for more than double "

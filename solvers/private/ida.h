@@ -12,11 +12,6 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// The error allowed to one step, of the tolerance asked for: errors of hundreds of steps add up in
-/// the result. Chosen by the benchmark: with it every model of the catalogue errs by less than 1000
-/// times the tolerance 1e-8.
-inline constexpr double share_of_a_step = 0.05;
-
 /// Steps the stabilised index-2 equations (see NewtonMatrix) by SUNDIALS' IDA: variable-order,
 /// variable-step BDF.
 ///

@@ -1,5 +1,6 @@
 #include "dalembert/solvers/private/ida_state.h"
 
+#include <dalembert/solvers/private/constants.h>
 #include <dalembert/solvers/private/vector_operations.h>
 
 #include <nvector/nvector_serial.h>
@@ -10,24 +11,16 @@
 
 namespace dalembert {
 
-namespace {
-
-/// See State::weigh. (5, 10 and 20 let the same runs through at 1e-10 to 1e-13, but for two at 1e-13.)
-constexpr double roundings = 5.0;
-
-}  // namespace
-
 IdaStepper::State::State(const System& s, const Start& start, const Options& options)
     : system(&s),
       rows(start.rows),
       scales(start.scales),
       asked_for(options.tolerance),
-      tolerance(share_of_a_step * options.tolerance),
+      tolerance(constants.share_of_a_step * options.tolerance),
       t_start(options.t_start),
       t_end(options.t_end),
-      // IDA's own first step is so short that round-off in the multipliers fails Newton's iteration.
-      first_step(
-          std::min(0.1 * std::sqrt(options.tolerance) * start.scales.time, options.t_end - options.t_start)),
+      first_step(std::min(constants.first_implicit_step * std::sqrt(options.tolerance) * start.scales.time,
+                          options.t_end - options.t_start)),
       e(s.evaluation()),
       lambda(start.lambda),
       impulse_row(static_cast<std::size_t>(start.rows.size())),
@@ -129,7 +122,7 @@ double IdaStepper::State::farthest(std::size_t row, std::span<const double> q) c
 /// Weighs by what is asked for, but never asks for more than double precision gives to Newton's corrections:
 /// with q good to eps |q|, the v of BDF's (v - q') is good to eps |q|/h, M v' and with it lambda to
 /// M eps |q|/h^2, mu to M eps |q|/h; of rows that make an angle with others, to 1/sin^2 times that. Newton's
-/// iteration stops at a part of the weights, so they hold that many roundings.
+/// iteration stops at a part of the weights, so they hold that many constants.roundings_of_newton.
 ///
 /// The multiplier of a compliant row is felt besides in psi + C lambda', as C lambda/h: in steps that
 /// follow the vibration of its spring it is that which limits its error.
@@ -144,7 +137,7 @@ void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
     scales.take(scales.further(value.first(n()), value.subspan(n(), n()), h, tolerance));
     find_impulses();
   }
-  const double eps = roundings * std::numeric_limits<double>::epsilon();
+  const double eps = constants.roundings_of_newton * std::numeric_limits<double>::epsilon();
   noise_of_step = 0.0;
   for (std::size_t i = 0; i < n(); ++i) {
     const double noise = eps * std::abs(value[i]);

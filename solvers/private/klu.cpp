@@ -1,5 +1,7 @@
 #include "dalembert/solvers/private/klu.h"
 
+#include <dalembert/solvers/private/constants.h>
+
 #include <klu.h>
 
 #include <algorithm>
@@ -9,9 +11,6 @@
 namespace dalembert {
 
 namespace {
-
-/// Pivots kept from an earlier matrix are given up when they make the condition this much worse.
-constexpr double tolerated_loss = 1e-3;
 
 struct FreeSymbolic {
   klu_common* common;
@@ -96,7 +95,7 @@ bool SparseLU::factorise() {
                                               s.symbolic.get(), s.numeric.get(), &s.common) != 0 &&
                                  s.common.status == KLU_OK &&
                                  klu_rcond(s.symbolic.get(), s.numeric.get(), &s.common) != 0 &&
-                                 s.common.rcond > tolerated_loss * s.condition_when_pivoted;
+                                 s.common.rcond > constants.tolerated_loss * s.condition_when_pivoted;
   return same_pivots_serve || s.pivot();
 }
 

@@ -56,8 +56,8 @@ NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows, double 
     if (active < static_cast<std::size_t>(rows.holonomic))
       friction_.push_back({k, static_cast<std::size_t>(coordinate), active});
   }
-  // What forces may need is made before the first step: stepping allocates nothing, but for a scene
-  // without them whose multipliers become stiff.
+  // What forces may need is made before the first step: stepping allocates constants.least_soft, but for a
+  // scene without them whose multipliers become stiff.
   if (const auto may_need = varying_islands(); any(may_need)) include(may_need);
 }
 
@@ -139,8 +139,7 @@ void NewtonMatrix::find_fastest_vibration() {
 }
 
 void NewtonMatrix::converged_badly() {
-  constexpr double softer = 0.1, nothing = 1e-4;
-  if (soft()) still_soft_ = std::max(softer * still_soft_, nothing);
+  if (soft()) still_soft_ = std::max(constants.softer * still_soft_, constants.least_soft);
 }
 
 std::string NewtonMatrix::stiffest_force() const { return system_->force_of_stiffness(stiffest_); }

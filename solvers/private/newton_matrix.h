@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/core/islands.h>
+#include <dalembert/solvers/private/constants.h>
 #include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/saddle.h>
 
@@ -126,8 +127,7 @@ class NewtonMatrix {
   const System* system_;
   ActiveRows rows_;
   double time_;
-  double still_soft_ =
-      0.1;  ///< Newton's iteration may lose this factor in accuracy by leaving soft forces out
+  double still_soft_ = constants.soft;
   Islands islands_;
   std::vector<char> needs_k1_;  // per island: nonholonomic or compliant rows, or friction
   std::vector<char> stiff_;     // per island: forces that a step feels

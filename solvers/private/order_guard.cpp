@@ -1,14 +1,13 @@
 #include "dalembert/solvers/private/order_guard.h"
 
+#include <dalembert/solvers/private/constants.h>
+
 #include <algorithm>
 
 namespace dalembert {
 
 namespace {
 
-/// Order 5 resolves a vibration that matters with steps h rho below the first (0.2 to 0.4 at tolerances
-/// 1e-4 to 1e-8); beyond the second no order is unstable.
-constexpr double resolved = 0.45, passed_over = 9.4;
 /// Windows of each phase, how much longer to wait after each trial that did not pay, and at most. At h rho =
 /// 0.6 order 2 damps by 0.97 a step.
 constexpr int damping = 2, trying = 1, more_patience = 8, longest_patience = 1000;
@@ -38,7 +37,7 @@ void OrderGuard::end_window(double advance, double turned) {
   switch (phase_) {
     case Phase::free:
       by_fifth_ = advance;
-      if (turned > resolved && turned < passed_over) begin(Phase::damping, 2, damping);
+      if (turned > constants.resolved && turned < constants.passed_over) begin(Phase::damping, 2, damping);
       return;
     case Phase::damping:
       by_second_ = advance;
@@ -50,7 +49,7 @@ void OrderGuard::end_window(double advance, double turned) {
       patience_ = std::min(more_patience * patience_, longest_patience);
       return begin(Phase::free, highest, patience_);
     case Phase::kept:
-      if (advance >= by_fifth_ && turned > resolved && turned < passed_over)
+      if (advance >= by_fifth_ && turned > constants.resolved && turned < constants.passed_over)
         return begin(Phase::kept, order_, 1);
       patience_ = advance >= by_fifth_ ? 1 : std::min(more_patience * patience_, longest_patience);
       return begin(Phase::free, highest, patience_);

@@ -1,5 +1,7 @@
 #include "dalembert/solvers/private/passage.h"
 
+#include <dalembert/solvers/private/constants.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -54,7 +56,7 @@ std::size_t Passage::choose(double singular) {
   double farthest = 0.0;
   for (std::size_t i = 0; i < known_ && count_ < most_nodes; ++i) {
     const double distance = std::abs(singular - past_[i].t);
-    if (distance < spread * farthest) continue;
+    if (distance < constants.spread * farthest) continue;
     chosen_[count_++] = i;
     farthest = distance;
   }

@@ -20,9 +20,6 @@ namespace DALEMBERT_HIDDEN dalembert {
 class Passage {
  public:
   static constexpr std::size_t most_nodes = 7;
-  /// Distances of nodes from the singular position grow by at least this. (At 2 the noise in v is multiplied
-  /// by 20, at 1.5 by 200, at 3 by 6, but the order counts for less.)
-  static constexpr double spread = 1.7;
 
   explicit Passage(std::size_t n);
 

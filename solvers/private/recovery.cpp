@@ -1,6 +1,7 @@
 #include "dalembert/solvers/private/recovery.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/private/constants.h>
 #include <dalembert/solvers/private/rows.h>
 #include <dalembert/solvers/private/step_failure.h>
 
@@ -12,17 +13,6 @@
 namespace dalembert {
 
 namespace {
-
-/// Output is put onto the constraints to this fraction of the scene's length: a few units of
-/// round-off.
-constexpr double output_distance = 1e-15;
-/// Constraints that were left out because they followed from others at the start must still do so:
-/// to this fraction of the scene's length or speed.
-constexpr double tolerated_contradiction = 1e-8;
-/// Above this sine round-off cannot show: it is multiplied by at most the fourth power of its inverse.
-constexpr double well_conditioned = 0.1;
-/// A state moved by more than the tolerance is not better for it.
-constexpr double most_correction = 1.0;
 
 constexpr double undetermined = std::numeric_limits<double>::quiet_NaN();
 
@@ -55,12 +45,12 @@ Recovery::Recovery(const System& system, const Start& start, double tolerance)
       n_(start.q.size()),
       w_(system.w_columns().size()) {}
 
+/// A state moved by more than the tolerance is not better for it.
 bool Recovery::moved_too_far(const Moment& m) const {
-  const double most = most_correction * tolerance_;
   for (std::size_t i = 0; i < m.q.size(); ++i) {
     const double speed = scales_.coordinate[i] / scales_.time + std::abs(v_given_[i]);
-    if (std::abs(m.q[i] - q_given_[i]) > scales_.position_error(i, q_given_[i], most) ||
-        std::abs(m.v[i] - v_given_[i]) > most * speed)
+    if (std::abs(m.q[i] - q_given_[i]) > scales_.position_error(i, q_given_[i], tolerance_) ||
+        std::abs(m.v[i] - v_given_[i]) > tolerance_ * speed)
       return true;
   }
   return false;
@@ -69,10 +59,10 @@ bool Recovery::moved_too_far(const Moment& m) const {
 /// False if the constraints do not tell the motion here.
 bool Recovery::project(Manifold& manifold, Moment& m) {
   const double L = scales_.length;
-  m.position =
-      manifold.project_positions(m.t, m.q, m.v, std::max(output_distance * L, 0.1 * scales_.rounding(m.q)));
+  m.position = manifold.project_positions(
+      m.t, m.q, m.v, std::max(constants.output_distance * L, 0.1 * scales_.rounding(m.q)));
   if (!manifold.solve_motion(m.t, m.q, m.v, m.a, m.lambda)) return false;
-  return manifold.sine() > well_conditioned || !moved_too_far(m);
+  return manifold.sine() > constants.well_conditioned || !moved_too_far(m);
 }
 
 void Recovery::require_agreement(const Moment& m) const {
@@ -83,7 +73,7 @@ void Recovery::require_agreement(const Moment& m) const {
          << left.size << "; remove or correct one of those that act on the same points";
     throw StepFailure{text.str(), m.t};
   };
-  if (m.position.size > tolerated_contradiction * L + scales_.rounding(m.q)) refuse(m.position, "");
+  if (m.position.size > constants.tolerated_contradiction * L + scales_.rounding(m.q)) refuse(m.position, "");
 }
 
 void Recovery::leave_forces_out(Moment& m) const {
@@ -147,7 +137,7 @@ void Recovery::recover(Manifold& manifold, Moment& m) {
         m.t};
   }
   if (!known) return leave_forces_out(m);
-  if (manifold.sine() <= well_conditioned) mark_undetermined(manifold, m);
+  if (manifold.sine() <= constants.well_conditioned) mark_undetermined(manifold, m);
 }
 
 }  // namespace dalembert

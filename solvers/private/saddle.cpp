@@ -1,5 +1,7 @@
 #include "dalembert/solvers/private/saddle.h"
 
+#include <dalembert/solvers/private/constants.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,10 +12,6 @@ namespace {
 /// Products per entry of W up to which the Schur complement is taken: a particle that 16
 /// constraints share. Chosen, not measured: fill grows with the square, LU on the whole does not.
 constexpr std::size_t most_products = 16;
-
-/// Rows that make a smaller angle than the root of this are left to LU on the whole matrix, so that
-/// the complement never loses more than half of the digits.
-constexpr double least_pivot = 1e-8;
 
 }  // namespace
 
@@ -36,7 +34,7 @@ SaddleMatrix::SaddleMatrix(const System& system, const ActiveRows& rows) : syste
 
 bool SaddleMatrix::factorise(std::span<const double> w, std::span<const double> s) {
   ++factorisations_;
-  by_schur_ = schur_ && schur_->factorise(w, s) && schur_->smallest_pivot() > least_pivot;
+  by_schur_ = schur_ && schur_->factorise(w, s) && schur_->smallest_pivot() > constants.least_pivot;
   if (by_schur_) return true;
   if (!whole_) whole_.emplace(*system_, rows_, KktMatrix::Forces::none);
   return whole_->factorise(w, s);

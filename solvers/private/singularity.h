@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/solvers/private/constants.h>
 #include <dalembert/solvers/private/hidden.h>
 
 #include <limits>
@@ -12,13 +13,10 @@ struct Angle {
   double sine;
 };
 
-/// Constraints whose angle is smaller than this come into question for a singular position.
-inline constexpr double close_to_dependent = 0.5;
-
 /// The time after `now` at which an angle that goes on falling as it did since `before` vanishes; infinite
 /// if it does not fall. Close to an isolated singular position the sine is proportional to the time left.
 [[nodiscard]] inline double time_to_singular(const Angle& before, const Angle& now) {
-  const bool falls = now.sine < close_to_dependent && now.sine < before.sine && now.t > before.t;
+  const bool falls = now.sine < constants.close_to_dependent && now.sine < before.sine && now.t > before.t;
   return falls ? (now.t - before.t) * now.sine / (before.sine - now.sine)
                : std::numeric_limits<double>::infinity();
 }

@@ -1,6 +1,7 @@
 #include "dalembert/solvers/private/sticking.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/private/constants.h>
 #include <dalembert/solvers/private/step_failure.h>
 
 #include <algorithm>
@@ -10,8 +11,6 @@ namespace dalembert {
 
 namespace {
 
-/// An instant after rest, of the scene's time: long enough for a direction, too short for a change.
-constexpr double instant_after = 1e-12;
 /// How close to where a friction turns it is asked for, of the way between the states given.
 constexpr double next_to = 1e-9;
 
@@ -74,10 +73,10 @@ Departure Sticking::leave(const Instant& at, std::span<const double> a, Side& si
   const auto copy = [](std::span<const double> x) { return std::vector<double>(x.begin(), x.end()); };
   Motion start{at.t, copy(at.q), copy(at.v), copy(a)}, later;
   if (!accelerate(start, side) || !switches_.rests(side)) return {};
-  move(start, instant_after * time_, later);
+  move(start, constants.instant_after * time_, later);
   if (!accelerate(later, side)) return {};
   start.a = later.a;
-  move(start, instant_after * time_, trial_);
+  move(start, constants.instant_after * time_, trial_);
   find_slope(trial_, near_);
   return {switches_.turned(side, near_), true, later.a};
 }

@@ -1,3 +1,4 @@
+#include <dalembert/solvers/private/constants.h>
 #include <dalembert/solvers/private/start.h>
 
 #include <algorithm>
@@ -5,20 +6,14 @@
 
 namespace dalembert {
 
-namespace {
-
-/// Roundings that a step may make in the forces.
-constexpr double roundings = 100.0 * std::numeric_limits<double>::epsilon();
-
-}  // namespace
-
 /// Relative to the way, errors are the same whatever the units and wherever t_end lies: a step from rest at
 /// constant acceleration a covers a h^2/2, and the first term of its error is smaller by a power of h over
 /// the time in which the acceleration changes. Round-off in forces of size m a moves it in a step by eps a
-/// h^2: that must not count against the tolerance, so no way is shorter than 100 eps a h^2 over the
+/// h^2: that must not count against the tolerance, so no way is shorter than some eps a h^2 over the
 /// tolerance.
 Way Scales::further(std::span<const double> q, std::span<const double> v, double h, double tolerance) const {
-  const double noise = std::max(roundings / tolerance * forced * h, least);
+  const double rounding = constants.roundings_of_path * std::numeric_limits<double>::epsilon();
+  const double noise = std::max(rounding / tolerance * forced * h, least);
   Way next{std::max({way.length, noise * h, least}), std::max(way.speed, noise), way.rate, h};
   for (std::size_t i = 0; i < q.size(); ++i) {
     if (is_angle[i] > 0.0) {

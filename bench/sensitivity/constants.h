@@ -1,0 +1,61 @@
+#pragma once
+
+#include <dalembert/solvers/private/constants.h>
+
+#include <array>
+#include <string>
+
+namespace dalembert::bench {
+
+struct NamedConstant {
+  const char* name;
+  double* value;
+};
+
+#define CONSTANT(name) \
+  NamedConstant { #name, &constants.name }
+/// Every judged number of the solvers.
+inline const std::array named_constants = {
+    CONSTANT(safety),
+    CONSTANT(most_growth),
+    CONSTANT(most_shrinking),
+    CONSTANT(after_fault),
+    CONSTANT(stretch),
+    CONSTANT(first_explicit_step),
+    CONSTANT(most_correction),
+    CONSTANT(roundings_of_projection),
+    CONSTANT(most_disagreement),
+    CONSTANT(far_too_short),
+    CONSTANT(unreliable),
+    CONSTANT(forgetting),
+    CONSTANT(close_to_dependent),
+    CONSTANT(changing_angle),
+    CONSTANT(vanished),
+    CONSTANT(clearly_there),
+    CONSTANT(in_sight),
+    CONSTANT(spread),
+    CONSTANT(handover_sine),
+    CONSTANT(handover_steps),
+    CONSTANT(worn),
+    CONSTANT(share_of_a_step),
+    CONSTANT(newton_tolerance),
+    CONSTANT(first_implicit_step),
+    CONSTANT(roundings_of_newton),
+    CONSTANT(soft),
+    CONSTANT(softer),
+    CONSTANT(least_soft),
+    CONSTANT(resolved),
+    CONSTANT(passed_over),
+    CONSTANT(least_pivot),
+    CONSTANT(tolerated_loss),
+    CONSTANT(output_distance),
+    CONSTANT(tolerated_contradiction),
+    CONSTANT(well_conditioned),
+    CONSTANT(roundings_of_path),
+    CONSTANT(instant_after),
+};
+#undef CONSTANT
+static_assert(sizeof(Constants) == std::tuple_size_v<decltype(named_constants)> * sizeof(double),
+              "each constant is varied");
+
+}  // namespace dalembert::bench

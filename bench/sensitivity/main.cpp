@@ -1,0 +1,102 @@
+#include <dalembert/bench/progress.h>
+#include <dalembert/bench/report.h>
+#include <dalembert/bench/sensitivity/constants.h>
+#include <dalembert/bench/sensitivity/runs.h>
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+namespace {
+
+using namespace dalembert;
+using namespace dalembert::bench;
+
+/// What a run gave: its error over its limit, and its work.
+struct Seen {
+  double error, work;
+  bool right;
+  long steps;
+};
+
+Seen look(const SensitivityRun& run) {
+  const extremes::Verdict verdict = run.run();
+  const Statistics& s = verdict.result.statistics;
+  return {verdict.result.error / verdict.limit, static_cast<double>(s.evaluations + s.factorisations),
+          verdict.right, s.steps};
+}
+
+std::vector<Seen> look(const std::vector<SensitivityRun>& runs) {
+  std::vector<Seen> seen;
+  for (const SensitivityRun& run : runs) seen.push_back(look(run));
+  return seen;
+}
+
+/// What a changed constant did. A run within its limit both ways is not worse.
+struct Effect {
+  int changed = 0, refused = 0;
+  double worse_error = 1.0, more_time = 1.0;
+  std::string worst = "-";
+};
+
+Effect compare(const std::vector<SensitivityRun>& runs, const std::vector<Seen>& before,
+               const std::vector<Seen>& after) {
+  Effect effect;
+  double logarithms = 0.0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Seen &a = before[i], &b = after[i];
+    if (a.error != b.error || a.steps != b.steps) ++effect.changed;
+    if (a.work > 0.0 && b.work > 0.0) logarithms += std::log(b.work / a.work);
+    if (a.right && std::isnan(b.error)) ++effect.refused;
+    const double worse = std::max(b.error, 1.0) / std::max(a.error, 1.0);
+    if (worse > effect.worse_error || (a.right && std::isnan(b.error))) effect.worst = runs[i].name;
+    effect.worse_error = std::max(effect.worse_error, worse);
+  }
+  effect.more_time = std::exp(logarithms / static_cast<double>(runs.size()));
+  return effect;
+}
+
+void sensitivity(const ReportOptions& options) {
+  require_writable(options);
+  const std::vector<SensitivityRun> runs = sensitivity_runs();
+  const std::vector<Seen> before = look(runs);
+  Table table{.columns = {"constant", "factor", "scenes", "worse_error", "more_time", "refused", "worst"},
+              .rows = {}};
+  Progress progress(2 * named_constants.size());
+  for (const NamedConstant& constant : named_constants) {
+    const double value = *constant.value;
+    for (const double factor : {0.5, 2.0}) {
+      progress.next(constant.name);
+      *constant.value = factor * value;
+      const Effect effect = compare(runs, before, look(runs));
+      table.rows.push_back({constant.name, shortest(factor), std::to_string(effect.changed),
+                            scientific(effect.worse_error, 3), scientific(effect.more_time, 3),
+                            std::to_string(effect.refused), effect.worst});
+    }
+    *constant.value = value;
+  }
+  const auto wrong = std::ranges::count_if(before, [](const Seen& s) { return !s.right; });
+  report("The solvers' constants halved and doubled, over " + std::to_string(runs.size()) + " runs (" +
+             std::to_string(wrong) +
+             " of them beyond their limits as it is): how many change, the worst error in limits, work "
+             "(geometric mean)",
+         table, options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  CLI::App app{"Halves and doubles each of the solvers' constants"};
+  ReportOptions options;
+  app.add_option("--csv", options.csv,
+                 "Also write the table to this file, and the same for readers beside it as .txt");
+  app.add_option("--note", options.note, "A line for the heading, such as the commit");
+  CLI11_PARSE(app, argc, argv);
+  sensitivity(options);
+  return 0;
+} catch (const std::exception& error) {
+  std::cerr << "dalembert-sensitivity: " << error.what() << '\n';
+  return 2;
+}

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <dalembert/bench/extremes/case.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace dalembert::bench {
+
+/// One scene with one stepper.
+struct SensitivityRun {
+  std::string name;
+  std::function<extremes::Verdict()> run;
+};
+
+/// All models at two tolerances, their errors measured by 1000 times the tolerance, and the short part of all
+/// extremes, by their limits; with each stepper.
+[[nodiscard]] std::vector<SensitivityRun> sensitivity_runs();
+
+}  // namespace dalembert::bench
