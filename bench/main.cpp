@@ -174,9 +174,15 @@ void add_sensitivity(CLI::App& app) {
   command->callback([options] {
     const auto program =
         std::filesystem::read_symlink("/proc/self/exe").parent_path() / "dalembert-sensitivity";
-    std::string csv = "--csv=" + options->csv, note = "--note=" + options->note, path = program.string();
-    execl(path.c_str(), path.c_str(), csv.c_str(), note.c_str(), nullptr);
-    throw Error(path + " could not be run: it is built with the benchmarks, but not with a shared library");
+    std::vector<std::string> words{program.string()};
+    if (!options->csv.empty()) words.push_back("--csv=" + options->csv);
+    if (!options->note.empty()) words.push_back("--note=" + options->note);
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    execv(arguments[0], arguments.data());
+    throw Error(program.string() +
+                " could not be run: it is built with the benchmarks, but not with a shared library");
   });
 }
 

@@ -1,7 +1,10 @@
 #include <dalembert/bench/extremes/bounds.h>
+#include <dalembert/models/andrews.h>
 #include <dalembert/models/four_bar.h>
+#include <dalembert/models/governor.h>
 #include <dalembert/models/minimal_ode.h>
 #include <dalembert/models/slider_crank.h>
+#include <dalembert/models/sliding_rod.h>
 
 #include <cmath>
 
@@ -56,6 +59,53 @@ Case four_bar_tight() {
                                        .max_steps = 50'000});  // ten times what it takes
               },
           .limit = [](const Run&) { return 1e-6; }};
+}
+
+const std::vector<double> every_tolerance = {1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13};
+
+/// The rods of N = 2 lie in line 20 times in 20 s.
+Case crossings() {
+  return {.name = "crossings",
+          .parameter = "tolerance; singular positions of a four-bar in 20 s, 20 expected",
+          .sweep = every_tolerance,
+          .brief = every_tolerance,
+          .run =
+              [](double tolerance, Stepper stepper) {
+                const models::FourBarScene built = models::FourBar{.loops = 2}.scene();
+                const auto run =
+                    simulate(built.scene, {.t_end = 20.0, .tolerance = tolerance, .stepper = stepper});
+                return Result{.error = std::abs(run.statistics().singular_positions - 20.0),
+                              .statistics = run.statistics()};
+              },
+          .limit = [](const Run&) { return 0.0; }};
+}
+
+/// Constraints that come nowhere close to dependent, though Newton's iteration may fail at tight tolerances.
+Case no_crossings() {
+  return {
+      .name = "no-crossings",
+      .parameter = "tolerance; singular positions of scenes without any",
+      .sweep = every_tolerance,
+      .brief = every_tolerance,
+      .run =
+          [](double tolerance, Stepper stepper) {
+            Result result{.error = 0.0};
+            const auto add = [&](const auto& scene, double t_end) {
+              result.statistics =
+                  simulate(scene, {.t_end = t_end, .tolerance = tolerance, .stepper = stepper}).statistics();
+              result.error += result.statistics.singular_positions;
+            };
+            add(models::Andrews{}.model().scene().scene, 0.03);
+            add(models::Governor{}.model().scene().scene, 2.0);
+            add(models::SlidingRod{}.model().scene().scene, 1.0);
+            Scene<2> rod("compliant-rod");
+            rod.add(UniformGravity<2>{{0.0, -9.81}});
+            const auto bob = rod.add_particle({.mass = 1.0, .position = {1.0, 0.0}}, "bob");
+            rod.add(compliant(Distance{Fixed<2>{}, bob, 1.0}, 1.0 / 8e5), "rod");
+            add(rod, 1.0);
+            return result;
+          },
+      .limit = [](const Run&) { return 0.0; }};
 }
 
 /// A crank shorter than the rod by d: with the crank upright the slider lies below its bearing, and the rod
@@ -137,6 +187,8 @@ Case dead_point() {
 
 }  // namespace
 
-std::vector<Case> linkages() { return {four_bar(), four_bar_tight(), toggle(), dead_point()}; }
+std::vector<Case> linkages() {
+  return {four_bar(), four_bar_tight(), crossings(), no_crossings(), toggle(), dead_point()};
+}
 
 }  // namespace dalembert::extremes

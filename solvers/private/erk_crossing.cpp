@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace dalembert {
@@ -12,14 +13,16 @@ namespace {
 
 constexpr double not_ahead = std::numeric_limits<double>::infinity();
 
-/// Where the parabola through three points has its least value; false if it has none.
-bool least_of_parabola(const std::array<Angle, 3>& at, double& t) {
-  const auto pivot = [&](std::size_t i) { return at[i].sine * at[i].sine; };
-  const double d01 = (pivot(1) - pivot(0)) / (at[1].t - at[0].t);
-  const double d12 = (pivot(2) - pivot(1)) / (at[2].t - at[1].t);
+/// Where the parabola through the squares of three sines is least; none if it is not.
+std::optional<Angle> least_of_parabola(const std::array<Angle, 3>& at) {
+  const auto square = [&](std::size_t i) { return at[i].sine * at[i].sine; };
+  const double d01 = (square(1) - square(0)) / (at[1].t - at[0].t);
+  const double d12 = (square(2) - square(1)) / (at[2].t - at[1].t);
   const double curvature = (d12 - d01) / (at[2].t - at[0].t);
-  t = 0.5 * (at[0].t + at[1].t) - 0.5 * d01 / curvature;
-  return curvature > 0.0;
+  if (!(curvature > 0.0)) return std::nullopt;
+  const double t = 0.5 * (at[0].t + at[1].t) - 0.5 * d01 / curvature;
+  const double least = square(0) + (t - at[0].t) * (d01 + (t - at[1].t) * curvature);
+  return Angle{t, std::sqrt(std::max(least, 0.0))};
 }
 
 }  // namespace
@@ -63,7 +66,20 @@ ErkStepper::State::Crossing ErkStepper::State::cross() {
 /// Whether a long step may have gone over a singular position that was not in sight where it began.
 bool ErkStepper::State::may_have_crossed() const {
   if (to.sine > worn) return least.sine < 0.5 * worn;
-  return !only_close && least.sine < constants.close_to_dependent && least.sine < 0.5 * to.sine;
+  if (!(least.sine < constants.close_to_dependent && least.sine < 0.5 * to.sine)) return false;
+  return !only_close || least_between_stages() < constants.clearly_there * to.sine;
+}
+
+/// The least sine, if the angle has passed it.
+double ErkStepper::State::least_between_stages() const {
+  Angle before = to.angle(), after{none_yet, 1.0};
+  for (const Angle& angle : angles) {
+    if (angle.t < least.t && angle.t > before.t) before = angle;
+    if (angle.t > least.t && angle.t < after.t) after = angle;
+  }
+  if (!(before.t < least.t && after.t < none_yet)) return least.sine;
+  const auto lowest = least_of_parabola({before, least, after});
+  return lowest ? lowest->sine : least.sine;
 }
 
 void ErkStepper::State::extrapolate(std::size_t nodes, double t, Node& out) {
@@ -83,7 +99,9 @@ double ErkStepper::State::find_singular(double& t) {
     extrapolate(nodes, t, middle);
     at[2] = {t, manifold.sine({t, middle.q, halves(middle.va).first})};
     if (at[2].sine < lowest.sine) lowest = at[2];
-    if (!least_of_parabola(at, t) || !(t > to.t && t < until) || t == at[2].t) break;
+    const auto next_guess = least_of_parabola(at);
+    if (!next_guess || !(next_guess->t > to.t && next_guess->t < until) || next_guess->t == at[2].t) break;
+    t = next_guess->t;
     at[0] = std::exchange(at[1], at[2]);
   }
   t = lowest.t;

@@ -88,13 +88,15 @@ bool ErkStepper::State::close_to_singular(double step) const {
 void ErkStepper::State::run_stages(const Node& start, double step, std::size_t last) {
   const bool project = close_to_singular(step);
   k[0] = start.va.data();
-  least = start.angle();
+  angles.fill(start.angle());
+  least = angles[0];
   for (std::size_t i = 1; i <= last; ++i) {
     a[i].move(step, k, start.q.data(), stage_q.data(), start.va.data(), stage[i].data(), n);
     const auto [v, v_dot] = halves(stage[i]);
     const double t = start.t + pair.c[i] * step;
     require(project ? manifold.land(t, stage_q, v, v_dot) : manifold.accelerate({t, stage_q, v}, v_dot));
-    if (manifold.sine() < least.sine) least = {t, manifold.sine()};
+    angles[i] = {t, manifold.sine()};
+    if (angles[i].sine < least.sine) least = angles[i];
     if (&start == &to) look(i, t);
   }
 }

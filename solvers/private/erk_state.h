@@ -78,6 +78,7 @@ struct ErkStepper::State {
   enum class Crossing { none, ahead, passed };
   [[nodiscard]] Crossing cross();
   [[nodiscard]] bool may_have_crossed() const;
+  [[nodiscard]] double least_between_stages() const;
   [[nodiscard]] double find_singular(double& t);
   [[nodiscard]] bool pass(double singular);
   [[nodiscard]] bool worth_taking(double error);
@@ -113,7 +114,8 @@ struct ErkStepper::State {
   Passage passage;
   std::size_t passage_nodes = 0;  // of the step that crossed
   static constexpr double none_yet = std::numeric_limits<double>::infinity();
-  Angle least{};                       // of the stages of an attempt
+  std::array<Angle, stages> angles{};  // at the stages of an attempt,
+  Angle least{};                       // and the least of them
   bool only_close = false;             // the constraints, not dependent, where the angle falls now
   double next_passage = none_yet;      // the distance from which it is worth another attempt
   double best_passage = none_yet;      // error over the tolerance, of

@@ -85,12 +85,11 @@ std::string IdaStepper::State::explain(int code) const {
              "ask for a looser tolerance, or look for a discontinuous or very stiff force";
     case IDA_CONV_FAIL:
       return fault_or(
-          sine() < constants.close_to_dependent
+          asked_for < tight
+              ? "Newton's iteration does not converge: the tolerance asks for more than double precision can "
+                "deliver here; ask for one ten times as large, or look for a discontinuous force"
+          : sine() < constants.close_to_dependent
               ? "Newton's iteration does not converge; the constraints are close to dependent here"
-          : asked_for < tight
-              ? "Newton's iteration does not converge: the tolerance asks for more than double "
-                "precision can deliver here; ask for one ten times as large, or look for a "
-                "discontinuous force"
               : "Newton's iteration does not converge; look for a discontinuous or very stiff force");
     case IDA_TOO_MUCH_ACC:
       return "the tolerance asks for more than double precision can deliver; ask for a looser one";
