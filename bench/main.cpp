@@ -168,21 +168,20 @@ void add_extremes(CLI::App& app, int& failures) {
 /// A program of its own, beside this one: its solvers are built with constants that vary.
 void add_sensitivity(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "sensitivity", "Errors and work of many scenes with each of the solvers' constants halved and doubled");
-  const auto options = std::make_shared<bench::ReportOptions>();
-  add_report_options(*command, *options);
-  command->callback([options] {
-    const auto program =
-        std::filesystem::read_symlink("/proc/self/exe").parent_path() / "dalembert-sensitivity";
-    std::vector<std::string> words{program.string()};
-    if (!options->csv.empty()) words.push_back("--csv=" + options->csv);
-    if (!options->note.empty()) words.push_back("--note=" + options->note);
+      "sensitivity",
+      "Errors and work of many scenes with each of the solvers' constants halved and doubled; options as "
+      "`dalembert-sensitivity --help` says");
+  command->prefix_command();
+  command->callback([command] {
+    const auto directory = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+    std::vector<std::string> words = command->remaining();
+    words.insert(words.begin(), directory / "dalembert-sensitivity");
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     execv(arguments[0], arguments.data());
-    throw Error(program.string() +
-                " could not be run: it is built with the benchmarks, but not with a shared library");
+    throw Error(words[0] +
+                " could not be run; build the target dalembert-benchmarks, without a shared library");
   });
 }
 

@@ -76,7 +76,7 @@ VecOf<Real, 13> solve_motion(const Andrews& a, const State& y) {
 
   const PointMotion E2 = joint_motion(a, 1, y);
   int row = 7;
-  for (const std::size_t link : {2, 3, 5}) {
+  for (const std::size_t link : {2U, 3U, 5U}) {
     const PointMotion E = joint_motion(a, link, y);
     K.block<2, 7>(row, 0) = E.slope - E2.slope;
     K.block<7, 2>(0, row) = -(E.slope - E2.slope).transpose();
@@ -116,7 +116,7 @@ AndrewsScene Andrews::scene() const {
   AndrewsScene built{.scene = Scene<2>("andrews"), .links = {}, .joints = {}, .pins_at_E = {}};
   std::array<Vec<2>, count> begin = fixed_points(*this);
   const auto turn = [this](std::size_t k) { return Eigen::Rotation2Dd(links[k].angle); };
-  for (const std::size_t k : {1, 3, 5}) {
+  for (const std::size_t k : {1U, 3U, 5U}) {
     const auto before = static_cast<std::size_t>(parent[k]);
     begin[k] += turn(before) * links[before].joint;
   }
@@ -131,11 +131,11 @@ AndrewsScene Andrews::scene() const {
     built.joints[k] = built.links[k].point(link.joint - link.centre);
   }
   const auto first_joint = [&](std::size_t k) { return built.links[k].point(-links[k].centre); };
-  for (const std::size_t k : {0, 2, 4, 6}) built.scene.add(Coincident{Fixed<2>{begin[k]}, first_joint(k)});
-  for (const std::size_t k : {1, 3, 5})
+  for (const std::size_t k : {0U, 2U, 4U, 6U}) built.scene.add(Coincident{Fixed<2>{begin[k]}, first_joint(k)});
+  for (const std::size_t k : {1U, 3U, 5U})
     built.scene.add(Coincident{built.joints[static_cast<std::size_t>(parent[k])], first_joint(k)});
   std::size_t pin = 0;
-  for (const std::size_t k : {2, 3, 5})
+  for (const std::size_t k : {2U, 3U, 5U})
     built.pins_at_E[pin++] = built.scene.add(Coincident{built.joints[1], built.joints[k]});
 
   built.scene.add(Couple{Fixed<2>{}, built.joints[0], torque}, "drive");

@@ -8,7 +8,7 @@
 namespace dalembert::bench {
 
 struct NamedConstant {
-  const char* name;
+  std::string name;
   double* value;
 };
 

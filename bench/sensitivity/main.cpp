@@ -19,13 +19,17 @@ struct Seen {
   double error, work;
   bool right;
   long steps;
+  double run_time;
 };
+
+/// Runs that take longer [s] are left out: shorter ones of their kind are there.
+constexpr double longest_run = 0.05;
 
 Seen look(const SensitivityRun& run) {
   const extremes::Verdict verdict = run.run();
   const Statistics& s = verdict.result.statistics;
   return {verdict.result.error / verdict.limit, static_cast<double>(s.evaluations + s.factorisations),
-          verdict.right, s.steps};
+          verdict.right, s.steps, s.run_time};
 }
 
 std::vector<Seen> look(const std::vector<SensitivityRun>& runs) {
@@ -58,14 +62,27 @@ Effect compare(const std::vector<SensitivityRun>& runs, const std::vector<Seen>&
   return effect;
 }
 
-void sensitivity(const ReportOptions& options) {
+std::vector<NamedConstant> select(const std::vector<std::string>& names) {
+  if (std::ranges::find(names, "all") != names.end()) return {named_constants.begin(), named_constants.end()};
+  std::vector<NamedConstant> chosen;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(named_constants, name, &NamedConstant::name);
+    if (found == named_constants.end()) throw Error("no constant \"" + name + "\"; see Constants");
+    chosen.push_back(*found);
+  }
+  return chosen;
+}
+
+void sensitivity(const std::vector<std::string>& names, const ReportOptions& options) {
+  const std::vector<NamedConstant> chosen = select(names);
   require_writable(options);
-  const std::vector<SensitivityRun> runs = sensitivity_runs();
+  std::vector<SensitivityRun> runs = sensitivity_runs();
+  std::erase_if(runs, [](const SensitivityRun& run) { return look(run).run_time > longest_run; });
   const std::vector<Seen> before = look(runs);
   Table table{.columns = {"constant", "factor", "scenes", "worse_error", "more_time", "refused", "worst"},
               .rows = {}};
-  Progress progress(2 * named_constants.size());
-  for (const NamedConstant& constant : named_constants) {
+  Progress progress(2 * chosen.size());
+  for (const NamedConstant& constant : chosen) {
     const double value = *constant.value;
     for (const double factor : {0.5, 2.0}) {
       progress.next(constant.name);
@@ -90,11 +107,13 @@ void sensitivity(const ReportOptions& options) {
 int main(int argc, char** argv) try {
   CLI::App app{"Halves and doubles each of the solvers' constants"};
   ReportOptions options;
+  std::vector<std::string> names{"all"};
+  app.add_option("--constant", names, "all, or names as in the table")->delimiter(',')->capture_default_str();
   app.add_option("--csv", options.csv,
                  "Also write the table to this file, and the same for readers beside it as .txt");
   app.add_option("--note", options.note, "A line for the heading, such as the commit");
   CLI11_PARSE(app, argc, argv);
-  sensitivity(options);
+  sensitivity(names, options);
   return 0;
 } catch (const std::exception& error) {
   std::cerr << "dalembert-sensitivity: " << error.what() << '\n';
