@@ -145,8 +145,14 @@ double time_scale(const System& system, const System::Evaluation& e, const Start
 
 /// Dropped rows follow from the others in position and velocity once they hold at the start. In
 /// acceleration they must agree too: two drives of one point may meet and yet contradict each other.
+///
+/// Where nothing moves, whatever speeds were given, or all move alike, the terms are round-off and agree in
+/// nothing: they are known to the round-off of a term of those speeds, v^2/L.
 void require_consistent_accelerations(const System& system, const Manifold& manifold, const Start& start,
-                                      double t) {
+                                      std::span<const double> given, double t) {
+  const auto& unit = start.scales.coordinate;
+  const double speed = std::max(largest_scaled(given, unit), largest_scaled(start.v, unit));
+  const double rounding = std::numeric_limits<double>::epsilon() * speed * speed * start.scales.length;
   std::vector<double> residual(static_cast<std::size_t>(system.rows()));
   system.bias({t, start.q, start.v}, residual);
   const auto& w = manifold.equations().w;
@@ -162,7 +168,7 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
     }
   }
   for (std::size_t r = 0; r < residual.size(); ++r) {
-    if (system.compliance()[r] > 0.0 || std::abs(residual[r]) <= 1e-6 * scale) continue;
+    if (system.compliance()[r] > 0.0 || std::abs(residual[r]) <= 1e-6 * scale + rounding) continue;
     throw InconsistentStart(
         system.row_label(static_cast<int>(r)) +
         " contradicts the other constraints: no accelerations satisfy all of them; remove or "
@@ -254,13 +260,21 @@ Start consistent_start(const System& system, std::span<const double> q, std::spa
     start.scales.origin = start.q;
     start.rows = independent_rows(system, e.w);
     Manifold manifold(system, start.rows, start.scales.lever());
-    if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda)) {
-      throw InconsistentStart(
-          "The constraints of this scene are singular at the start, though none repeats another");
+    const auto left = [&] {
+      if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda)) {
+        throw InconsistentStart(
+            "The constraints of this scene are singular at the start, though none repeats another");
+      }
+      return velocity_violation(system, manifold.equations(), start.scales.lever());
+    };
+    Violation violation = left();
+    if (largest_scaled(start.v, start.scales.coordinate) * start.scales.length <= start.scales.rounding(v)) {
+      std::ranges::fill(start.v, 0.0);  // the constraints took away all but round-off of what was given
+      violation = left();
     }
-    require_met(system, velocity_violation(system, manifold.equations(), start.scales.lever()),
-                rounding_of_the_user * speed_of(system, manifold.equations(), start), t, "speed");
-    require_consistent_accelerations(system, manifold, start, t);
+    require_met(system, violation, rounding_of_the_user * speed_of(system, manifold.equations(), start), t,
+                "speed");
+    require_consistent_accelerations(system, manifold, start, v, t);
     start.scales.time = time_scale(system, manifold.equations(), start, duration);
   } catch (const EquationFault& fault) {
     throw InconsistentStart(std::string(fault.what()) +

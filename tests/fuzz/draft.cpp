@@ -15,7 +15,8 @@ std::string write(double value) {
 }
 
 template <int D>
-Draft<D>::Draft(Random& r, const Plan& p) : random(r), plan(p) {
+Draft<D>::Draft(const Random& r, const Plan& p, const Statement& statement)
+    : random(r), plan(p), start_(r), statement_(statement) {
   stranger_ = foreign_.add_particle({.mass = 1.0});
   if (random.chance(0.2)) {
     const double distance = plan.length * random.decades(0.0, 4.0);
@@ -50,6 +51,7 @@ Place<D> Draft<D>::new_particle(const Vec<D>& r) {
   state.mass = size(plan.mass);
   state.position = numbers(r);
   if (plan.moving) state.velocity = numbers(arrow(plan.speed()));
+  state.velocity[statement_.axis] += statement_.more_speed;
   Place<D> place{stranger_, r, state.velocity, static_cast<int>(spare_.size()),
                  "p" + std::to_string(particles_.size())};
   attempt(place.text + " = add_particle({" + write(state.mass) + ", " + write<D>(state.position) + ", " +
@@ -68,12 +70,14 @@ void Draft<D>::add_body() {
   state.mass = size(plan.mass);
   state.centre = numbers(plan.length * random.vector<D>() + origin_);
   if (plan.moving) state.velocity = numbers(plan.speed() * random.vector<D>());
+  state.velocity[statement_.axis] += statement_.more_speed;
   const double extent = plan.length * random.decades(-plan.spread, 0.0);
   Eigen::Matrix<double, D, D> axes;
   if constexpr (D == 2) {
     state.inertia = number(state.mass * extent * extent);
     state.angle = number(random.between(-3.0, 3.0));
-    if (plan.moving) state.angular_velocity = number(random.between(-1.0, 1.0) / plan.time);
+    if (plan.moving) state.angular_velocity = number(plan.turns * random.between(-1.0, 1.0) / plan.time);
+    state.angular_velocity += statement_.more_spin;
     axes = Eigen::Rotation2Dd(state.angle).toRotationMatrix();
   } else {
     Vec<3> square;
@@ -84,7 +88,8 @@ void Draft<D>::add_body() {
                .normalized()
                .toRotationMatrix();
     state.axes = axes;
-    if (plan.moving) state.angular_velocity = numbers(random.vector<3>() / plan.time);
+    if (plan.moving) state.angular_velocity = numbers(plan.turns * random.vector<3>() / plan.time);
+    state.angular_velocity[statement_.axis] += statement_.more_spin;
   }
   const int owner = static_cast<int>(spare_.size());
   spare_.push_back(D == 2 ? 3 : 6);
@@ -105,6 +110,7 @@ void Draft<D>::add_rotor() {
   state.inertia = size(plan.mass * plan.length * plan.length);
   state.angle = number(random.between(-3.0, 3.0));
   if (plan.moving) state.angular_velocity = number(random.between(-1.0, 1.0) / plan.time);
+  state.angular_velocity += statement_.more_spin;
   const std::string text = "w" + std::to_string(wheels_.size());
   attempt(text + " = add_rotor({" + write(state.inertia) + ", " + write(state.angle) + ", " +
               write(state.angular_velocity) + "})",
@@ -131,8 +137,14 @@ Place<D> Draft<D>::particle() {
 }
 
 template <int D>
-Place<D> Draft<D>::point_of(const Body& body) {
-  const Vec<D> local = plan.length * random.vector<D>();
+const typename Draft<D>::Body* Draft<D>::new_body() {
+  const std::size_t before = bodies_.size();
+  add_body();
+  return bodies_.size() > before ? &bodies_.back() : nullptr;
+}
+
+template <int D>
+Place<D> Draft<D>::point_at(const Body& body, const Vec<D>& local) const {
   return {body.body.point(local), body.centre + body.axes * local, body.velocity, body.owner,
           "body" + std::to_string(body.owner) + ".point(" + write<D>(local) + ")"};
 }

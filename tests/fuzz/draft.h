@@ -24,6 +24,16 @@ struct Place {
   std::string text;
 };
 
+/// One of the ways in which a scene is stated and begun.
+struct Statement {
+  bool lean = false;        ///< without what follows from the rest
+  double more_speed = 0.0;  ///< added to every initial velocity along `axis` [length / time]
+  double more_spin = 0.0;   ///< to every angular velocity [1 / time]
+  int axis = 0;
+};
+/// Which statements an element belongs to.
+enum class In { both, full, lean };
+
 struct Wheel {
   Rotor rotor;
   double angle;
@@ -36,9 +46,20 @@ struct Wheel {
 template <int D>
 class Draft {
  public:
-  Draft(Random& random, const Plan& plan);
+  Draft(const Random& random, const Plan& plan, const Statement& statement = {});
+  /// The same draws from the beginning.
+  [[nodiscard]] Draft again(const Plan& p, const Statement& statement) const {
+    return {start_, p, statement};
+  }
 
-  Random& random;
+  struct Body {
+    RigidBody<D> body;
+    Vec<D> centre, velocity;
+    Eigen::Matrix<double, D, D> axes;
+    int owner;
+  };
+
+  Random random;
   const Plan& plan;
   Scene<D> scene{"fuzz"};
 
@@ -72,17 +93,27 @@ class Draft {
   [[nodiscard]] Place<D> other_than(const Place<D>& a);
   [[nodiscard]] Wheel wheel();  ///< adds one if there is none
   [[nodiscard]] Place<D> new_particle(const Vec<D>& r);
+  /// A new one; none if it is refused.
+  [[nodiscard]] const Body* new_body();
+  [[nodiscard]] Place<D> point_at(const Body& body, const Vec<D>& local) const;
   void add_particle() { (void)new_particle(plan.length * random.vector<D>() + origin_); }
   void add_body();
   void add_rotor();
+  [[nodiscard]] const Vec<D>& origin() const { return origin_; }
 
   /// Whether a sensible scene has room for a constraint of so many rows on these owners; takes it.
   [[nodiscard]] bool take(int rows, std::initializer_list<int> owners);
 
   /// Adds to the scene what `make` returns and writes it down; what the library refuses is left out.
   template <class Element>
-  void add(const std::string& text, const Element& element) {
-    attempt(text, [&] { scene.add(element, name()); });
+  void add(const std::string& text, const Element& element, In statement = In::both) {
+    const std::string its_name = name();
+    if (statement == In::both || (statement == In::lean) == statement_.lean)
+      attempt(text, [&] { scene.add(element, its_name); });
+    if constexpr (!std::is_void_v<decltype(scene.add(element))>) {
+      if (statement == In::both && plan.repeat > 0.0 && random.chance(plan.repeat))
+        add("  again " + text, element, In::full);
+    }
   }
   void attempt(const std::string& text, const std::function<void()>& f);
 
@@ -91,15 +122,13 @@ class Draft {
   [[nodiscard]] const std::string& refused() const { return refused_; }
 
  private:
-  struct Body {
-    RigidBody<D> body;
-    Vec<D> centre, velocity;
-    Eigen::Matrix<double, D, D> axes;
-    int owner;
-  };
-  [[nodiscard]] Place<D> point_of(const Body& body);
+  [[nodiscard]] Place<D> point_of(const Body& body) {
+    return point_at(body, plan.length * random.vector<D>());
+  }
   [[nodiscard]] Particle<D> handle(Particle<D> meant);
 
+  Random start_;
+  Statement statement_;
   Vec<D> origin_ = Vec<D>::Zero();
   Scene<D> foreign_{"foreign"};
   Particle<D> stranger_;
@@ -144,8 +173,17 @@ std::string call_text(const std::string& kind, const Part&... part) {
 /// One random element each, of the kinds in the source file of that name.
 template <int D>
 void add_rod(Draft<D>& draft);
+/// Between two points of which the second moves, of the length given.
+template <int D>
+void add_distance(Draft<D>& draft, const Place<D>& a, const Place<D>& b, double length, In statement);
 template <int D>
 void add_pin(Draft<D>& draft);
+/// Holds two points together of which the second moves.
+template <int D>
+void add_ball(Draft<D>& draft, const Place<D>& a, const Place<D>& b, In statement);
+/// A part of the scene with constraints that follow from others: a hinge, a frame, a rod.
+template <int D>
+void add_redundant(Draft<D>& draft);
 template <int D>
 void add_own_holonomic(Draft<D>& draft);
 template <int D>
@@ -163,6 +201,9 @@ template <int D>
 void add_field(Draft<D>& draft);
 template <int D>
 void add_own_force(Draft<D>& draft);
+/// A force, or a constraint, with a kink or a jump.
+template <int D>
+void add_kinked(Draft<D>& draft);
 
 /// A whole scene.
 template <int D>

@@ -32,11 +32,15 @@ void add_any_force(Draft<D>& draft) {
 template <int D>
 void fill(Draft<D>& draft) {
   const Plan& plan = draft.plan;
+  if (plan.family == Family::redundant) add_redundant(draft);
   for (int i = 0; i < plan.bodies; ++i) draft.add_body();
   for (int i = 0; i < plan.rotors; ++i) draft.add_rotor();
   for (int i = 0; i < plan.particles; ++i) draft.add_particle();
   for (int i = 0; i < plan.constraints; ++i) add_constraint(draft);
   for (int i = 0; i < plan.forces; ++i) add_any_force(draft);
+  if (plan.family == Family::kinked) {
+    for (int i = 1 + draft.random.below(2); i > 0; --i) add_kinked(draft);
+  }
 }
 
 template void fill(Draft<2>&);

@@ -10,14 +10,21 @@ void add_pin(Draft<D>& draft) {
   if (b.owner < 0) {
     if (!draft.take(D - 1, {p.owner})) return;  // leaves it nothing: a particle at a fixed point
   }
-  const auto* particle = std::get_if<Particle<D>>(&p.point);
-  std::visit(
-      [&](const auto& q) {
-        draft.add(call_text("Coincident", b.text, p.text), Coincident{q, *particle});
-      },
-      b.point);
+  add_ball(draft, b, p, In::both);
 }
 
+template <int D>
+void add_ball(Draft<D>& draft, const Place<D>& a, const Place<D>& b, In statement) {
+  const auto add = [&](const auto& p, const auto& q) {
+    using P = std::remove_cvref_t<decltype(p)>;
+    if constexpr (P::inputs > 0)
+      draft.add(call_text("Coincident", a.text, b.text), Coincident{q, p}, statement);
+  };
+  std::visit(add, b.point, a.point);
+}
+
+template void add_ball(Draft<2>&, const Place<2>&, const Place<2>&, In);
+template void add_ball(Draft<3>&, const Place<3>&, const Place<3>&, In);
 template void add_pin(Draft<2>&);
 template void add_pin(Draft<3>&);
 

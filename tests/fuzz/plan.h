@@ -4,9 +4,19 @@
 #include "random.h"
 #include <dalembert/solvers/options.h>
 
+#include <array>
 #include <string>
 
 namespace dalembert::fuzz {
+
+/// What scenes are made of, and what their runs are held against.
+///
+///   any        everything; a run is checked by itself
+///   redundant  hinges, frames and constraints that say again what others imply: against the run without
+///   those kinked     forces and constraints with kinks and jumps: one stepper against the other
+enum class Family { any, redundant, kinked };
+inline constexpr std::array families{Family::any, Family::redundant, Family::kinked};
+[[nodiscard]] const char* name(Family family);
 
 /// What kind of scene a seed makes, in which units, and how it is run.
 ///
@@ -16,11 +26,14 @@ namespace dalembert::fuzz {
 struct Plan {
   enum class Kind { sensible, wild, invalid };
   Kind kind = Kind::sensible;
+  Family family = Family::any;
   double length = 1.0, time = 1.0, mass = 1.0;  ///< the scene's units
   double spread = 0.5;                          ///< sizes differ by 10^-spread ... 10^spread
   double wrong = 0.0;                           ///< chance of a wrong number, name or handle
   int particles = 1, bodies = 0, rotors = 0, constraints = 0, forces = 0;
-  bool moving = true;  ///< initial velocities
+  bool moving = true;   ///< initial velocities
+  double turns = 1.0;   ///< of bodies, times 1/time
+  double repeat = 0.0;  ///< chance that a constraint is stated twice
   Options options;
 
   [[nodiscard]] double speed() const { return length / time; }
@@ -29,7 +42,7 @@ struct Plan {
 };
 
 [[nodiscard]] const char* name(Plan::Kind kind);
-[[nodiscard]] Plan random_plan(Random& random);
+[[nodiscard]] Plan random_plan(Random& random, Family family);
 
 /// One of the numbers that no one means.
 [[nodiscard]] double wrong_number(Random& random, double meant);

@@ -54,6 +54,7 @@ bool same_bits(const Trajectory<D>& a, const Trajectory<D>& b) {
 
 template <int D>
 std::string run(Draft<D>& draft, std::string& detail) {
+  if (draft.plan.family != Family::any) return fault_of_twins(draft, detail);
   const double way = draft.random.uniform();
   if (way < 0.1) describe(draft);
   if (way > 0.9) return walk(draft);
@@ -119,10 +120,10 @@ Verdict judge_draft(Draft<D>& draft) {
 
 }  // namespace
 
-Verdict judge(std::uint64_t seed, Stepper stepper) {
-  Random random(seed);
-  Plan plan = random_plan(random);
-  plan.options.stepper = stepper;
+Verdict judge(const Task& task) {
+  Random random(task.seed);
+  Plan plan = random_plan(random, task.family);
+  plan.options.stepper = task.stepper;
   if (random.chance(0.5)) {
     Draft<2> draft(random, plan);
     return judge_draft(draft);

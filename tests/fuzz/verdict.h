@@ -8,6 +8,13 @@
 
 namespace dalembert::fuzz {
 
+/// A scene: the family it is of, its number there, and what steps it.
+struct Task {
+  std::uint64_t seed;
+  Stepper stepper;
+  Family family = Family::any;
+};
+
 /// What became of a scene. `fault` is empty unless the library did what it must not: then it says what.
 struct Verdict {
   std::string outcome;  ///< "ran", or the type of the error
@@ -17,13 +24,23 @@ struct Verdict {
   std::string detail;  ///< size of what was measured, for whoever looks into limits
 };
 
-/// Makes the scene of a seed and runs it.
-[[nodiscard]] Verdict judge(std::uint64_t seed, Stepper stepper);
+/// Makes the scene and runs it.
+[[nodiscard]] Verdict judge(const Task& task);
 
 /// What is wrong with a run's samples; empty if nothing. `complete` tells a run that came to its end
 /// from what an IntegrationFailure kept.
 template <int D>
 [[nodiscard]] std::string fault_of_run(const Draft<D>& draft, const Trajectory<D>& run,
                                        std::optional<double> failed_at, std::string& detail);
+
+/// What a run may err by, as a multiple of its accuracy: every step may err by it, and some dozens of them
+/// are made in the one or two times in which a scene moves by its length. In units of the scene: its length,
+/// that over its time, and the mass of all times that over its time again.
+inline constexpr double error_of_run = 100.0;
+
+/// Runs a scene and its twin, in which the redundant constraints are left out or that the other stepper runs,
+/// and says what is wrong with the run or how the two differ. Throws what the run of the scene itself throws.
+template <int D>
+[[nodiscard]] std::string fault_of_twins(const Draft<D>& draft, std::string& detail);
 
 }  // namespace dalembert::fuzz

@@ -36,7 +36,7 @@ void tell(std::FILE* out, const Verdict& v) {
   for (std::size_t i = first; i < std::min(first + batch, tasks.size()); ++i) {
     const itimerval limit{{0, 0}, {longest, 0}};
     setitimer(ITIMER_PROF, &limit, nullptr);  // its signal ends the process
-    tell(out, judge(tasks[i].seed, tasks[i].stepper));
+    tell(out, judge(tasks[i]));
   }
   const itimerval none{};
   setitimer(ITIMER_PROF, &none, nullptr);
@@ -58,10 +58,11 @@ class Tally {
 
   void add(const Task& task, const std::string& outcome, const std::string& kind, const std::string& message,
            const std::string& fault) {
-    ++outcomes_[kind + ' ' + outcome];
+    const std::string family = dalembert::fuzz::name(task.family);
+    ++outcomes_[(task.family == Family::any ? kind : family) + ' ' + outcome];
     if (!fault.empty()) ++faults_;
     if (!list_ && fault.empty()) return;
-    std::cout << (fault.empty() ? "seed " : "FAULT seed ") << task.seed << ' '
+    std::cout << (fault.empty() ? "" : "FAULT ") << family << " seed " << task.seed << ' '
               << dalembert::name(task.stepper) << ' ' << kind << ' ' << outcome << ": "
               << (fault.empty() ? message : fault + " | " + message) << std::endl;
   }

@@ -2,15 +2,9 @@
 
 #include "verdict.h"
 
-#include <cstdint>
 #include <vector>
 
 namespace dalembert::fuzz {
-
-struct Task {
-  std::uint64_t seed;
-  Stepper stepper;
-};
 
 /// Judges every task and prints a tally, and a line for each fault (or, if `list`, for each task).
 /// Tasks run in child processes, some at a time, so that a crash or a hang is a fault of one scene and

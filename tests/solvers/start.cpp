@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <limits>
+#include <vector>
 
 namespace dalembert {
 namespace {
@@ -149,6 +152,47 @@ TEST(Assembly, FollowsADrivenPivot) {
   const Simulation<2> simulation(scene, {.t_end = 1.0, .assemble = true});
   EXPECT_LE((simulation.position(bob) - Vec<2>(1.0, 0.0)).norm(), 16.0 * epsilon);
   EXPECT_LE((simulation.velocity(bob) - Vec<2>(2.0, 0.5)).norm(), 16.0 * epsilon * 2.0);
+}
+
+// A square with both diagonals, two of its nodes held: nothing can move, and of any speeds only round-off is
+// left, in which no equations agree with each other.
+TEST(Start, OfAFrameThatCannotMoveIsAtRestWhateverItsSpeeds) {
+  for (const double speed : {0.0, 1e-9, 1.0, 1e12}) {
+    Scene<2> scene;
+    const Vec<2> centre(0.3, -0.7);
+    const std::array<Vec<2>, 4> r{centre + Vec<2>(1.0, 0.0), centre + Vec<2>(0.0, 1.0),
+                                  centre - Vec<2>(1.0, 0.0), centre - Vec<2>(0.0, 1.0)};
+    std::vector<Particle<2>> node;
+    for (const auto& at : r)
+      node.push_back(
+          scene.add_particle({.mass = 1.0, .position = at, .velocity = {0.1 * speed, speed * at.x()}}));
+    for (std::size_t j = 1; j < node.size(); ++j)
+      for (std::size_t i = 0; i < j; ++i) scene.add(Distance{node[i], node[j], (r[j] - r[i]).norm()});
+    for (std::size_t i = 0; i < 2; ++i) scene.add(Coincident{Fixed<2>{r[i]}, node[i]});
+    const auto run = simulate(scene, {.t_end = 1.0, .samples = 2, .assemble = true});
+    EXPECT_EQ(run.statistics().degrees_of_freedom, 0);
+    EXPECT_LE((run.position(node[2], 1) - r[2]).norm(), 100.0 * epsilon * std::max(speed, 1.0));
+  }
+}
+
+// The same with driven nodes: all move alike, and nothing that the speeds make is left in the accelerations.
+TEST(Start, OfAFrameThatIsDrivenFollowsItsDrive) {
+  Scene<2> scene;
+  const std::array<Vec<2>, 5> r{Vec<2>(1.0, 0.1), {0.4, 1.2}, {-0.7, 0.8}, {-0.9, -0.6}, {0.3, -1.1}};
+  std::vector<Particle<2>> node;
+  for (const auto& at : r) node.push_back(scene.add_particle({.mass = 1.0, .position = at}));
+  for (std::size_t j = 1; j < node.size(); ++j)
+    for (std::size_t i = 0; i < j; ++i) scene.add(Distance{node[i], node[j], (r[j] - r[i]).norm()});
+  for (std::size_t i = 0; i < 2; ++i) {
+    scene.add(Coincident{driven([at = r[i]](auto t) {
+                           using std::sin;
+                           return vec(at.x() + 0.3 * sin(7.0 * t), at.y() - 0.2 * sin(7.0 * t));
+                         }),
+                         node[i]});
+  }
+  const auto run = simulate(scene, {.t_end = 1.0, .samples = 2, .tolerance = 1e-8, .assemble = true});
+  const Vec<2> moved(0.3 * std::sin(7.0), -0.2 * std::sin(7.0));
+  EXPECT_LE((run.position(node[3], 1) - r[3] - moved).norm(), 100.0 * epsilon);
 }
 
 }  // namespace
