@@ -131,7 +131,8 @@ AndrewsScene Andrews::scene() const {
     built.joints[k] = built.links[k].point(link.joint - link.centre);
   }
   const auto first_joint = [&](std::size_t k) { return built.links[k].point(-links[k].centre); };
-  for (const std::size_t k : {0U, 2U, 4U, 6U}) built.scene.add(Coincident{Fixed<2>{begin[k]}, first_joint(k)});
+  for (const std::size_t k : {0U, 2U, 4U, 6U})
+    built.scene.add(Coincident{Fixed<2>{begin[k]}, first_joint(k)});
   for (const std::size_t k : {1U, 3U, 5U})
     built.scene.add(Coincident{built.joints[static_cast<std::size_t>(parent[k])], first_joint(k)});
   std::size_t pin = 0;
