@@ -30,8 +30,8 @@ TEST(Allocation, DoesNotHappenWhileAdvancing) {
   EXPECT_EQ(allocations(), before);
 }
 
-// The first steps look whether what rests begins to slide, and a step that fails, until the length of steps is
-// found, throws.
+// The first steps look whether what rests begins to slide, and a step that fails, until the length of steps
+// is found, throws.
 class AllocationWithFriction : public testing::TestWithParam<Stepper> {};
 INSTANTIATE_TEST_SUITE_P(Steppers, AllocationWithFriction, testing::Values(Stepper::ida, Stepper::erk),
                          [](const auto& tested) { return std::string(name(tested.param)); });
