@@ -31,8 +31,9 @@ Seen look(const SensitivityRun& run) {
   const auto begin = std::chrono::steady_clock::now();
   const extremes::Verdict verdict = run.run();
   const Statistics& s = verdict.result.statistics;
-  return {verdict.result.error / verdict.limit, static_cast<double>(s.evaluations + s.factorisations),
-          verdict.right, s.steps, std::chrono::steady_clock::now() - begin};
+  const double error = verdict.result.error == 0.0 ? 0.0 : verdict.result.error / verdict.limit;
+  return {error, static_cast<double>(s.evaluations + s.factorisations), verdict.right, s.steps,
+          std::chrono::steady_clock::now() - begin};
 }
 
 std::vector<Seen> look(const std::vector<SensitivityRun>& runs) {
