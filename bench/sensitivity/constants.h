@@ -42,8 +42,6 @@ inline const std::array named_constants = {
     CONSTANT(first_implicit_step),
     CONSTANT(roundings_of_newton),
     CONSTANT(soft),
-    CONSTANT(softer),
-    CONSTANT(least_soft),
     CONSTANT(resolved),
     CONSTANT(passed_over),
     CONSTANT(least_pivot),

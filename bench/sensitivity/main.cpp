@@ -90,7 +90,7 @@ void sensitivity(const std::vector<std::string>& names, const ReportOptions& opt
     const double value = *constant.value;
     for (const double factor : {0.5, 2.0}) {
       progress.next(constant.name);
-      *constant.value = value > 0.5 && value < 1.0 ? 1.0 - factor * (1.0 - value) : factor * value;
+      *constant.value = value > 0.5 && value < 2.0 ? 1.0 + factor * (value - 1.0) : factor * value;
       const Effect effect = compare(runs, before, look(runs));
       table.rows.push_back({constant.name, shortest(factor), std::to_string(effect.changed),
                             scientific(effect.worse_error, 3), scientific(effect.more_time, 3),
@@ -100,7 +100,7 @@ void sensitivity(const std::vector<std::string>& names, const ReportOptions& opt
   }
   const auto wrong = std::ranges::count_if(before, [](const Seen& s) { return !s.right; });
   report(
-      "The solvers' constants halved and doubled (of those between 1/2 and 1, what is missing to 1), over " +
+      "The solvers' constants halved and doubled (of those between 1/2 and 2, the distance from 1), over " +
           std::to_string(runs.size()) + " runs (" + std::to_string(wrong) +
           " of them beyond their limits as it is): how many change, the worst error in limits, work "
           "(geometric mean)",

@@ -139,7 +139,7 @@ void NewtonMatrix::find_fastest_vibration() {
 }
 
 void NewtonMatrix::converged_badly() {
-  if (soft()) still_soft_ = std::max(constants.softer * still_soft_, constants.least_soft);
+  if (soft()) still_soft_ = 0.0;
 }
 
 std::string NewtonMatrix::stiffest_force() const { return system_->force_of_stiffness(stiffest_); }

@@ -87,8 +87,7 @@ class NewtonMatrix {
   [[nodiscard]] std::string stiffest_force() const;
   /// The sine of the smallest angle that a holonomic row makes with others, see SaddleMatrix.
   [[nodiscard]] double sine() const { return k2_.sine(); }
-  /// After an iteration that did not converge: what was left out then for being soft will be left out only
-  /// where it is softer still.
+  /// After an iteration that did not converge: if forces were left out then for being soft, none will be.
   void converged_badly();
   /// Whether the last factors are those of W M^-1 W^T alone.
   [[nodiscard]] bool soft() const { return !k1_in_use_; }
