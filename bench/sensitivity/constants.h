@@ -42,6 +42,7 @@ inline const std::array named_constants = {
     CONSTANT(first_implicit_step),
     CONSTANT(roundings_of_newton),
     CONSTANT(soft),
+    CONSTANT(tolerated_failures),
     CONSTANT(resolved),
     CONSTANT(passed_over),
     CONSTANT(least_pivot),

@@ -131,11 +131,14 @@ void IdaStepper::State::change_order() {
   check(IDASetMaxOrd(ida.get(), guard.order()), "IDASetMaxOrd");
 }
 
-/// Newton's iteration that failed with forces left out of its matrix is to have them.
+/// Newton's iteration that fails often with forces left out of its matrix is to have them. (A failure costs
+/// the work of about three steps, the larger matrix half a step more in each.)
 void IdaStepper::State::watch_convergence() {
   long failures = 0;
   check(IDAGetNumStepSolveFails(ida.get(), &failures), "IDAGetNumStepSolveFails");
-  if (failures > std::exchange(solve_failures, failures)) newton.converged_badly();
+  if (failures == std::exchange(solve_failures, failures)) return;
+  if (static_cast<double>(failures - 1) > constants.tolerated_failures * static_cast<double>(steps))
+    newton.converged_badly();
 }
 
 /// Adds IDA's own counts since it began.
