@@ -16,8 +16,9 @@ namespace dalembert::fuzz {
 
 namespace {
 
-/// A scene that takes longer hangs [s of processor time, so that a busy machine does not count].
-constexpr int longest = 10;
+/// A scene that takes longer hangs [s of processor time, so that a busy machine does not count]:
+/// the slowest take 4 s, and ten times that under sanitizers.
+constexpr int longest = 60;
 /// Scenes per process: starting one costs as much as a scene.
 constexpr std::size_t batch = 100;
 
