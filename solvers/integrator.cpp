@@ -99,7 +99,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
     if (system.frictional() && o.stepper == Stepper::ida)
       sticking.emplace(system, start, o.t_start, o.tolerance);
     visit(o.t_start);
-    chosen_sine = output_sine = manifold->sine();
+    best_sine = manifold->sine();
   } catch (const StepFailure& failure) {  // before the first step it is a fault of the start
     throw InconsistentStart(failure.what);
   } catch (const EquationFault& fault) {
@@ -111,28 +111,36 @@ struct DALEMBERT_HIDDEN Integrator::State {
   void visit(double time) {
     next.t = time;
     interpolate(time, next.q, next.v);
-    if (redundant() && better_rows(manifold->sine({time, next.q, next.v}), output_sine)) {
-      manifold.emplace(system, fresh_rows, lever);
-      interpolate(time, next.q, next.v);  // the manifold follows springs
+    if (const auto rows = better_rows()) {
+      Manifold other(system, *rows, lever);
+      follow_springs(time, other);
+      recover(other, next);
+      record.statistics.evaluations += other.evaluations();
+      record.statistics.factorisations += other.factorisations();
+    } else {
+      recover(*manifold, next);
     }
-    recover(next);
     std::swap(now, next);
   }
 
   /// The stepper's state, with the forces that it has found for compliant constraints.
   void interpolate(double time, std::span<double> q, std::span<double> v) {
     std::visit([&](auto& s) { s.interpolate(time, q, v); }, stepper);
-    if (const auto* ida = std::get_if<IdaStepper>(&stepper); ida != nullptr && system.compliant()) {
-      if (ida->springs(time, springs)) manifold->follow(springs);
-    }
+    follow_springs(time, *manifold);
+  }
+
+  void follow_springs(double time, Manifold& follower) {
+    if (!system.compliant()) return;
+    if (const auto* ida = std::get_if<IdaStepper>(&stepper); ida != nullptr && ida->springs(time, springs))
+      follower.follow(springs);
   }
 
   [[nodiscard]] double stepper_time() const {
     return std::visit([](const auto& s) { return s.time(); }, stepper);
   }
 
-  void recover(Moment& m) {
-    recovery.recover(*manifold, m);
+  void recover(Manifold& on, Moment& m) {
+    recovery.recover(on, m);
     auto& s = record.statistics;
     s.residual_position = std::max(s.residual_position, m.position.size);
     s.residual_velocity = std::max(s.residual_velocity, m.velocity.size);
@@ -150,7 +158,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
                         stepper_time()};
     }
     // Before a step, so that all output within the last has been read from the stepper that took it.
-    if (redundant()) follow_rows();
+    follow_rows();
     if (options.stepper == Stepper::ida) watch_angle();
     if (steps == 1) watch_sliding();
     try {
@@ -180,23 +188,24 @@ struct DALEMBERT_HIDDEN Integrator::State {
   /// The rows in use are independent at the start of the run; on the way they may come to depend on each
   /// other while others do not.
   void follow_rows() {
+    if (!redundant()) return;
     next.t = stepper_time();
     interpolate(next.t, next.q, next.v);
-    if (better_rows(sine(), chosen_sine)) restart(handed_over ? Stepper::erk : options.stepper);
+    if (better_rows()) restart(handed_over ? Stepper::erk : options.stepper);
   }
 
-  /// Whether other rows make larger angles at `next`, if those in use make one of sine `own` there, much less
-  /// than the one `chosen` for. Then they are `fresh_rows`, and that is theirs.
-  bool better_rows(double own, double& chosen) {
-    if (own > constants.worn * chosen) return false;
-    chosen = own;
+  /// Rows that make much larger angles at `next` than those in use. They are looked for where the angle of
+  /// these is much less than the best was when last looked for.
+  std::optional<ActiveRows> better_rows() {
+    if (!redundant()) return std::nullopt;
     const Instant at{next.t, next.q, next.v};
-    (void)manifold->sine(at);
-    fresh_rows = independent_rows(system, manifold->equations().w, start.rows);
-    const double best = Manifold(system, fresh_rows, lever).sine(at);
-    if (own > constants.worn * best) return false;
-    chosen = best;
-    return true;
+    const double own = manifold->sine(at);
+    if (own >= constants.worn * best_sine) return std::nullopt;
+    ActiveRows rows = independent_rows(system, manifold->equations().w, start.rows);
+    const double best = Manifold(system, rows, lever).sine(at);
+    if (own < constants.worn * best) return rows;
+    best_sine = std::max(own, best);
+    return std::nullopt;
   }
 
   /// Isolated singular positions are passed by the explicit stepper (see ErkStepper), from where they come in
@@ -236,7 +245,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
       from_here.tolerance = std::max(constants.share_of_a_step * options.tolerance, smallest_tolerance);
     start = begin_anew(system, start, t, q0, v0);
     manifold.emplace(system, start.rows, lever);
-    output_sine = chosen_sine;
+    best_sine = manifold->sine({t, start.q, start.v});
     stepper = make_stepper(system, start, from_here);
     if (sticking) sticking.emplace(system, start, t, options.tolerance);
     next = Moment(system, start);
@@ -315,10 +324,9 @@ struct DALEMBERT_HIDDEN Integrator::State {
   Moment now, next;
   Springs springs;  // of the implicit stepper's state, if any constraint is compliant
   Recovery recovery;
-  double chosen_sine = 1.0, output_sine = 1.0;  // of the rows that step, and of output, when chosen
-  ActiveRows fresh_rows;                        // see better_rows
-  Angle angle;                                  // at the last step
-  bool handed_over = false;                     // to the explicit stepper, close to a singular position
+  double best_sine = 1.0;    // of any rows, where they were compared last
+  Angle angle;               // at the last step
+  bool handed_over = false;  // to the explicit stepper, close to a singular position
   double sine_at_handover = 0.0;
 
   Record record;

@@ -23,7 +23,7 @@ Case redundant_pin() {
   return {.name = "redundant-pin",
           .parameter = "tolerance, a rod and a driven pin that imply each other, 2 turns",
           .sweep = ladder,
-          .brief = {1e-6, 1e-10},
+          .brief = {1e-4, 1e-6, 1e-10},
           .run =
               [](double tolerance, Stepper stepper) {
                 constexpr double g = 9.81;

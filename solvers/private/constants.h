@@ -66,7 +66,7 @@ struct Constants {
   double roundings_of_newton = 5.0;
   /// Forces whose stiffness is below this part of M/h^2 are left out of Newton's matrix, until it fails, more
   /// than once, in more than so many of the steps.
-  double soft = 0.1, tolerated_failures = 0.02;
+  double soft = 0.1, tolerated_failures = 0.05;
   /// Order 5 resolves a vibration that matters with steps h rho below the first (0.2 to 0.4 at tolerances
   /// 1e-4 to 1e-8); beyond the second no order is unstable. See OrderGuard.
   double resolved = 0.45, passed_over = 9.4;

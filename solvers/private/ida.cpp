@@ -57,6 +57,7 @@ IdaStepper::IdaStepper(const System& system, const Start& start, const Options& 
   check(IDAInit(ida, residual, s.t, s.y.get(), s.yp.get()), "IDAInit");
   check(IDASetUserData(ida, &s), "IDASetUserData");
   check(IDAWFtolerances(ida, weigh), "IDAWFtolerances");
+  s.make_newton();
   check(IDASetLinearSolver(ida, s.solver.get(), s.matrix.get()), "IDASetLinearSolver");
   check(IDASetJacFn(ida, record), "IDASetJacFn");
   check(IDASetLinearSolutionScaling(ida, 0), "IDASetLinearSolutionScaling");  // NewtonMatrix knows c
@@ -131,8 +132,8 @@ void IdaStepper::State::change_order() {
   check(IDASetMaxOrd(ida.get(), guard.order()), "IDASetMaxOrd");
 }
 
-/// Newton's iteration that fails often with forces left out of its matrix is to have them. (A failure costs
-/// the work of about three steps, the larger matrix half a step more in each.)
+/// Newton's iteration that fails often with forces left out of its matrix is to have them. The larger matrix
+/// makes every step dearer, so a few failures are better borne.
 void IdaStepper::State::watch_convergence() {
   long failures = 0;
   check(IDAGetNumStepSolveFails(ida.get(), &failures), "IDAGetNumStepSolveFails");

@@ -2,6 +2,15 @@
 
 namespace dalembert {
 
+namespace {
+
+/// Three corrections with the gradients of the predictor are what most steps need, and less than fresh ones.
+/// Where a step is long against what the constraints are made of (a chain of many short links) the rest gets
+/// fresh ones each. (2 or 4 in place of 3 take the same steps.)
+constexpr int corrections_of_one_matrix = 3;
+
+}  // namespace
+
 /// A direct solver for IDA's interface whose matrix is NewtonMatrix; IDA's own is empty.
 void IdaStepper::State::make_linear_solver() {
   matrix.reset(check(SUNMatNewEmpty(context.get())));
@@ -25,6 +34,8 @@ void IdaStepper::State::make_linear_solver() {
       if (!known) s.system->evaluate(at, s.e);
       const bool regular = s.newton.factorise(at, s.e, s.lambda, s.matrix_c);
       s.factored_at = at.t;
+      s.corrections = 0;
+      s.error_over_correction = State::unknown_rate;
       if (!regular) s.blame(s.matrix_t, "the constraints became dependent on each other");
       return regular ? 0 : 1;
     });
@@ -36,7 +47,9 @@ void IdaStepper::State::make_linear_solver() {
       double c = 0.0;
       check(IDAGetCurrentCj(s.ida.get(), &c), "IDAGetCurrentCj");
       // IDA keeps a matrix as long as Newton converges; fresh factors cost less than that saves.
-      if (s.evaluated_at != s.factored_at) {
+      const bool stale = s.evaluated_at != s.factored_at;
+      s.corrections = stale ? 1 : s.corrections + 1;
+      if (stale || s.corrections > corrections_of_one_matrix) {
         s.factored_at = s.evaluated_at;
         if (!s.newton.refresh(s.e, c)) return 1;
       }

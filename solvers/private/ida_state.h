@@ -28,6 +28,7 @@ struct IdaStepper::State {
   Owned<N_Vector, FreeVector> y, yp, dense, id;
   Owned<SUNMatrix, FreeMatrix> matrix;
   Owned<SUNLinearSolver, FreeSolver> solver;
+  Owned<SUNNonlinearSolver, FreeNewton> nonlinear;
   Owned<void*, FreeIda> ida;
 
   const System* system;
@@ -57,6 +58,11 @@ struct IdaStepper::State {
   // Where `e` holds.
   double evaluated_at = 0.0, factored_at = 0.0;
   N_Vector evaluated = nullptr;
+  int corrections = 0;  // so far, in this Newton iteration
+  // Of Newton's iteration: its first correction and that of q and v alone, both weighted, and the error left
+  // after a correction, in units of that.
+  static constexpr double unknown_rate = 20.0;  // as in IDA, while a new matrix has shown none
+  double first_correction = 0.0, first_of_motion = 0.0, error_over_correction = unknown_rate;
   std::exception_ptr thrown;  // by a callback, to be thrown again when IDA has returned
 
   [[nodiscard]] std::size_t n() const { return static_cast<std::size_t>(system->coordinates()); }
@@ -69,6 +75,9 @@ struct IdaStepper::State {
   }
 
   void make_linear_solver();
+  void make_newton();
+  [[nodiscard]] int test_convergence(int iteration, N_Vector correction, N_Vector weight,
+                                     double newton_tolerance);
   void watch_order();
   void change_order();
   void watch_convergence();

@@ -56,8 +56,8 @@ NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows, double 
     if (active < static_cast<std::size_t>(rows.holonomic))
       friction_.push_back({k, static_cast<std::size_t>(coordinate), active});
   }
-  // What forces may need is made before the first step: stepping allocates constants.least_soft, but for a
-  // scene without them whose multipliers become stiff.
+  // What forces may need is made before the first step: stepping allocates nothing, but for a scene
+  // without them whose multipliers become stiff.
   if (const auto may_need = varying_islands(); any(may_need)) include(may_need);
 }
 

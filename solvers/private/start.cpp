@@ -147,7 +147,8 @@ double time_scale(const System& system, const System::Evaluation& e, const Start
 /// acceleration they must agree too: two drives of one point may meet and yet contradict each other.
 ///
 /// Where nothing moves, whatever speeds were given, or all move alike, the terms are round-off and agree in
-/// nothing: they are known to the round-off of a term of those speeds, v^2/L.
+/// nothing: they are known to the round-off of a term of those speeds, v^2/L. A row's terms are divided by
+/// the length of its gradient: they are accelerations.
 void require_consistent_accelerations(const System& system, const Manifold& manifold, const Start& start,
                                       std::span<const double> given, double t) {
   const auto& unit = start.scales.coordinate;
@@ -157,13 +158,16 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
   system.bias({t, start.q, start.v}, residual);
   const auto& w = manifold.equations().w;
   const auto forced = forced_acceleration(system, manifold.equations());
+  const auto lever = start.scales.lever();
   double scale = 0.0;
   for (std::size_t r = 0; r < residual.size(); ++r) {
+    const double gradient = gradient_length(system, w, lever, r);
+    residual[r] /= gradient;
     for (auto k = static_cast<std::size_t>(system.row_start()[r]);
          k < static_cast<std::size_t>(system.row_start()[r + 1]); ++k) {
       const auto i = static_cast<std::size_t>(system.w_columns()[k]);
-      const double term = w[k] * start.a[i];
-      scale = std::max({scale, std::abs(term), std::abs(residual[r]), std::abs(w[k] * forced[i])});
+      const double term = w[k] * start.a[i] / gradient;
+      scale = std::max({scale, std::abs(term), std::abs(residual[r]), std::abs(w[k] * forced[i]) / gradient});
       residual[r] += term;
     }
   }

@@ -6,6 +6,7 @@
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
+#include <sundials/sundials_nonlinearsolver.h>
 #include <sundials/sundials_nvector.h>
 
 #include <memory>
@@ -27,6 +28,9 @@ struct FreeMatrix {
 };
 struct FreeSolver {
   void operator()(SUNLinearSolver s) const { SUNLinSolFreeEmpty(s); }
+};
+struct FreeNewton {
+  void operator()(SUNNonlinearSolver s) const { SUNNonlinSolFree(s); }
 };
 template <class Handle, class Free>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Free>;
