@@ -122,8 +122,8 @@ const std::array inertias{Vec<3>(0.9, 1.3, 0.5), Vec<3>(1.0, 1.0, 1e-4)};
 constexpr double tolerance = 1e-9;
 /// Forces are those of states with the error of a few tens of steps.
 constexpr double force_error = 1e3 * tolerance * Door::mass * Door::gravity;
-/// What the motion does not change is good to round-off, 1e-16, times some tens of operations and the square of
-/// the stick's length over its thickness, by which its particles' errors turn it.
+/// What the motion does not change is good to round-off, 1e-16, times some tens of operations and the square
+/// of the stick's length over its thickness, by which its particles' errors turn it.
 constexpr double round_off = 100 * 1e-16 * 1e4 * Door::mass * Door::gravity;
 
 TEST(DoorOnTwoHinges, SharesItsWeightEquallyAndKnowsItsHorizontalForces) {
