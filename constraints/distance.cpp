@@ -1,6 +1,6 @@
 #include "dalembert/constraints/distance.h"
 
-#include <dalembert/core/batch_of.h>
+#include <dalembert/core/scene/batch_of.h>
 
 namespace dalembert {
 

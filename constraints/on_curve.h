@@ -1,7 +1,7 @@
 #pragma once
 
 #include <dalembert/constraints/surfaces.h>
-#include <dalembert/core/constraint.h>
+#include <dalembert/core/equations/constraint.h>
 
 namespace dalembert {
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <dalembert/constraints/body_rod.h>
-#include <dalembert/core/body_point.h>
-#include <dalembert/core/sample.h>
-#include <dalembert/core/scene.h>
+#include <dalembert/core/points/body_point.h>
+#include <dalembert/core/results/sample.h>
+#include <dalembert/core/scene/scene.h>
 
 #include <array>
 #include <string>

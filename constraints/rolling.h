@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/core/constraint.h>
+#include <dalembert/core/equations/constraint.h>
 
 namespace dalembert {
 

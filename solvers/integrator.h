@@ -1,7 +1,7 @@
 #pragma once
 
-#include <dalembert/core/system.h>
-#include <dalembert/core/trajectory.h>
+#include <dalembert/core/results/trajectory.h>
+#include <dalembert/core/scene/system.h>
 #include <dalembert/solvers/options.h>
 
 #include <functional>

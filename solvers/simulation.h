@@ -1,7 +1,7 @@
 #pragma once
 
-#include <dalembert/core/scene.h>
-#include <dalembert/core/trajectory.h>
+#include <dalembert/core/results/trajectory.h>
+#include <dalembert/core/scene/scene.h>
 #include <dalembert/solvers/integrator.h>
 #include <dalembert/solvers/options.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "finite_differences.h"
-#include <dalembert/core/system.h>
+#include <dalembert/core/scene/system.h>
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/core/statistics.h>
+#include <dalembert/core/results/statistics.h>
 #include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/start.h>
 #include <dalembert/solvers/private/step_failure.h>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <dalembert/core/statistics.h>
-#include <dalembert/core/system.h>
+#include <dalembert/core/results/statistics.h>
+#include <dalembert/core/scene/system.h>
 #include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/springs.h>
 #include <dalembert/solvers/private/start.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/core/system.h>
+#include <dalembert/core/scene/system.h>
 #include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/klu.h>
 #include <dalembert/solvers/private/rows.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/core/branches.h>
+#include <dalembert/core/autodiff/branches.h>
 #include <dalembert/solvers/private/friction.h>
 #include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/minimum_norm.h>

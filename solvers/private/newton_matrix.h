@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/core/islands.h>
+#include <dalembert/core/analysis/islands.h>
 #include <dalembert/solvers/private/constants.h>
 #include <dalembert/solvers/private/hidden.h>
 #include <dalembert/solvers/private/saddle.h>

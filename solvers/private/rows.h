@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/core/rank.h>
+#include <dalembert/core/analysis/rank.h>
 #include <dalembert/solvers/private/hidden.h>
 
 #include <span>

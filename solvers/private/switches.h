@@ -1,7 +1,7 @@
 #pragma once
 
-#include <dalembert/core/branches.h>
-#include <dalembert/core/system.h>
+#include <dalembert/core/autodiff/branches.h>
+#include <dalembert/core/scene/system.h>
 #include <dalembert/solvers/private/hidden.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "dalembert/constraints/disk_on_plane.h"
 
 #include <dalembert/constraints/lamina.h>
-#include <dalembert/core/scene.h>
+#include <dalembert/core/scene/scene.h>
 #include <dalembert/solvers/simulation.h>
 
 #include <gtest/gtest.h>

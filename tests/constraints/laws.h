@@ -1,7 +1,7 @@
 #pragma once
 
 #include "../equations.h"
-#include <dalembert/core/scene.h>
+#include <dalembert/core/scene/scene.h>
 
 #include <Eigen/Geometry>
 

@@ -1,4 +1,4 @@
-#include "dalembert/core/dual.h"
+#include "dalembert/core/autodiff/dual.h"
 
 #include "../finite_differences.h"
 #include <dalembert/core/vec.h>

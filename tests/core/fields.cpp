@@ -1,7 +1,7 @@
-#include "dalembert/core/fields.h"
+#include "dalembert/core/forces/fields.h"
 
 #include "../equations.h"
-#include <dalembert/core/scene.h>
+#include <dalembert/core/scene/scene.h>
 
 #include <gmock/gmock.h>
 

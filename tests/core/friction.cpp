@@ -1,7 +1,7 @@
-#include "dalembert/core/friction.h"
+#include "dalembert/core/forces/friction.h"
 
 #include "../equations.h"
-#include <dalembert/core/islands.h>
+#include <dalembert/core/analysis/islands.h>
 #include <dalembert/dalembert.h>
 
 #include <gmock/gmock.h>

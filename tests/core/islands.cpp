@@ -1,6 +1,6 @@
 #include <dalembert/constraints/distance.h>
-#include <dalembert/core/islands.h>
-#include <dalembert/core/scene.h>
+#include <dalembert/core/analysis/islands.h>
+#include <dalembert/core/scene/scene.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "dalembert/core/points.h"
+#include "dalembert/core/points/points.h"
 
-#include <dalembert/core/arguments.h>
+#include <dalembert/core/equations/arguments.h>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "dalembert/core/scene.h"
+#include "dalembert/core/scene/scene.h"
 
 #include <dalembert/constraints/distance.h>
 #include <dalembert/constraints/holonomic.h>

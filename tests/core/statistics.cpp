@@ -1,4 +1,4 @@
-#include "dalembert/core/statistics.h"
+#include "dalembert/core/results/statistics.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
-#include "dalembert/core/system.h"
+#include "dalembert/core/scene/system.h"
 
 #include "../equations.h"
 #include <dalembert/constraints/coincident.h>
 #include <dalembert/constraints/distance.h>
 #include <dalembert/constraints/holonomic.h>
 #include <dalembert/constraints/nonholonomic.h>
-#include <dalembert/core/scene.h>
+#include <dalembert/core/scene/scene.h>
 
 #include <gmock/gmock.h>
 

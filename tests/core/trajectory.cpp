@@ -1,8 +1,8 @@
-#include "dalembert/core/trajectory.h"
+#include "dalembert/core/results/trajectory.h"
 
 #include <dalembert/constraints/coincident.h>
 #include <dalembert/constraints/distance.h>
-#include <dalembert/core/scene.h>
+#include <dalembert/core/scene/scene.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

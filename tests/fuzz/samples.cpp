@@ -1,5 +1,5 @@
 #include "verdict.h"
-#include <dalembert/core/audit.h>
+#include <dalembert/core/analysis/audit.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <dalembert/core/audit.h>
+#include <dalembert/core/analysis/audit.h>
 #include <dalembert/models/catalogue.h>
 
 #include <gtest/gtest.h>

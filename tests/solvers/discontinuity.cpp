@@ -1,5 +1,5 @@
-#include <dalembert/core/branches.h>
-#include <dalembert/core/dual.h>
+#include <dalembert/core/autodiff/branches.h>
+#include <dalembert/core/autodiff/dual.h>
 #include <dalembert/dalembert.h>
 
 #include <gmock/gmock.h>

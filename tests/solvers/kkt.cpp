@@ -1,7 +1,7 @@
 #include "../equations.h"
 #include <dalembert/constraints/distance.h>
 #include <dalembert/constraints/nonholonomic.h>
-#include <dalembert/core/scene.h>
+#include <dalembert/core/scene/scene.h>
 #include <dalembert/solvers/private/kkt.h>
 
 namespace dalembert {

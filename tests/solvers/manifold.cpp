@@ -3,7 +3,7 @@
 #include <dalembert/constraints/holonomic.h>
 #include <dalembert/constraints/nonholonomic.h>
 #include <dalembert/constraints/on_surface.h>
-#include <dalembert/core/scene.h>
+#include <dalembert/core/scene/scene.h>
 #include <dalembert/solvers/private/manifold.h>
 
 #include <Eigen/Dense>

@@ -3,7 +3,7 @@
 #include <dalembert/constraints/compliant.h>
 #include <dalembert/constraints/distance.h>
 #include <dalembert/constraints/nonholonomic.h>
-#include <dalembert/core/scene.h>
+#include <dalembert/core/scene/scene.h>
 #include <dalembert/solvers/private/newton_matrix.h>
 
 #include <Eigen/Dense>

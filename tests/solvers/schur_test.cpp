@@ -1,7 +1,7 @@
 #include "dalembert/solvers/private/schur.h"
 
 #include <dalembert/constraints/distance.h>
-#include <dalembert/core/scene.h>
+#include <dalembert/core/scene/scene.h>
 #include <dalembert/solvers/private/kkt.h>
 #include <dalembert/solvers/private/newton_matrix.h>
 #include <dalembert/solvers/private/saddle.h>

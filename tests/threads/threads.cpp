@@ -1,5 +1,5 @@
 #include "../solvers/scenes.h"
-#include <dalembert/core/audit.h>
+#include <dalembert/core/analysis/audit.h>
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,67 @@
+#include "dalembert/core/analysis/audit.h"
+
+#include <dalembert/core/analysis/rank.h>
+#include <dalembert/core/errors.h>
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dalembert {
+
+namespace {
+
+/// Unit columns: displacements that all rows of W allow, and that span all such. In the metric of the masses
+/// they are orthogonal.
+Eigen::MatrixXd tangent_space(const System& system, std::span<const double> w) {
+  if (system.rows() == 0) return Eigen::MatrixXd::Identity(system.coordinates(), system.coordinates());
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(system.coordinates(), system.rows());
+  qr.setThreshold(rank_threshold);
+  qr.compute(Eigen::MatrixXd(rows_in_mass_metric(system, w)));
+  const Eigen::MatrixXd Q = qr.householderQ();
+  Eigen::MatrixXd tangent = Q.rightCols(Q.cols() - qr.rank());
+  for (Eigen::Index i = 0; i < tangent.rows(); ++i)
+    tangent.row(i) /= std::sqrt(system.masses()[static_cast<std::size_t>(i)]);
+  return tangent.colwise().normalized();
+}
+
+}  // namespace
+
+Audit audit(const System& system, const FlatSample& sample) {
+  const Instant at{sample.time, sample.q, sample.v};
+  const Layout& layout = *system.layout();
+  auto e = system.evaluation();
+  system.evaluate(at, e);
+  for (const auto& constraint : layout.constraints) {
+    const auto own = sample.forces.subspan(static_cast<std::size_t>(constraint.first_slot),
+                                           static_cast<std::size_t>(constraint.width));
+    if (std::ranges::any_of(own, [](double Z) { return std::isnan(Z); }))
+      throw UndeterminedForce("No audit at this instant: the force of " + constraint.label() +
+                              " is not determined; choose another time");
+  }
+  Audit result;
+
+  Eigen::VectorXd Z = Eigen::VectorXd::Zero(system.coordinates());
+  for (const auto& constraint : layout.constraints) {
+    double power = 0.0;
+    for (int s = constraint.first_slot; s < constraint.first_slot + constraint.width; ++s) {
+      const auto slot = static_cast<std::size_t>(s);
+      const int i = layout.slot_coordinate[slot];
+      Z[i] += sample.forces[slot];
+      power += sample.forces[slot] * sample.v[static_cast<std::size_t>(i)];
+      result.largest_force = std::max(result.largest_force, std::abs(sample.forces[slot]));
+    }
+    result.constraints.push_back({constraint.label(), power});
+  }
+  const Eigen::VectorXd work = tangent_space(system, e.w).transpose() * Z;
+  if (work.size() > 0) result.virtual_work = work.cwiseAbs().maxCoeff();
+
+  result.forces.push_back({"constant forces", system.constant_power(sample.v)});
+  system.for_each_force_power(at, sample.lambda, [&result](std::string name, double power) {
+    result.forces.push_back({std::move(name), power});
+  });
+  return result;
+}
+
+}  // namespace dalembert

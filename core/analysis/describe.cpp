@@ -1,0 +1,83 @@
+#include "dalembert/core/scene/system.h"
+#include <dalembert/core/analysis/integrability.h>
+#include <dalembert/core/analysis/islands.h>
+#include <dalembert/core/analysis/rank.h>
+
+#include <map>
+#include <sstream>
+
+namespace dalembert {
+
+namespace {
+
+template <class Batches>
+std::string kinds(const Batches& batches) {
+  std::map<std::string, std::size_t> count;
+  for (const auto& batch : batches) count[std::string(batch->shape().kind)] += batch->size();
+  std::string text;
+  for (const auto& [kind, number] : count) {
+    text += (text.empty() ? "" : ", ") + std::to_string(number) + ' ' + kind;
+  }
+  return text.empty() ? "none" : text;
+}
+
+std::string rotors(std::size_t count) {
+  return count == 0 ? "" : " and " + std::to_string(count) + (count == 1 ? " rotor" : " rotors");
+}
+
+/// By count: where there are more equations than coordinates some depend on others.
+std::string freedom(int coordinates, int equations) {
+  if (equations <= coordinates) return std::to_string(coordinates - equations);
+  return "not to be counted: " + std::to_string(equations - coordinates) + " equations too many";
+}
+
+}  // namespace
+
+std::string System::describe() const {
+  const int n = coordinates();
+  const int nonholonomic = rows() - holonomic_rows();
+  std::ostringstream out;
+  out << "scene \"" << layout_->scene << "\": " << layout_->particles.size()
+      << (layout_->particles.size() == 1 ? " particle" : " particles") << rotors(layout_->rotors.size())
+      << " in " << layout_->dimension << " dimensions, " << n << " coordinates\n"
+      << "constraints: " << kinds(parts_.constraints) << "; " << holonomic_rows() << " holonomic and "
+      << nonholonomic << " nonholonomic equations, " << (rheonomic() ? "rheonomic" : "scleronomic") << '\n'
+      << "degrees of freedom: " << freedom(n, holonomic_rows() - compliant_rows()) << " of position, "
+      << freedom(n, rows() - compliant_rows()) << " of velocity (if the constraints are independent)\n"
+      << "islands that do not act on each other: " << islands(*this).count << '\n'
+      << "forces: " << kinds(parts_.forces) << " besides constant ones"
+      << (frictional() ? ", and " + kinds(parts_.frictions) + " that read multipliers" : "") << '\n'
+      << "unknowns of the stabilised index-2 equations: " << 2 * n + rows() + holonomic_rows() << '\n';
+  const auto left_out = [&out](bool is, const char* what) {
+    if (is) out << "left out: " << what << '\n';
+  };
+  left_out(layout_->dimension == 2, "the third coordinate: the scene is planar");
+  left_out(rows() > 0 && !rheonomic(), "time derivatives of the constraints: none depends on time");
+  left_out(rows() > 0 && !compliant(), "compliance: all constraints are rigid");
+  left_out(stiffness_pattern_.empty(), "the stiffness block: no force or constraint varies with position");
+  left_out(damping_pattern_.empty(), "the damping block: no force depends on velocities");
+  left_out(!frictional() && rows() > 0, "friction: no force reads a multiplier");
+  left_out(holonomic_rows() == 0, "the position multipliers mu: there is no holonomic constraint");
+  left_out(rows() == 0, "the constraint forces: there is no constraint");
+  return out.str();
+}
+
+std::string System::describe(double t, std::span<const double> q) const {
+  std::ostringstream out;
+  out << describe();
+  const std::vector<double> at_rest(q.size(), 0.0);
+  auto e = evaluation();
+  evaluate({t, q, at_rest}, e);
+  const int rank = independent_rows(*this, e.w).size() - compliant_rows();  // those take no freedom away
+  out << "at t = " << t << ": " << rank << " of " << rows() - compliant_rows()
+      << " constraint equations independent, " << coordinates() - rank << " degrees of freedom of velocity\n";
+  for (const Integrability& set : integrability(*this, t, q)) {
+    std::string labels;
+    for (const auto& label : set.constraints) labels += (labels.empty() ? "" : ", ") + label;
+    out << labels << ": " << (set.holonomic ? "holonomic in disguise" : "not integrable") << '\n';
+    for (const auto& label : set.holonomic_alone) out << "  but " << label << " by itself is holonomic\n";
+  }
+  return out.str();
+}
+
+}  // namespace dalembert

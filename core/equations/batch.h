@@ -1,0 +1,188 @@
+#pragma once
+
+#include <dalembert/core/equations/forces_at_points.h>
+
+#include <cstddef>
+#include <exception>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dalembert {
+
+/// Thrown by a batch when one of its elements threw or gave a number that is not finite; System
+/// turns the element's index into its name.
+struct ElementFault {
+  std::size_t element;
+  std::string what;
+};
+
+/// Calls `f(element, index)` for every element; whatever goes wrong says in which.
+template <class Element, class F>
+void for_each_element(const std::vector<Element>& elements, const F& f) {
+  std::size_t i = 0;
+  try {
+    for (; i < elements.size(); ++i) f(elements[i], i);
+  } catch (const ElementFault&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw ElementFault{i, std::string("threw \"") + e.what() + '"'};
+  } catch (...) {
+    throw ElementFault{i, "threw something that is no std::exception"};
+  }
+}
+
+/// Sizes that all constraints of one type have in common.
+struct ConstraintShape {
+  std::string_view kind;
+  int rows;                   ///< scalar equations per constraint
+  int width;                  ///< coordinates that each of them reads
+  int inputs;                 ///< numbers of the positions of its points, which these give
+  bool internal;              ///< holds a body together
+  bool holonomic;             ///< or at velocity level
+  bool timed;                 ///< depends on time explicitly (rheonomic)
+  std::string_view singular;  ///< what it means if the gradient vanishes or has no value
+};
+
+/// Where a constraint batch writes its part of the equations. Row r of constraint c is number
+/// `c * rows + r` and owns `width` consecutive entries of w and psi_q.
+struct ConstraintValues {
+  std::span<double> g;    ///< position residual (holonomic batches only)
+  std::span<double> psi;  ///< velocity residual
+  std::span<double> w;    ///< d psi / dv
+};
+
+/// All constraints of one type, evaluated together: one virtual call per type.
+class ConstraintBatch {
+ public:
+  virtual ~ConstraintBatch() = default;
+  [[nodiscard]] virtual std::unique_ptr<ConstraintBatch> clone() const = 0;
+  [[nodiscard]] virtual ConstraintShape shape() const = 0;
+  [[nodiscard]] virtual std::size_t size() const = 0;
+  /// The coordinates of each constraint in turn, `width` numbers each.
+  [[nodiscard]] virtual std::span<const int> coordinates() const = 0;
+
+  virtual void evaluate(const Instant& at, const ConstraintValues& out) const = 0;
+  /// Per constraint `rows x inputs` numbers U, one row after the other, out of its part of w: lambda has
+  /// the size |U^T lambda|, that of the force at one of its points. See ForcesAtPoints.
+  virtual void forces_at_points(std::span<const double> w, std::span<const double> lever,
+                                std::span<double> out) const = 0;
+  /// The compliance of each row [length / force, at unit gradient]: 0 if it is rigid.
+  virtual void compliance(std::span<double> out) const = 0;
+  /// gamma = psi_q v + psi_t, so that W v' + gamma = 0 at acceleration level.
+  virtual void bias(const Instant& at, std::span<double> gamma) const = 0;
+  /// psi_q, and for each constraint the dense `width x width` block (rows first) of
+  /// d(W^T lambda)/dq.
+  virtual void linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
+                         std::span<double> stiffness) const = 0;
+};
+
+/// What all forces of one type have in common.
+struct ForceShape {
+  std::string_view kind;
+  int width;          ///< coordinates that each of them reads and acts on
+  bool dissipative;   ///< depends on velocities
+  bool conservative;  ///< has an energy
+};
+
+/// All force elements of one type.
+class ForceBatch {
+ public:
+  virtual ~ForceBatch() = default;
+  [[nodiscard]] virtual std::unique_ptr<ForceBatch> clone() const = 0;
+  [[nodiscard]] virtual ForceShape shape() const = 0;
+  [[nodiscard]] virtual std::size_t size() const = 0;
+  [[nodiscard]] virtual std::span<const int> coordinates() const = 0;
+
+  /// Adds the forces to F.
+  virtual void add_force(const Instant& at, std::span<double> F) const = 0;
+  /// For each force the dense `width x width` blocks (rows first) of dF/dq and, if it is
+  /// dissipative, dF/dv.
+  virtual void linearise(const Instant& at, std::span<double> stiffness, std::span<double> damping) const = 0;
+  /// F . v of each force.
+  virtual void power(const Instant& at, std::span<double> out) const = 0;
+  /// Sum of the energies; 0 for forces that have none.
+  [[nodiscard]] virtual double energy(const Instant& at) const = 0;
+};
+
+/// The multipliers of a scene, and at which row those that each element of a batch reads begin.
+struct Multipliers {
+  std::span<const double> all;
+  std::span<const int> first_row;
+};
+
+/// What all forces of one type that read multipliers have in common.
+struct MultiplierForceShape {
+  std::string_view kind;
+  int width;  ///< coordinates that each of them reads and acts on
+  int rows;   ///< multipliers that each of them reads, those of one constraint
+};
+
+/// All force elements of one type that depend on multipliers: F(t, q, v, lambda).
+class MultiplierForceBatch {
+ public:
+  virtual ~MultiplierForceBatch() = default;
+  [[nodiscard]] virtual std::unique_ptr<MultiplierForceBatch> clone() const = 0;
+  [[nodiscard]] virtual MultiplierForceShape shape() const = 0;
+  [[nodiscard]] virtual std::size_t size() const = 0;
+  [[nodiscard]] virtual std::span<const int> coordinates() const = 0;
+  /// The scene's number of the constraint that each of them reads.
+  [[nodiscard]] virtual std::span<const int> constraints() const = 0;
+
+  /// Adds the forces to F.
+  virtual void add_force(const Instant& at, const Multipliers& lambda, std::span<double> F) const = 0;
+  /// dF/dlambda: for each force and each multiplier it reads, `width` numbers.
+  virtual void slope(const Instant& at, const Multipliers& lambda, std::span<double> out) const = 0;
+  /// dF/dq and dF/dv as for other forces, at fixed multipliers.
+  virtual void linearise(const Instant& at, const Multipliers& lambda, std::span<double> stiffness,
+                         std::span<double> damping) const = 0;
+  /// F . v of each force.
+  virtual void power(const Instant& at, const Multipliers& lambda, std::span<double> out) const = 0;
+};
+
+/// The batch for one type of element, as a scene makes and fills it, in the one place that instantiates
+/// its code (batch_of.h). Declared `extern template` where an element's code is compiled once, in the
+/// library: naming such an element costs its user nothing, as no derivative of it is compiled again.
+template <class Batch, class Element>
+struct BatchOf {
+  [[nodiscard]] static std::unique_ptr<Batch> empty();
+  /// Adds the element and says so, if the batch is of its type.
+  static bool add(Batch& batch, const Element& element);
+};
+
+/// The elements of a batch and the coordinates they read.
+template <class Element>
+class Elements {
+ public:
+  static constexpr int width = PointFacts<Element>::coordinates;
+
+  void add(Element element) {
+    coordinates_.resize(coordinates_.size() + width);
+    read_coordinates(element, std::span(coordinates_).last(width));
+    all_.push_back(std::move(element));
+  }
+  /// `rows` rows of w and of `out` per element; see ForcesAtPoints.
+  template <int rows>
+  void forces_at_points(std::span<const double> w, std::span<const double> lever,
+                        std::span<double> out) const {
+    using Force = ForcesAtPoints<Element, rows>;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      const typename Force::Given own(w.data() + i * rows * width);
+      Eigen::Map<typename Force::Matrix>(out.data() + i * Force::Matrix::SizeAtCompileTime) =
+          Force::of(all_[i], own, coordinates(i), lever);
+    }
+  }
+  [[nodiscard]] const std::vector<Element>& all() const { return all_; }
+  [[nodiscard]] std::span<const int> coordinates() const { return coordinates_; }
+  [[nodiscard]] std::span<const int> coordinates(std::size_t i) const {
+    return coordinates().subspan(i * width, width);
+  }
+
+ private:
+  std::vector<Element> all_;
+  std::vector<int> coordinates_;
+};
+
+}  // namespace dalembert

@@ -1,0 +1,162 @@
+#pragma once
+
+#include <dalembert/core/equations/batch.h>
+#include <dalembert/core/equations/mistakes.h>
+
+#include <cmath>
+#include <concepts>
+#include <sstream>
+
+namespace dalembert {
+
+template <class E>
+concept HasPoints = requires(const E& e) {
+  e.points();
+};
+
+template <class E>
+concept ActsOnPoints = HasPoints<E> &&(PointFacts<E>::inputs > 0) && PointFacts<E>::one_space;
+
+/// Marks a constraint type as one on velocities: `static constexpr bool velocity_level = true;`.
+template <class C>
+concept VelocityLevel = requires {
+  requires C::velocity_level;
+};
+
+/// Whether a constraint type holds a body together rather than being stated by a user, see BodyRod.
+template <class C>
+inline constexpr bool is_internal = [] {
+  if constexpr (requires { C::internal; }) {
+    return C::internal;
+  } else {
+    return false;
+  }
+}();
+
+/// A holonomic constraint that yields: `double compliance`, see Compliant.
+template <class C>
+concept HasCompliance = requires(const C& c) {
+  { c.compliance } -> std::convertible_to<double>;
+};
+
+namespace detail {
+
+/// What an equation is tried with to see whether it can be called: a scalar it is evaluated with as well,
+/// so that trying costs no compilation of its own.
+template <class C>
+using Probe = Dual<PointFacts<C>::inputs, 1>;
+template <class C>
+using ProbePositions = typename PointFacts<C>::template Positions<Probe<C>>;
+template <class C>
+using ProbeMotion =
+    decltype(std::tuple_cat(std::declval<ProbePositions<C>>(), std::declval<ProbePositions<C>>()));
+
+/// Number of equations in what a constraint returns, and the k-th of them.
+template <class T>
+inline constexpr int rows_in = 1;
+template <class T>
+  requires std::is_base_of_v<Eigen::EigenBase<T>, T>
+inline constexpr int rows_in<T> = T::RowsAtCompileTime;
+
+template <class S, class T>
+[[nodiscard]] S row_of(const T& residual, [[maybe_unused]] int k) {
+  if constexpr (std::is_base_of_v<Eigen::EigenBase<T>, T>) {
+    return S(residual[k]);
+  } else {
+    return S(residual);
+  }
+}
+
+template <class E>
+[[nodiscard]] constexpr std::string_view kind_of(std::string_view otherwise) {
+  if constexpr (requires { E::kind; }) {
+    return E::kind;
+  } else {
+    return otherwise;
+  }
+}
+
+template <class C>
+[[nodiscard]] constexpr std::string_view singular_hint_of() {
+  if constexpr (requires { C::singular; }) {
+    return C::singular;
+  } else {
+    return "its equation does not determine a direction there";
+  }
+}
+
+/// A value for an error message, with its leading digits whatever its size.
+[[nodiscard]] inline std::string text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+inline void require_finite(bool finite, std::size_t element, const char* what) {
+  if (!finite) throw ElementFault{element, what};
+}
+
+/// Whether the points of a factory can be called with at all. Each mistake is an error of its own, and
+/// the first ends it.
+template <class Points, class F>
+[[nodiscard]] consteval bool written_for_any_scalar() {
+  constexpr bool one_space = PointsOf<Points>::one_space;
+  static_assert(one_space, "all points of a constraint or force must have the same dimension");
+  static_assert(!one_space || PointsOf<Points>::inputs > 0,
+                "at least one point of a constraint or force must be able to move");
+  static_assert(!NamesItsArguments<F>,
+                "write `auto` for the lambda's arguments, not double or Vec: it is called with numbers that "
+                "carry derivatives");
+  return one_space && PointsOf<Points>::inputs > 0 && !NamesItsArguments<F>;
+}
+
+}  // namespace detail
+
+/// A holonomic constraint g(t, r_1, ..., r_k) = 0: a type with `points()` and an `operator()` that
+/// takes their positions, for any scalar type, and returns g: a scalar, or a fixed-size vector of
+/// equations. If the equation itself depends on time, `operator()` takes t in front; what is not in
+/// the signature is not differentiated. (Driven points bring their own time along.)
+template <class C>
+concept HolonomicConstraint = ActsOnPoints<C> && !VelocityLevel<C> &&
+                              (applicable<C, detail::ProbePositions<C>> ||
+                               applicable_with_time<C, detail::Probe<C>, detail::ProbePositions<C>>);
+
+/// A nonholonomic constraint a(t, r_1, ..., r_k, v_1, ..., v_k) = 0, linear (affine) in the
+/// velocities: like a holonomic one, but marked `velocity_level` and called with the velocities
+/// after the positions.
+template <class C>
+concept NonholonomicConstraint = ActsOnPoints<C> && VelocityLevel<C> &&
+    (applicable<C, detail::ProbeMotion<C>> ||
+     applicable_with_time<C, detail::Probe<C>, detail::ProbeMotion<C>>);
+
+namespace detail {
+
+template <class C>
+inline constexpr bool takes_time = [] {
+  if constexpr (VelocityLevel<C>) {
+    return applicable_with_time<C, Probe<C>, ProbeMotion<C>>;
+  } else {
+    return applicable_with_time<C, Probe<C>, ProbePositions<C>>;
+  }
+}();
+
+/// What a constraint's equation returns.
+template <class C>
+using Residual = std::remove_cvref_t<decltype(call<takes_time<C>>(
+    std::declval<const C&>(), std::declval<const Probe<C>&>(),
+    std::declval<const std::conditional_t<VelocityLevel<C>, ProbeMotion<C>, ProbePositions<C>>&>()))>;
+
+}  // namespace detail
+
+/// Scalar equations of a constraint type; 0 of what is none.
+template <class C>
+inline constexpr int rows_of_constraint = 0;
+template <class C>
+  requires(HolonomicConstraint<C> || NonholonomicConstraint<C>)
+inline constexpr int rows_of_constraint<C> = detail::rows_in<detail::Residual<C>>;
+
+/// Whether a constraint depends on time explicitly (rheonomic), by its equation or a driven point.
+template <class C>
+inline constexpr bool is_timed = detail::takes_time<C> || PointFacts<C>::driven;
+
+}  // namespace dalembert

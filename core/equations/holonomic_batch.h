@@ -1,0 +1,121 @@
+#pragma once
+
+#include <dalembert/core/equations/constraint.h>
+
+namespace dalembert {
+
+/// Holonomic constraints of one type, with every derivative taken from the equation g itself.
+///
+/// With z = (inputs, t) and dots along the motion (r' = v, t' = 1):
+///   psi   = g_r v + g_t                      W = g_r
+///   gamma = psi_r v + psi_t = d^2 g / ds^2   along r + v s, t + s
+///   psi_q = (g_zz (v, 1))_r                  d(W^T lambda)/dq = lambda g_rr
+template <HolonomicConstraint C>
+class HolonomicBatch final : public ConstraintBatch {
+  static constexpr int inputs = PointFacts<C>::inputs;
+  static constexpr int width = PointFacts<C>::coordinates;
+  static constexpr int rows = rows_of_constraint<C>;
+  static constexpr bool timed = is_timed<C>;
+
+ public:
+  void add(C constraint) { elements_.add(std::move(constraint)); }
+
+  [[nodiscard]] std::unique_ptr<ConstraintBatch> clone() const override {
+    return std::make_unique<HolonomicBatch>(*this);
+  }
+  [[nodiscard]] ConstraintShape shape() const override {
+    return {detail::kind_of<C>("Holonomic"), rows, width, inputs, is_internal<C>, true, timed,
+            detail::singular_hint_of<C>()};
+  }
+  [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
+  [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
+
+  void evaluate(const Instant& at, const ConstraintValues& out) const override {
+    using S = Dual<inputs + timed, 1>;
+    for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
+      const auto g = residual<S>(c, time<S>(at.t), at, AsInput<S>{});
+      const auto coordinate = elements_.coordinates(i);
+      for (int k = 0; k < rows; ++k) {
+        const S g_k = detail::row_of<S>(g, k);
+        detail::require_finite(std::isfinite(g_k.value), i, "is not a finite number");
+        if (!g_k.gradient.allFinite()) {
+          throw ElementFault{i, "has no gradient: " + std::string(detail::singular_hint_of<C>())};
+        }
+        const std::size_t row = i * rows + static_cast<std::size_t>(k);
+        double psi = 0.0;
+        if constexpr (timed) psi = g_k.gradient[inputs];
+        const Vec<width> w = pull_back(c, g_k.gradient.template head<inputs>());
+        for (std::size_t j = 0; j < width; ++j) {
+          out.w[row * width + j] = w[static_cast<int>(j)];
+          psi += w[static_cast<int>(j)] * at.v[static_cast<std::size_t>(coordinate[j])];
+        }
+        out.g[row] = g_k.value;
+        out.psi[row] = psi;
+      }
+    });
+  }
+
+  void forces_at_points(std::span<const double> w, std::span<const double> lever,
+                        std::span<double> out) const override {
+    elements_.template forces_at_points<rows>(w, lever, out);
+  }
+
+  void compliance(std::span<double> out) const override {
+    std::ranges::fill(out, 0.0);
+    if constexpr (HasCompliance<C>) {
+      for (std::size_t row = 0; row < out.size(); ++row) out[row] = elements_.all()[row / rows].compliance;
+    }
+  }
+
+  void bias(const Instant& at, std::span<double> gamma) const override {
+    using S = Dual<1, 2>;
+    for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
+      const auto g = residual<S>(c, S::input(at.t, 0), at, AlongMotion<S>{});
+      for (int k = 0; k < rows; ++k) {
+        const double second = detail::row_of<S>(g, k).hessian(0, 0);
+        detail::require_finite(std::isfinite(second), i, "has no finite second derivative");
+        gamma[i * rows + static_cast<std::size_t>(k)] = second;
+      }
+    });
+  }
+
+  void linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
+                 std::span<double> stiffness) const override {
+    using S = Dual<inputs + timed, 2>;
+    using Block = Eigen::Matrix<double, width, width, Eigen::RowMajor>;
+    for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
+      const auto g = residual<S>(c, time<S>(at.t), at, AsInput<S>{});
+      Vec<inputs + timed> motion;
+      motion.template head<inputs>() = gather_inputs(c, at.v);
+      if constexpr (timed) motion[inputs] = 1.0;
+      Eigen::Matrix<double, inputs, inputs> curvature = decltype(curvature)::Zero();
+      for (int k = 0; k < rows; ++k) {
+        const std::size_t row = i * rows + static_cast<std::size_t>(k);
+        const S g_k = detail::row_of<S>(g, k);
+        detail::require_finite(g_k.hessian.allFinite(), i, "has no finite second derivative");
+        Eigen::Map<Vec<width>>(psi_q.data() + row * width) =
+            pull_back(c, (g_k.hessian * motion).template head<inputs>());
+        curvature += lambda[row] * g_k.hessian.template topLeftCorner<inputs, inputs>();
+      }
+      Eigen::Map<Block>(stiffness.data() + i * width * width) = pull_back_block(c, curvature);
+    });
+  }
+
+ private:
+  template <class S>
+  [[nodiscard]] static S time(double t) {
+    if constexpr (timed) {
+      return S::input(t, inputs);
+    } else {
+      return S(t);
+    }
+  }
+  template <class S, class Lift>
+  [[nodiscard]] static auto residual(const C& c, const S& t, const Instant& at, const Lift& lift) {
+    return call<detail::takes_time<C>>(c, t, positions<S>(c, t, at, lift));
+  }
+
+  Elements<C> elements_;
+};
+
+}  // namespace dalembert

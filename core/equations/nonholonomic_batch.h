@@ -1,0 +1,113 @@
+#pragma once
+
+#include <dalembert/core/equations/constraint.h>
+
+namespace dalembert {
+
+/// Nonholonomic constraints of one type: psi = a(t, r, v), linear in v.
+///
+///   W = a_v,   gamma = a_r v + a_t  (along r + v s, t + s with v held),   psi_q = a_r,
+///   d(W^T lambda)/dq = lambda a_vr
+template <NonholonomicConstraint C>
+class NonholonomicBatch final : public ConstraintBatch {
+  static constexpr int inputs = PointFacts<C>::inputs;
+  static constexpr int width = PointFacts<C>::coordinates;
+  static constexpr int rows = rows_of_constraint<C>;
+
+ public:
+  void add(C constraint) { elements_.add(std::move(constraint)); }
+
+  [[nodiscard]] std::unique_ptr<ConstraintBatch> clone() const override {
+    return std::make_unique<NonholonomicBatch>(*this);
+  }
+  [[nodiscard]] ConstraintShape shape() const override {
+    return {detail::kind_of<C>("Nonholonomic"), rows, width, inputs, is_internal<C>, false, is_timed<C>,
+            detail::singular_hint_of<C>()};
+  }
+  [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
+  [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
+
+  void evaluate(const Instant& at, const ConstraintValues& out) const override {
+    using S = Dual<inputs, 1>;
+    for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
+      const auto a = residual<S>(c, S(at.t), at, Held<S>{}, AsInput<S>{}, 0);
+      for (int k = 0; k < rows; ++k) {
+        const S a_k = detail::row_of<S>(a, k);
+        detail::require_finite(std::isfinite(a_k.value), i, "is not a finite number");
+        detail::require_finite(a_k.gradient.allFinite(), i, "has no finite gradient");
+        const std::size_t row = i * rows + static_cast<std::size_t>(k);
+        out.psi[row] = a_k.value;
+        Eigen::Map<Vec<width>>(out.w.data() + row * width) = pull_back(c, a_k.gradient);
+      }
+    });
+  }
+
+  void forces_at_points(std::span<const double> w, std::span<const double> lever,
+                        std::span<double> out) const override {
+    elements_.template forces_at_points<rows>(w, lever, out);
+  }
+
+  void compliance(std::span<double> out) const override { std::ranges::fill(out, 0.0); }
+
+  void bias(const Instant& at, std::span<double> gamma) const override {
+    using S = Dual<1, 1>;
+    for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
+      const auto a = residual<S>(c, S::input(at.t, 0), at, AlongMotion<S>{}, Held<S>{}, 0);
+      for (int k = 0; k < rows; ++k) {
+        const double rate = detail::row_of<S>(a, k).gradient[0];
+        detail::require_finite(std::isfinite(rate), i, "has no finite derivative");
+        gamma[i * rows + static_cast<std::size_t>(k)] = rate;
+      }
+    });
+  }
+
+  void linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
+                 std::span<double> stiffness) const override {
+    using S = Dual<2 * inputs, 2>;
+    using Block = Eigen::Matrix<double, width, width, Eigen::RowMajor>;
+    for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
+      const auto a = residual<S>(c, S(at.t), at, AsInput<S>{}, AsInput<S>{}, inputs);
+      Eigen::Matrix<double, inputs, inputs> turning = decltype(turning)::Zero();
+      for (int k = 0; k < rows; ++k) {
+        const std::size_t row = i * rows + static_cast<std::size_t>(k);
+        const S a_k = detail::row_of<S>(a, k);
+        detail::require_finite(a_k.gradient.allFinite() && a_k.hessian.allFinite(), i,
+                               "has no finite second derivative");
+        require_linear(a_k, gather_inputs(c, at.v), i);
+        Eigen::Map<Vec<width>>(psi_q.data() + row * width) =
+            pull_back(c, a_k.gradient.template head<inputs>());
+        turning += lambda[row] * a_k.hessian.template bottomLeftCorner<inputs, inputs>();
+      }
+      Eigen::Map<Block>(stiffness.data() + i * width * width) = pull_back_block(c, turning);
+    });
+  }
+
+ private:
+  /// A quantity that is held while others vary.
+  template <class S>
+  struct Held {
+    S operator()(double x, double /*rate*/, int /*k*/) const { return S(x); }
+  };
+
+  template <class S, class LiftPosition, class LiftVelocity>
+  [[nodiscard]] static auto residual(const C& c, const S& t, const Instant& at, const LiftPosition& lift_r,
+                                     const LiftVelocity& lift_v, int first_velocity) {
+    return call<detail::takes_time<C>>(
+        c, t,
+        std::tuple_cat(positions<S>(c, t, at, lift_r), velocities<S>(c, t, at, lift_v, first_velocity)));
+  }
+
+  /// d^2 a/dv^2 vanishes for an equation linear in v; 1e-9 of the first derivative is far above the
+  /// round-off of any formula that is linear after cancellation.
+  static void require_linear(const Dual<2 * inputs, 2>& a, const Vec<inputs>& v, std::size_t i) {
+    const double speed = v.cwiseAbs().maxCoeff();
+    const double curvature = a.hessian.template bottomRightCorner<inputs, inputs>().cwiseAbs().maxCoeff();
+    const double slope = a.gradient.template tail<inputs>().cwiseAbs().maxCoeff();
+    detail::require_finite(curvature * speed <= 1e-9 * slope, i,
+                           "is not linear in the velocities, as d'Alembert's principle needs");
+  }
+
+  Elements<C> elements_;
+};
+
+}  // namespace dalembert

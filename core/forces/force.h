@@ -1,0 +1,219 @@
+#pragma once
+
+#include <dalembert/core/equations/constraint.h>
+
+namespace dalembert {
+
+namespace detail {
+
+/// Makes `energy` or `force` of an element callable like a function, without hiding its arity.
+template <class E>
+struct EnergyOf {
+  const E& element;
+  auto operator()(const auto&... a) const requires requires { element.energy(a...); }
+  { return element.energy(a...); }
+};
+template <class E>
+struct ForceOf {
+  const E& element;
+  auto operator()(const auto&... a) const requires requires { element.force(a...); }
+  { return element.force(a...); }
+};
+
+/// The force on point I out of what a force law returned: a vector for one point, a tuple or array
+/// of vectors for several.
+template <std::size_t I, class T>
+[[nodiscard]] const auto& force_on(const T& forces) {
+  if constexpr (std::is_base_of_v<Eigen::EigenBase<T>, T>) {
+    return forces;
+  } else {
+    return std::get<I>(forces);
+  }
+}
+
+template <std::size_t I, class S, class E, class Law>
+void collect_force_on(const Law& law, VecOf<S, PointFacts<E>::inputs>& all) {
+  using P = std::tuple_element_t<I, PointTuple<E>>;
+  if constexpr (P::inputs > 0) {
+    all.template segment<P::inputs>(PointFacts<E>::first_input[I]) = force_on<I>(law).template cast<S>();
+  }
+}
+
+/// What a force law returned, as the force on each input of the element.
+template <class S, class E, class Law>
+[[nodiscard]] VecOf<S, PointFacts<E>::inputs> forces_on_inputs(const Law& law) {
+  VecOf<S, PointFacts<E>::inputs> all;
+  const auto collect = [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (collect_force_on<I, S, E>(law, all), ...);
+  };
+  collect(std::make_index_sequence<PointFacts<E>::count>{});
+  return all;
+}
+
+/// What the equation of a force returns.
+template <class Function, bool takes_time, class E, class Arguments>
+using ForceResult = std::remove_cvref_t<decltype(call<takes_time>(
+    std::declval<const Function&>(), std::declval<const Probe<E>&>(), std::declval<const Arguments&>()))>;
+
+/// Adds the entries of `f` to those of F at the given places.
+template <int N>
+void scatter(const Vec<N>& f, std::span<const int> places, std::span<double> F) {
+  for (int k = 0; k < N; ++k) F[static_cast<std::size_t>(places[static_cast<std::size_t>(k)])] += f[k];
+}
+
+}  // namespace detail
+
+/// A force with a potential: `points()` and `energy([t,] r_1, ..., r_k)`, for any scalar type.
+/// Force and stiffness follow: F_i = -dV/dr_i.
+template <class E>
+concept PotentialForce = ActsOnPoints<E> &&
+    (applicable<detail::EnergyOf<E>, detail::ProbePositions<E>> ||
+     applicable_with_time<detail::EnergyOf<E>, detail::Probe<E>, detail::ProbePositions<E>>);
+
+/// A force given by its law: `points()` and `force([t,] r_1, ..., r_k, v_1, ..., v_k)`, which
+/// returns the force on each point: a vector for a single point, else a std::tuple of vectors.
+template <class E>
+concept LawForce = ActsOnPoints<E> &&
+    (applicable<detail::ForceOf<E>, detail::ProbeMotion<E>> ||
+     applicable_with_time<detail::ForceOf<E>, detail::Probe<E>, detail::ProbeMotion<E>>);
+
+/// Forces of one type that have a potential: F = -V_r, dF/dq = -V_rr.
+template <PotentialForce E>
+class PotentialBatch final : public ForceBatch {
+  static constexpr int inputs = PointFacts<E>::inputs;
+  static constexpr int width = PointFacts<E>::coordinates;
+  static constexpr bool takes_time =
+      applicable_with_time<detail::EnergyOf<E>, detail::Probe<E>, detail::ProbePositions<E>>;
+
+ public:
+  /// What Scene::add asks for.
+  static constexpr bool gives_what_it_should =
+      detail::Number<detail::ForceResult<detail::EnergyOf<E>, takes_time, E, detail::ProbePositions<E>>>;
+
+  void add(E element) { elements_.add(std::move(element)); }
+
+  [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override {
+    return std::make_unique<PotentialBatch>(*this);
+  }
+  [[nodiscard]] ForceShape shape() const override {
+    return {detail::kind_of<E>("Potential"), width, false, true};
+  }
+  [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
+  [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
+
+  void add_force(const Instant& at, std::span<double> F) const override {
+    using S = Dual<inputs, 1>;
+    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      const S V = potential<S>(e, at, AsInput<S>{});
+      detail::require_finite(isfinite(V), i, "is not a finite number or has no finite gradient");
+      detail::scatter<width>(-pull_back(e, V.gradient), elements_.coordinates(i), F);
+    });
+  }
+
+  void power(const Instant& at, std::span<double> out) const override {
+    using S = Dual<inputs, 1>;
+    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      out[i] = -potential<S>(e, at, AsInput<S>{}).gradient.dot(gather_inputs(e, at.v));
+    });
+  }
+
+  void linearise(const Instant& at, std::span<double> stiffness,
+                 std::span<double> /*damping*/) const override {
+    using S = Dual<inputs, 2>;
+    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      const S V = potential<S>(e, at, AsInput<S>{});
+      detail::require_finite(V.hessian.allFinite(), i, "has no finite second derivative");
+      using Block = Eigen::Matrix<double, width, width, Eigen::RowMajor>;
+      Eigen::Map<Block>(stiffness.data() + i * width * width) = pull_back_block(e, -V.hessian);
+    });
+  }
+
+  [[nodiscard]] double energy(const Instant& at) const override {
+    double sum = 0.0;
+    for_each_element(elements_.all(),
+                     [&](const E& e, std::size_t) { sum += potential<double>(e, at, AsNumber{}); });
+    return sum;
+  }
+
+ private:
+  template <class S, class Lift>
+  [[nodiscard]] static S potential(const E& e, const Instant& at, const Lift& lift) {
+    const S t(at.t);
+    return S(call<takes_time>(detail::EnergyOf<E>{e}, t, positions<S>(e, t, at, lift)));
+  }
+
+  Elements<E> elements_;
+};
+
+/// Forces of one type given by their law F(t, r, v).
+template <LawForce E>
+class LawBatch final : public ForceBatch {
+  static constexpr int inputs = PointFacts<E>::inputs;
+  static constexpr int width = PointFacts<E>::coordinates;
+  static constexpr bool takes_time =
+      applicable_with_time<detail::ForceOf<E>, detail::Probe<E>, detail::ProbeMotion<E>>;
+
+ public:
+  /// What Scene::add asks for.
+  static constexpr bool gives_what_it_should =
+      detail::are_forces<detail::ForceResult<detail::ForceOf<E>, takes_time, E, detail::ProbeMotion<E>>,
+                         PointTuple<E>>;
+
+  void add(E element) { elements_.add(std::move(element)); }
+
+  [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override {
+    return std::make_unique<LawBatch>(*this);
+  }
+  [[nodiscard]] ForceShape shape() const override {
+    return {detail::kind_of<E>("ForceLaw"), width, true, false};
+  }
+  [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
+  [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
+
+  void add_force(const Instant& at, std::span<double> F) const override {
+    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      const Vec<inputs> f = forces<double>(e, at, AsNumber{}, AsNumber{});
+      detail::require_finite(f.allFinite(), i, "is not a finite number");
+      detail::scatter<width>(pull_back(e, f), elements_.coordinates(i), F);
+    });
+  }
+
+  void power(const Instant& at, std::span<double> out) const override {
+    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      out[i] = forces<double>(e, at, AsNumber{}, AsNumber{}).dot(gather_inputs(e, at.v));
+    });
+  }
+
+  void linearise(const Instant& at, std::span<double> stiffness, std::span<double> damping) const override {
+    using S = Dual<2 * inputs, 1>;
+    using Block = Eigen::Matrix<double, width, width, Eigen::RowMajor>;
+    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      const VecOf<S, inputs> f = forces<S>(e, at, AsInput<S>{}, AsInput<S>{});
+      Eigen::Matrix<double, inputs, inputs> F_r, F_v;
+      for (int k = 0; k < inputs; ++k) {
+        detail::require_finite(isfinite(f[k]), i, "has no finite derivative");
+        F_r.row(k) = f[k].gradient.template head<inputs>();
+        F_v.row(k) = f[k].gradient.template tail<inputs>();
+      }
+      Eigen::Map<Block>(stiffness.data() + i * width * width) = pull_back_block(e, F_r);
+      Eigen::Map<Block>(damping.data() + i * width * width) = pull_back_block(e, F_v);
+    });
+  }
+
+  [[nodiscard]] double energy(const Instant& /*at*/) const override { return 0.0; }
+
+ private:
+  /// The force on each of the inputs.
+  template <class S, class LiftPosition, class LiftVelocity>
+  [[nodiscard]] static VecOf<S, inputs> forces(const E& e, const Instant& at, const LiftPosition& lift_r,
+                                               const LiftVelocity& lift_v) {
+    const S t(at.t);
+    const auto motion =
+        std::tuple_cat(positions<S>(e, t, at, lift_r), velocities<S>(e, t, at, lift_v, inputs));
+    return detail::forces_on_inputs<S, E>(call<takes_time>(detail::ForceOf<E>{e}, t, motion));
+  }
+
+  Elements<E> elements_;
+};
+
+}  // namespace dalembert

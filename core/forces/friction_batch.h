@@ -1,0 +1,112 @@
+#pragma once
+
+#include <dalembert/core/forces/friction.h>
+
+namespace dalembert {
+
+/// Forces of one type given by their law F(t, lambda, r, v), lambda the multipliers of a constraint.
+template <FrictionForce E>
+class FrictionBatch final : public MultiplierForceBatch {
+  static constexpr int inputs = PointFacts<E>::inputs;
+  static constexpr int width = PointFacts<E>::coordinates;
+  static constexpr int rows = rows_read<E>;
+  static constexpr bool takes_time =
+      applicable_with_time<detail::FrictionOf<E>, detail::Probe<E>, detail::ProbeFriction<E>>;
+
+ public:
+  /// What Scene::add asks for.
+  static constexpr bool gives_what_it_should =
+      detail::are_forces<detail::ForceResult<detail::FrictionOf<E>, takes_time, E, detail::ProbeFriction<E>>,
+                         PointTuple<E>>;
+
+  void add(E element) {
+    constraints_.push_back(element.constraint().index);
+    elements_.add(std::move(element));
+  }
+
+  [[nodiscard]] std::unique_ptr<MultiplierForceBatch> clone() const override {
+    return std::make_unique<FrictionBatch>(*this);
+  }
+  [[nodiscard]] MultiplierForceShape shape() const override {
+    return {detail::kind_of<E>("Friction"), width, rows};
+  }
+  [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
+  [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
+  [[nodiscard]] std::span<const int> constraints() const override { return constraints_; }
+
+  void add_force(const Instant& at, const Multipliers& lambda, std::span<double> F) const override {
+    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      const Vec<inputs> f = forces<double>(e, at, lambda, i, AsNumber{}, AsNumber{}, AsNumber{});
+      detail::require_finite(f.allFinite(), i, "is not a finite number");
+      detail::scatter<width>(pull_back(e, f), elements_.coordinates(i), F);
+    });
+  }
+
+  void power(const Instant& at, const Multipliers& lambda, std::span<double> out) const override {
+    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      out[i] =
+          forces<double>(e, at, lambda, i, AsNumber{}, AsNumber{}, AsNumber{}).dot(gather_inputs(e, at.v));
+    });
+  }
+
+  void slope(const Instant& at, const Multipliers& lambda, std::span<double> out) const override {
+    using S = Dual<rows, 1>;
+    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      const VecOf<S, inputs> f = forces<S>(e, at, lambda, i, Held<S>{}, Held<S>{}, AsInput<S>{});
+      for (int r = 0; r < rows; ++r) {
+        Vec<inputs> f_lambda;
+        for (int k = 0; k < inputs; ++k) f_lambda[k] = f[k].gradient[r];
+        detail::require_finite(f_lambda.allFinite(), i, "has no finite derivative");
+        Eigen::Map<Vec<width>>(out.data() + (i * rows + static_cast<std::size_t>(r)) * width) =
+            pull_back(e, f_lambda);
+      }
+    });
+  }
+
+  void linearise(const Instant& at, const Multipliers& lambda, std::span<double> stiffness,
+                 std::span<double> damping) const override {
+    using S = Dual<2 * inputs, 1>;
+    using Block = Eigen::Matrix<double, width, width, Eigen::RowMajor>;
+    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      const VecOf<S, inputs> f = forces<S>(e, at, lambda, i, AsInput<S>{}, AsInput<S>{}, Held<S>{});
+      Eigen::Matrix<double, inputs, inputs> F_r, F_v;
+      for (int k = 0; k < inputs; ++k) {
+        detail::require_finite(isfinite(f[k]), i, "has no finite derivative");
+        F_r.row(k) = f[k].gradient.template head<inputs>();
+        F_v.row(k) = f[k].gradient.template tail<inputs>();
+      }
+      Eigen::Map<Block>(stiffness.data() + i * width * width) = pull_back_block(e, F_r);
+      Eigen::Map<Block>(damping.data() + i * width * width) = pull_back_block(e, F_v);
+    });
+  }
+
+ private:
+  /// A quantity that is held while others vary.
+  template <class S>
+  struct Held {
+    S operator()(double x, double /*rate*/, int /*k*/) const { return S(x); }
+  };
+
+  /// The force of element i on each of its inputs.
+  template <class S, class LiftPosition, class LiftVelocity, class LiftMultiplier>
+  [[nodiscard]] static VecOf<S, inputs> forces(const E& e, const Instant& at, const Multipliers& lambda,
+                                               std::size_t i, const LiftPosition& lift_r,
+                                               const LiftVelocity& lift_v, const LiftMultiplier& lift) {
+    const auto own = lambda.all.subspan(static_cast<std::size_t>(lambda.first_row[i]), rows);
+    detail::MultiplierOf<S, rows> multiplier;
+    if constexpr (rows == 1) {
+      multiplier = lift(own[0], 0.0, 0);
+    } else {
+      for (int r = 0; r < rows; ++r) multiplier[r] = lift(own[static_cast<std::size_t>(r)], 0.0, r);
+    }
+    const S t(at.t);
+    const auto arguments = std::tuple_cat(std::make_tuple(multiplier), positions<S>(e, t, at, lift_r),
+                                          velocities<S>(e, t, at, lift_v, inputs));
+    return detail::forces_on_inputs<S, E>(call<takes_time>(detail::FrictionOf<E>{e}, t, arguments));
+  }
+
+  Elements<E> elements_;
+  std::vector<int> constraints_;
+};
+
+}  // namespace dalembert

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <dalembert/core/points/points.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace dalembert {
+
+/// A point fixed in a rigid body, as made by RigidBody::point: a constant linear map of the body's
+/// particles, r = L (p_1, ..., p_k), two particles in the plane and four in space. On a ThinRod it is
+/// a map of two particles in space too, on a Lamina of three.
+///
+/// Equations are differentiated with respect to the D numbers of r; L carries gradients and second
+/// derivatives on to the particles.
+template <int D, int Particles = (D == 2 ? 2 : 4)>
+struct BodyPoint {
+  static constexpr int dimension = D;
+  static constexpr int inputs = D;
+  static constexpr int count = Particles;
+  static constexpr int coordinates = count * D;
+  static constexpr bool driven = false;
+  using Map = Eigen::Matrix<double, D, coordinates>;
+
+  std::array<Particle<D>, static_cast<std::size_t>(count)> particles;
+  Map L;
+
+  [[nodiscard]] const Map& map() const { return L; }
+  [[nodiscard]] Vec<D> gather(std::span<const double> x) const {
+    Vec<D> r = Vec<D>::Zero();
+    int column = 0;
+    for (const auto& particle : particles) {
+      r += L.template middleCols<D>(column) * particle.gather(x);
+      column += D;
+    }
+    return r;
+  }
+  [[nodiscard]] std::array<int, static_cast<std::size_t>(coordinates)> reads() const {
+    std::array<int, static_cast<std::size_t>(coordinates)> all{};
+    auto next = all.begin();
+    for (const auto& particle : particles) next = std::ranges::copy(particle.reads(), next).out;
+    return all;
+  }
+};
+
+}  // namespace dalembert

@@ -1,0 +1,63 @@
+#include "dalembert/core/results/trajectory.h"
+
+#include <algorithm>
+
+namespace dalembert {
+
+void Record::reserve(std::size_t samples, const FlatSample& like) {
+  times.reserve(samples);
+  unique.reserve(samples * like.unique.size());
+  values.reserve(samples * (2 * like.q.size() + like.lambda.size() + like.forces.size() + 1));
+}
+
+void Record::append(const FlatSample& sample) {
+  coordinates = sample.q.size();
+  rows = sample.lambda.size();
+  for (const auto& part : {sample.q, sample.v, sample.lambda, sample.forces}) {
+    values.insert(values.end(), part.begin(), part.end());
+  }
+  unique.insert(unique.end(), sample.unique.begin(), sample.unique.end());
+  values.push_back(sample.energy);
+  times.push_back(sample.time);
+}
+
+void Record::clear() {
+  times.clear();
+  values.clear();
+  unique.clear();
+}
+
+FlatSample Record::sample(std::size_t i) const {
+  const std::size_t slots = layout->slot_coordinate.size();
+  const auto one = std::span(values).subspan(i * (2 * coordinates + rows + slots + 1));
+  return {times[i],
+          one.first(coordinates),
+          one.subspan(coordinates, coordinates),
+          one.subspan(2 * coordinates, rows),
+          one.subspan(2 * coordinates + rows, slots),
+          one[2 * coordinates + rows + slots],
+          unique.empty() ? std::span<const char>{} : std::span(unique).subspan(i * rows, rows)};
+}
+
+template <int D>
+Trajectory<D>::Trajectory(std::shared_ptr<const Record> record) : record_(std::move(record)) {
+  if (record_->layout->dimension != D) {
+    throw InvalidScene("Scene \"" + record_->layout->scene + "\" has " +
+                       std::to_string(record_->layout->dimension) + " dimensions; read it as Trajectory<" +
+                       std::to_string(record_->layout->dimension) + ">");
+  }
+}
+
+template <int D>
+Sample<D> Trajectory<D>::sample(std::size_t i) const {
+  if (i >= size()) {
+    throw InvalidScene("There is no sample " + std::to_string(i) + ": this run has " +
+                       std::to_string(size()) + ", counted from 0");
+  }
+  return {*record_->layout, record_->sample(i)};
+}
+
+template class Trajectory<2>;
+template class Trajectory<3>;
+
+}  // namespace dalembert

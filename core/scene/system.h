@@ -1,0 +1,200 @@
+#pragma once
+
+#include <dalembert/core/equations/batch.h>
+#include <dalembert/core/results/layout.h>
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dalembert {
+
+/// The parts a System is made of; Scene::system() fills them in.
+struct SystemParts {
+  Layout layout;                       ///< rows and slots are filled in by System
+  std::vector<double> masses;          ///< one per coordinate; a rotor's inertia
+  std::vector<double> constant_force;  ///< one per coordinate
+  std::vector<std::unique_ptr<ConstraintBatch>> constraints;
+  std::vector<std::vector<int>> constraint_numbers;  ///< per batch: the scene's number of each element
+  std::vector<std::unique_ptr<ForceBatch>> forces;
+  std::vector<std::vector<std::string>> force_names;  ///< per batch, one per element
+  std::function<double(double t)> extent;  ///< diagonal of the box around all points at the start [length]
+  std::vector<std::unique_ptr<MultiplierForceBatch>> frictions{};
+  std::vector<std::vector<std::string>> friction_names{};  ///< per batch, one per element
+};
+
+/// The equations of motion of a scene as flat arrays: no dimension, no particles, no types.
+///
+///   M q'' = F(t,q,v) + W^T lambda,   g(t,q) = 0,   psi(t,q,v) = 0,   W = psi_v          (1)
+///
+/// Rows of holonomic constraints come first, with psi = dg/dt; rows of nonholonomic ones follow,
+/// with psi = a(t,q,v). At acceleration level W v' + gamma = 0 with gamma = psi_q v + psi_t.
+/// The force of constraint on coordinate i is Z_i = (W^T lambda)_i. A compliant holonomic constraint
+/// obeys g + C lambda = 0 in place of g = 0: a spring whose force is its multiplier. Forces that read
+/// multipliers, F_f(t,q,v,lambda), join F in (1); what is called friction here is any of them.
+class System {
+ public:
+  /// Everything a residual needs at one instant.
+  struct Evaluation {
+    std::vector<double> force;  ///< F without friction, n
+    std::vector<double> g;      ///< position residual, m_holonomic
+    std::vector<double> psi;    ///< velocity residual, m
+    std::vector<double> w;      ///< W, in the order of its pattern
+  };
+  /// Everything the Newton matrix needs besides W.
+  struct Linearisation {
+    std::vector<double> psi_q;      ///< d psi/dq, in W's pattern
+    std::vector<double> stiffness;  ///< d(F + F_f + W^T lambda)/dq, in the order of its pattern
+    std::vector<double> damping;    ///< d(F + F_f)/dv, in the order of its pattern
+    std::vector<double> friction;   ///< dF_f/dlambda, in the order of its pattern
+  };
+  struct Entry {
+    int row;
+    int column;
+  };
+
+  explicit System(SystemParts parts);
+
+  [[nodiscard]] int coordinates() const { return static_cast<int>(parts_.masses.size()); }
+  [[nodiscard]] int rows() const { return static_cast<int>(row_start_.size()) - 1; }
+  [[nodiscard]] int holonomic_rows() const { return holonomic_rows_; }
+  /// Whether any constraint depends on time explicitly.
+  [[nodiscard]] bool rheonomic() const;
+  /// C of each row: g + C lambda = 0 instead of g = 0; 0 where it is rigid.
+  [[nodiscard]] std::span<const double> compliance() const { return compliance_; }
+  /// Whether any row is not rigid.
+  [[nodiscard]] bool compliant() const { return compliant_rows() > 0; }
+  [[nodiscard]] int compliant_rows() const { return compliant_rows_; }
+  [[nodiscard]] std::span<const double> masses() const { return parts_.masses; }
+  /// What one unit of each coordinate means: `length` for a length, 1 for an angle.
+  [[nodiscard]] std::vector<double> coordinate_scales(double length) const;
+  /// Diagonal of the box around all points, the driven ones where they are at the start of the run [length].
+  [[nodiscard]] double extent(double t_start) const { return parts_.extent(t_start); }
+  [[nodiscard]] const std::shared_ptr<const Layout>& layout() const { return layout_; }
+
+  /// Pattern of W by rows: row r has the entries row_start()[r] ... row_start()[r+1] - 1. A column
+  /// may occur twice in a row; its entries add.
+  [[nodiscard]] std::span<const int> row_start() const { return row_start_; }
+  [[nodiscard]] std::span<const int> w_columns() const { return w_columns_; }
+  /// Places of the entries of Linearisation; places may repeat, their entries add.
+  [[nodiscard]] std::span<const Entry> stiffness_pattern() const { return stiffness_pattern_; }
+  [[nodiscard]] std::span<const Entry> damping_pattern() const { return damping_pattern_; }
+  /// The first entries of the stiffness are those of constraints; so many.
+  [[nodiscard]] std::size_t stiffness_of_constraints() const { return stiffness_of_constraints_; }
+  /// Places of dF_f/dlambda: a coordinate and a row. Empty if no force reads a multiplier.
+  [[nodiscard]] std::span<const Entry> friction_pattern() const { return friction_pattern_; }
+  [[nodiscard]] bool frictional() const { return !friction_pattern_.empty(); }
+
+  /// Work space of the right sizes; the functions below allocate nothing.
+  [[nodiscard]] Evaluation evaluation() const;
+  [[nodiscard]] Linearisation linearisation() const;
+
+  /// F without friction, g, psi and W. Throws EquationFault if a constraint or force throws or is not
+  /// finite.
+  void evaluate(const Instant& at, Evaluation& out) const;
+  /// gamma, m numbers. Throws like `evaluate`.
+  void bias(const Instant& at, std::span<double> gamma) const;
+  /// Derivatives for the multipliers lambda (m numbers). Throws like `evaluate`.
+  void linearise(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
+  /// What of it the constraints say: the first `stiffness_of_constraints` entries, and psi_q.
+  void linearise_constraints(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
+  /// And what the forces say: all the rest.
+  void linearise_forces(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
+
+  /// Adds F_f for the multipliers lambda to F. Throws like `evaluate`.
+  void add_friction(const Instant& at, std::span<const double> lambda, std::span<double> F) const;
+  /// dF_f/dlambda, in the order of its pattern. Throws like `evaluate`.
+  void friction_slope(const Instant& at, std::span<const double> lambda, std::span<double> out) const;
+
+  /// What multipliers exert at the points the constraints were stated for, out of W: for every row as many
+  /// numbers as its constraint has inputs, in the order of rows; see ForcesAtPoints. `lever` has one number
+  /// per coordinate.
+  void forces_at_points(std::span<const double> w, std::span<const double> lever,
+                        std::span<double> out) const;
+  [[nodiscard]] std::size_t size_of_forces_at_points() const;
+
+  /// The force W^T lambda of every constraint on every coordinate it acts on, by Layout's slots.
+  void constraint_forces(std::span<const double> w, std::span<const double> lambda,
+                         std::span<double> slots) const;
+  [[nodiscard]] double kinetic_energy(std::span<const double> v) const;
+  /// Energy of all forces that have one.
+  [[nodiscard]] double potential_energy(const Instant& at) const;
+  /// Energy of the compliant constraints, the sum of C lambda^2 / 2.
+  [[nodiscard]] double elastic_energy(std::span<const double> lambda) const;
+
+  /// F . v of the constant forces together, and of every other one, by its label.
+  [[nodiscard]] double constant_power(std::span<const double> v) const;
+  void for_each_force_power(const Instant& at, std::span<const double> lambda,
+                            const std::function<void(std::string, double)>& f) const;
+
+  /// The label of the force that an entry of the stiffness beyond those of the constraints belongs to.
+  [[nodiscard]] std::string force_of_stiffness(std::size_t entry) const;
+  /// The label of the force that an entry of dF_f/dlambda belongs to.
+  [[nodiscard]] std::string force_of_friction(std::size_t entry) const;
+  /// The label of what a batch holds, by its number in Branches.
+  [[nodiscard]] std::string label_of_batch(std::size_t batch) const;
+  /// The label of the constraint that row r belongs to.
+  [[nodiscard]] std::string row_label(int row) const;
+  /// What a constraint of this row says when it is singular; may be empty.
+  [[nodiscard]] std::string_view singular_hint(int row) const;
+
+  /// What the scene consists of, its degrees of freedom, and what was left out because nothing in
+  /// it needs it.
+  [[nodiscard]] std::string describe() const;
+  /// The same with what only a state can tell: how many constraint equations are independent there,
+  /// and which velocity constraints are holonomic in disguise.
+  [[nodiscard]] std::string describe(double t, std::span<const double> q) const;
+
+ private:
+  /// When, for the end of an error.
+  [[nodiscard]] static std::string at_time(double t);
+  /// A pattern's dense blocks, rows first, one per element.
+  static void append_blocks(std::span<const int> coordinates, std::size_t width, std::vector<Entry>& pattern);
+  void place_constraints();
+  void place_forces();
+  void place_frictions();
+  void linearise_frictions(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
+  [[nodiscard]] std::string friction_label(std::size_t batch, std::size_t element) const;
+  [[nodiscard]] std::string friction_of_stiffness(std::size_t entry) const;
+  [[nodiscard]] std::string force_label(std::size_t batch, std::size_t element) const;
+  [[nodiscard]] const Layout::Constraint& constraint_of_row(int row, std::size_t& batch) const;
+
+  template <class F>
+  void on_constraints(double t, const F& f) const;
+  template <class F>
+  void on_forces(double t, const F& f) const;
+  template <class F>
+  void on_frictions(const Instant& at, std::span<const double> lambda, const F& f) const;
+
+  /// Where a batch's part of each array begins; for constraints also how long it is.
+  struct Offsets {
+    std::size_t row, w, stiffness, damping;
+    bool holonomic = false;
+    std::size_t row_count = 0, w_count = 0;
+  };
+
+  /// Where a batch of frictions stands, and at which row the multipliers of each element begin.
+  struct FrictionPlace {
+    std::size_t slope, stiffness, damping, slope_count, block_count;
+    std::vector<int> first_row;
+  };
+
+  SystemParts parts_;
+  std::shared_ptr<const Layout> layout_;
+  std::vector<Offsets> constraint_offsets_;
+  std::vector<Offsets> force_offsets_;
+  int holonomic_rows_ = 0;
+  std::vector<int> row_start_;
+  std::vector<int> w_columns_;
+  std::vector<double> compliance_;
+  int compliant_rows_ = 0;
+  std::vector<Entry> stiffness_pattern_;
+  std::vector<Entry> damping_pattern_;
+  std::size_t stiffness_of_constraints_ = 0;
+  std::vector<FrictionPlace> friction_places_;
+  std::vector<Entry> friction_pattern_;
+};
+
+}  // namespace dalembert
