@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/constraints/surfaces.h>
+#include <dalembert/constraints/geometry/surfaces.h>
 #include <dalembert/core/equations/constraint.h>
 
 namespace dalembert {

@@ -1,6 +1,6 @@
 #include "dalembert/constraints/disk_on_plane.h"
 
-#include <dalembert/constraints/lamina.h>
+#include <dalembert/constraints/bodies/lamina.h>
 #include <dalembert/core/scene/scene.h>
 #include <dalembert/solvers/simulation.h>
 

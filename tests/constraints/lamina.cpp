@@ -1,4 +1,4 @@
-#include "dalembert/constraints/lamina.h"
+#include "dalembert/constraints/bodies/lamina.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

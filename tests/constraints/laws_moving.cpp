@@ -1,7 +1,7 @@
 #include "laws.h"
+#include <dalembert/constraints/geometry/moving.h>
 #include <dalembert/constraints/in_plane.h>
 #include <dalembert/constraints/line_offset.h>
-#include <dalembert/constraints/moving.h>
 #include <dalembert/constraints/on_curve.h>
 #include <dalembert/constraints/on_surface.h>
 #include <dalembert/constraints/prescribed.h>

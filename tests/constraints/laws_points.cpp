@@ -1,7 +1,7 @@
 #include "laws.h"
+#include <dalembert/constraints/bodies/rigid_body.h>
 #include <dalembert/constraints/coincident.h>
 #include <dalembert/constraints/distance.h>
-#include <dalembert/constraints/rigid_body.h>
 
 namespace dalembert::laws {
 namespace {

@@ -1,4 +1,4 @@
-#include "dalembert/constraints/thin_rod.h"
+#include "dalembert/constraints/bodies/thin_rod.h"
 
 #include <dalembert/constraints/coincident.h>
 #include <dalembert/solvers/simulation.h>

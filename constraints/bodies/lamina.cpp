@@ -1,6 +1,6 @@
-#include "dalembert/constraints/lamina.h"
+#include "dalembert/constraints/bodies/lamina.h"
 
-#include <dalembert/constraints/equimomental.h>
+#include <dalembert/constraints/bodies/equimomental.h>
 
 #include <Eigen/LU>
 

@@ -1,6 +1,6 @@
-#include "dalembert/constraints/rigid_body.h"
+#include "dalembert/constraints/bodies/rigid_body.h"
 
-#include <dalembert/constraints/equimomental.h>
+#include <dalembert/constraints/bodies/equimomental.h>
 #include <dalembert/core/errors.h>
 
 #include <Eigen/LU>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/constraints/body_rod.h>
+#include <dalembert/constraints/bodies/body_rod.h>
 #include <dalembert/core/points/body_point.h>
 #include <dalembert/core/scene/scene.h>
 
