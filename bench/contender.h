@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/solvers/options.h>
+#include <dalembert/solvers/base/options.h>
 
 #include <optional>
 #include <span>

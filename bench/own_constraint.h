@@ -1,7 +1,7 @@
 #pragma once
 
 #include <dalembert/bench/report.h>
-#include <dalembert/solvers/options.h>
+#include <dalembert/solvers/base/options.h>
 
 #include <vector>
 

@@ -1,17 +1,11 @@
 #pragma once
 
+#include <dalembert/constraints/geometry/axis.h>
 #include <dalembert/core/equations/constraint.h>
 
 #include <Eigen/Geometry>
 
 namespace dalembert {
-
-/// A directed axis in space and where angles about it are counted from.
-struct Axis {
-  Vec<3> point = Vec<3>::Zero();
-  Vec<3> direction = Vec<3>::UnitZ();  ///< need not have unit length
-  Vec<3> zero = Vec<3>::UnitX();       ///< angle 0; its part along the axis does not matter
-};
 
 /// Keeps a point in a plane that contains an axis and turns about it by a prescribed angle: a hoop
 /// turning about its diameter (notes, mex39), the arms of a governor (mex23).

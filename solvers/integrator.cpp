@@ -1,15 +1,15 @@
 #include "dalembert/solvers/integrator.h"
 
 #include <dalembert/core/errors.h>
-#include <dalembert/solvers/private/constants.h>
-#include <dalembert/solvers/private/erk.h>
-#include <dalembert/solvers/private/ida.h>
-#include <dalembert/solvers/private/manifold.h>
-#include <dalembert/solvers/private/outgrown.h>
-#include <dalembert/solvers/private/recovery.h>
-#include <dalembert/solvers/private/singularity.h>
-#include <dalembert/solvers/private/start.h>
-#include <dalembert/solvers/private/sticking.h>
+#include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/erk/erk.h>
+#include <dalembert/solvers/ida/ida.h>
+#include <dalembert/solvers/manifold/manifold.h>
+#include <dalembert/solvers/manifold/recovery.h>
+#include <dalembert/solvers/manifold/start.h>
+#include <dalembert/solvers/run/outgrown.h>
+#include <dalembert/solvers/run/singularity.h>
+#include <dalembert/solvers/run/sticking.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <dalembert/core/results/trajectory.h>
 #include <dalembert/core/scene/system.h>
-#include <dalembert/solvers/options.h>
+#include <dalembert/solvers/base/options.h>
 
 #include <functional>
 #include <memory>

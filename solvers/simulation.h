@@ -2,8 +2,8 @@
 
 #include <dalembert/core/results/trajectory.h>
 #include <dalembert/core/scene/scene.h>
+#include <dalembert/solvers/base/options.h>
 #include <dalembert/solvers/integrator.h>
-#include <dalembert/solvers/options.h>
 
 namespace dalembert {
 

@@ -1,33 +1,47 @@
 # cmake -D root=<source folder> -P includes.cmake
 #
-# Fails where an include points against the flow constraints -> core, solvers -> core, or where a header
-# of SUNDIALS, SuiteSparse or solvers/private leaves the sources of solvers.
+# The rooms from the ground up: fails where a file includes one from a room further down this list, where the
+# solvers know a constraint, and where a header that users include needs one of SUNDIALS, SuiteSparse or of the
+# solvers' own.
 
-set(not_from_core constraints models solvers)
-set(not_from_constraints models solvers)
-set(not_from_solvers constraints models)
-set(inner "(sundials|ida|arkode|nvector|sunlinsol|sunmatrix|sunnonlinsol)/"
-          "(suitesparse/)?(klu|amd|colamd|btf|ldl|SuiteSparse_config)\\.h"
-          "(dalembert/solvers/)?private/")
-list(JOIN inner "|" inner)
+set(rooms core core/autodiff core/points core/equations core/forces core/results core/scene core/analysis
+          constraints/geometry constraints constraints/bodies
+          solvers/base solvers/linear solvers/manifold solvers/run solvers/ida solvers/erk solvers)
+set(public "solvers/base/options|solvers/integrator|solvers/simulation")
+set(theirs "(sundials|ida|nvector|sunlinsol|sunmatrix|sunnonlinsol)/|(suitesparse/)?(klu|amd|colamd|btf|ldl)\\.h")
 
-function(forbid file what regex)
-  file(STRINGS ${file} lines REGEX "^[ \t]*#[ \t]*include[ \t]*${regex}")
-  foreach(line IN LISTS lines)
-    file(RELATIVE_PATH name ${root} ${file})
-    message(SEND_ERROR "${name}: ${what} must not be included here: ${line}")
-  endforeach()
-endfunction()
-
-foreach(room core constraints solvers)
-  file(GLOB_RECURSE files ${root}/${room}/*.h ${root}/${room}/*.cpp)
-  list(JOIN not_from_${room} "|" others)
+foreach(room IN LISTS rooms)
+  list(FIND rooms ${room} place)
+  file(GLOB files RELATIVE ${root} ${root}/${room}/*.h ${root}/${room}/*.cpp)
+  if(NOT files)
+    message(SEND_ERROR "${room}: no such room")
+  endif()
   foreach(file IN LISTS files)
-    forbid(${file} "another room" "[<\"](dalembert/|\\.\\./)*((${others})/|dalembert\\.h)")
+    set(for_users FALSE)
+    if(file MATCHES "^(core|constraints|models)/|^(${public})\\.h")
+      set(for_users TRUE)
+    endif()
+    file(STRINGS ${root}/${file} lines REGEX "^[ \t]*#[ \t]*include")
+    foreach(line IN LISTS lines)
+      if(for_users AND line MATCHES "[<\"](${theirs})")
+        message(SEND_ERROR "${file}: users do not have ${line}")
+      endif()
+      if(line MATCHES "\"" AND NOT line MATCHES "\"dalembert/"
+         OR line MATCHES "dalembert/dalembert\\.h" AND NOT room STREQUAL models)
+        message(SEND_ERROR "${file}: name the file of the room that is meant: ${line}")
+      endif()
+      if(NOT line MATCHES "[<\"]dalembert/((.*)/[^/]+)\\.h")
+        continue()
+      endif()
+      set(header ${CMAKE_MATCH_1})
+      set(other ${CMAKE_MATCH_2})
+      list(FIND rooms ${other} other_place)
+      if(other_place EQUAL -1 OR other_place GREATER place OR "${room} ${other}" MATCHES "^solvers.* constraints")
+        message(SEND_ERROR "${file}: another room must not be included here: ${line}")
+      endif()
+      if(for_users AND header MATCHES "^solvers/" AND NOT header MATCHES "^(${public})$")
+        message(SEND_ERROR "${file}: users do not have ${line}")
+      endif()
+    endforeach()
   endforeach()
-endforeach()
-
-file(GLOB files ${root}/dalembert.h ${root}/core/* ${root}/constraints/* ${root}/models/* ${root}/solvers/*.h)
-foreach(file IN LISTS files)
-  forbid(${file} "a SUNDIALS, SuiteSparse or private header" "[<\"](${inner})")
 endforeach()

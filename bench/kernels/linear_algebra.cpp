@@ -1,7 +1,7 @@
 #include <dalembert/bench/kernels/scenes.h>
-#include <dalembert/solvers/private/kkt.h>
-#include <dalembert/solvers/private/ldl.h>
-#include <dalembert/solvers/private/schur.h>
+#include <dalembert/solvers/linear/kkt.h>
+#include <dalembert/solvers/linear/ldl.h>
+#include <dalembert/solvers/linear/schur.h>
 
 #include <benchmark/benchmark.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <dalembert/models/chain.h>
-#include <dalembert/solvers/private/hidden.h>
-#include <dalembert/solvers/private/start.h>
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/manifold/start.h>
 
 #include <numeric>
 #include <span>

@@ -1,6 +1,6 @@
 #include <dalembert/bench/kernels/scenes.h>
-#include <dalembert/solvers/private/erk.h>
-#include <dalembert/solvers/private/ida.h>
+#include <dalembert/solvers/erk/erk.h>
+#include <dalembert/solvers/ida/ida.h>
 
 #include <benchmark/benchmark.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/solvers/private/constants.h>
+#include <dalembert/solvers/base/constants.h>
 
 #include <array>
 #include <string>

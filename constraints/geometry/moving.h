@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/constraints/in_plane.h>
+#include <dalembert/constraints/geometry/axis.h>
 #include <dalembert/core/vec.h>
 
 #include <Eigen/Geometry>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <dalembert/core/autodiff/mistakes.h>
 #include <dalembert/core/equations/batch.h>
-#include <dalembert/core/equations/mistakes.h>
 
 #include <cmath>
 #include <concepts>

@@ -1,6 +1,6 @@
 #include "dalembert/core/forces/forces.h"
 
-#include <dalembert/core/scene/batch_of.h>
+#include <dalembert/core/forces/batch_of.h>
 
 namespace dalembert {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/core/equations/mistakes.h>
+#include <dalembert/core/autodiff/mistakes.h>
 #include <dalembert/core/vec.h>
 
 #include <array>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <dalembert/core/errors.h>
+#include <dalembert/core/forces/batch_of.h>
 #include <dalembert/core/forces/forces.h>
 #include <dalembert/core/points/handles.h>
-#include <dalembert/core/scene/batch_of.h>
 #include <dalembert/core/scene/system.h>
 
 #include <Eigen/Geometry>

@@ -2,7 +2,7 @@
 
 #include "functions.h"
 #include "random.h"
-#include <dalembert/solvers/options.h>
+#include <dalembert/solvers/base/options.h>
 
 #include <array>
 #include <string>

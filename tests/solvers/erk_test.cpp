@@ -1,10 +1,10 @@
-#include "dalembert/solvers/private/erk.h"
+#include "dalembert/solvers/erk/erk.h"
 
 #include <dalembert/constraints/distance.h>
 #include <dalembert/constraints/holonomic.h>
 #include <dalembert/constraints/nonholonomic.h>
 #include <dalembert/core/scene/scene.h>
-#include <dalembert/solvers/private/verner.h>
+#include <dalembert/solvers/erk/verner.h>
 #include <dalembert/solvers/simulation.h>
 
 #include <gtest/gtest.h>

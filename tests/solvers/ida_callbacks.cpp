@@ -1,4 +1,4 @@
-#include <dalembert/solvers/private/ida_state.h>
+#include <dalembert/solvers/ida/ida_state.h>
 
 #include <gtest/gtest.h>
 

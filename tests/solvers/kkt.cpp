@@ -2,7 +2,7 @@
 #include <dalembert/constraints/distance.h>
 #include <dalembert/constraints/nonholonomic.h>
 #include <dalembert/core/scene/scene.h>
-#include <dalembert/solvers/private/kkt.h>
+#include <dalembert/solvers/linear/kkt.h>
 
 namespace dalembert {
 namespace {

@@ -4,7 +4,7 @@
 #include <dalembert/constraints/nonholonomic.h>
 #include <dalembert/constraints/on_surface.h>
 #include <dalembert/core/scene/scene.h>
-#include <dalembert/solvers/private/manifold.h>
+#include <dalembert/solvers/manifold/manifold.h>
 
 #include <Eigen/Dense>
 

@@ -4,7 +4,7 @@
 #include <dalembert/constraints/distance.h>
 #include <dalembert/constraints/nonholonomic.h>
 #include <dalembert/core/scene/scene.h>
-#include <dalembert/solvers/private/newton_matrix.h>
+#include <dalembert/solvers/ida/newton_matrix.h>
 
 #include <Eigen/Dense>
 

@@ -1,4 +1,4 @@
-#include <dalembert/solvers/private/order_guard.h>
+#include <dalembert/solvers/ida/order_guard.h>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "dalembert/solvers/private/outgrown.h"
+#include "dalembert/solvers/run/outgrown.h"
 
 #include "scenes.h"
 

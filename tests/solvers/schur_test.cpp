@@ -1,10 +1,10 @@
-#include "dalembert/solvers/private/schur.h"
+#include "dalembert/solvers/linear/schur.h"
 
 #include <dalembert/constraints/distance.h>
 #include <dalembert/core/scene/scene.h>
-#include <dalembert/solvers/private/kkt.h>
-#include <dalembert/solvers/private/newton_matrix.h>
-#include <dalembert/solvers/private/saddle.h>
+#include <dalembert/solvers/ida/newton_matrix.h>
+#include <dalembert/solvers/linear/kkt.h>
+#include <dalembert/solvers/linear/saddle.h>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

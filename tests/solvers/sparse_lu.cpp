@@ -1,4 +1,4 @@
-#include <dalembert/solvers/private/klu.h>
+#include <dalembert/solvers/linear/klu.h>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -1,0 +1,160 @@
+#include "dalembert/solvers/erk/erk.h"
+
+#include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/erk/erk_state.h>
+#include <dalembert/solvers/erk/hermite.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dalembert {
+
+ErkStepper::ErkStepper(const System& system, const Start& start, const Options& options)
+    : state_(std::make_unique<State>(system, start, options)) {}
+ErkStepper::ErkStepper(ErkStepper&&) noexcept = default;
+ErkStepper& ErkStepper::operator=(ErkStepper&&) noexcept = default;
+ErkStepper::~ErkStepper() = default;
+
+/// What round-off alone moves a state by when it is put onto the constraints, over the tolerance: velocities
+/// by eps/sin^2, see Passage.
+double ErkStepper::State::round_off_of_projection() const {
+  const double eps = std::numeric_limits<double>::epsilon();
+  return constants.roundings_of_projection * eps / (std::max(next.sine * next.sine, eps) * tolerance);
+}
+
+/// Tries a step into `next`. Returns its error over the tolerance; infinite, with the reason in
+/// `fault`, if the equations cannot be evaluated on its way.
+double ErkStepper::State::attempt(double step) {
+  scales.way = covered;
+  passed_switch = passed_several = false;
+  try {
+    run_stages(to, step, stages - 1);
+    finish(to, step, next);
+    const double e =
+        error(step) * (step < constants.far_too_short * usual && over == 0.0 ? constants.unreliable : 1.0);
+    if (e > 1.0) return e;
+    if (steps % stability_check_interval == 0) watch_stability(step);
+    const double correction = land();
+    next.sine = manifold.sine();
+    return std::max({e, correction / (constants.most_correction + round_off_of_projection()),
+                     disagreement(step) / constants.most_disagreement, error_of_switch(step)});
+  } catch (const EquationFault& error) {
+    fault = error.what();
+    return std::numeric_limits<double>::infinity();
+  }
+}
+
+double ErkStepper::State::shortest() const {
+  return 16.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(to.t), scales.time);
+}
+
+double ErkStepper::State::shorter(double step, double factor) const {
+  if (step * factor > shortest()) return step * factor;
+  throw StepFailure{fault.empty() ? "the error tolerance cannot be met with any step that double precision "
+                                    "resolves; ask for a looser tolerance, or look for a discontinuous or "
+                                    "very stiff force"
+                                  : fault,
+                    to.t};
+}
+
+/// The step to try: h, or an equal part of the way to where output is wanted or the run ends, unless
+/// several outputs fall into one step.
+double ErkStepper::State::step_towards(double wanted) const {
+  const double gap = std::min(wanted, t_end) - to.t;
+  if (gap < 0.5 * h && wanted < t_end) return std::min(h, t_end - to.t);
+  return gap / std::max(1.0, std::ceil(gap / h - constants.stretch));
+}
+
+/// Takes `next` for the end of a step.
+void ErkStepper::State::accept(bool by_extrapolation) {
+  usual = std::max(next.t - to.t, constants.forgetting * usual);
+  covered = scales.way;
+  ++steps;
+  has_middle = false;
+  crossed = by_extrapolation;
+  std::swap(from, to);
+  std::swap(to, next);
+  passage.remember(to.t, halves(to.va).second);
+}
+
+void ErkStepper::step(double wanted) {
+  State& s = *state_;
+  s.fault.clear();
+  if (s.end) throw StepFailure(*s.end);
+  if (s.steps == 0 && s.switches.any()) s.find_first_side();
+  if (s.cross() == State::Crossing::passed) {
+    s.accept(true);
+    return s.find_side_anew();
+  }
+  double growth = constants.most_growth;
+  for (;;) {
+    const double step = s.over > 0.0 ? std::min(s.over, s.t_end - s.to.t) : s.step_towards(wanted);
+    const double error = s.attempt(step);
+    if (s.may_have_crossed()) {  // look again from closer
+      s.h = s.shorter(step, 0.5 * (s.least.t - s.to.t) / step);
+      s.over = 0.0;
+      growth = 1.0;
+      continue;
+    }
+    const double factor = std::isfinite(error) ? constants.safety * std::pow(error, -1.0 / State::pair.order)
+                                               : constants.after_fault;
+    if (error <= 1.0) {
+      s.h = step * std::min(factor, growth);
+      s.over = 0.0;
+      break;
+    }
+    ++s.failures;
+    growth = 1.0;
+    s.over = 0.0;
+    if (s.stop_short(step)) break;
+    s.h = s.shorter(step, std::max(factor, constants.most_shrinking));
+  }
+  // Round-off in the sum must not let the last part of the way fall short of its goal.
+  const double goal = std::min(wanted, s.t_end);
+  if (std::abs(s.next.t - goal) <= 1e-14 * std::max(std::abs(goal), s.scales.time)) s.next.t = goal;
+  s.accept(false);
+  if (!s.switches.same(s.from.side, s.to.side)) s.go_on_behind();
+}
+
+const Scales& ErkStepper::scales() const { return state_->scales; }
+double ErkStepper::time() const { return state_->to.t; }
+double ErkStepper::sine() const { return state_->to.sine; }
+
+void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v) {
+  State& s = *state_;
+  if (t == s.to.t) {
+    std::ranges::copy(s.to.q, q.begin());
+    std::copy_n(s.to.va.begin(), s.n, v.begin());
+    return;
+  }
+  if (s.crossed) return s.read_crossing(t, q, v);
+  s.find_middle();
+  const Hermite<3> polynomial({s.from.t, s.middle.t, s.to.t}, t);
+  for (std::size_t i = 0; i < s.n; ++i) {
+    const auto x =
+        polynomial({s.from.q[i], s.middle.q[i], s.to.q[i]}, {s.from.va[i], s.middle.va[i], s.to.va[i]},
+                   {s.from.va[s.n + i], s.middle.va[s.n + i], s.to.va[s.n + i]});
+    q[i] = x.value;
+    v[i] = x.derivative;
+  }
+}
+
+void ErkStepper::count(Statistics& statistics) const {
+  const State& s = *state_;
+  statistics.steps += s.steps;
+  statistics.length = s.scales.length;
+  statistics.time = s.scales.time;
+  statistics.evaluations += s.manifold.evaluations();
+  statistics.factorisations += s.manifold.factorisations();
+  statistics.error_test_failures += s.failures;
+  statistics.accuracy = std::max(statistics.accuracy, s.tolerance * std::max(1.0, s.largest_passage_error));
+  statistics.singular_positions += s.singular_positions;
+  statistics.linear_algebra = s.manifold.method();
+  statistics.stability_limited += s.stability_limited;
+  if (2 * s.stability_limited > s.steps)
+    statistics.advice =
+        "stability, not accuracy, held down most steps: looser tolerances will hardly be faster; "
+        "Stepper::ida has no such limit, but more steps of its own: try whether it is faster";
+}
+
+}  // namespace dalembert

@@ -1,0 +1,153 @@
+#include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/erk/erk_state.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace dalembert {
+
+namespace {
+
+constexpr double not_ahead = std::numeric_limits<double>::infinity();
+
+/// Where the parabola through the squares of three sines is least; none if it is not.
+std::optional<Angle> least_of_parabola(const std::array<Angle, 3>& at) {
+  const auto square = [&](std::size_t i) { return at[i].sine * at[i].sine; };
+  const double d01 = (square(1) - square(0)) / (at[1].t - at[0].t);
+  const double d12 = (square(2) - square(1)) / (at[2].t - at[1].t);
+  const double curvature = (d12 - d01) / (at[2].t - at[0].t);
+  if (!(curvature > 0.0)) return std::nullopt;
+  const double t = 0.5 * (at[0].t + at[1].t) - 0.5 * d01 / curvature;
+  const double least = square(0) + (t - at[0].t) * (d01 + (t - at[1].t) * curvature);
+  return Angle{t, std::sqrt(std::max(least, 0.0))};
+}
+
+}  // namespace
+
+/// Where constraints become dependent for an instant, sin ~ |t - t*|, the motion is smooth but the
+/// accelerations computed from a state that is off the constraints by e are wrong by e/sin^2, and no step
+/// with stages close to t* is accurate. So the position is passed on the polynomial through the last
+/// accelerations, see Passage, to the mirror image of the last node beyond t*, and back onto the constraints
+/// there. Steps towards t* go at most half of the way. The polynomial through one node less tells the error:
+/// at first that falls with each step, as the distance to a high power; if round-off makes it grow before it
+/// is within the tolerance, the best passage seen is taken.
+///
+/// Where constraints repeat each other, rows that come to depend on each other are replaced, and steps end in
+/// front of where that is due: nothing is singular before others are no better.
+ErkStepper::State::Crossing ErkStepper::State::cross() {
+  if (to.sine > worn) return Crossing::none;
+  const double left = steps > 0 ? time_to_singular(from.angle(), to.angle()) : not_ahead;
+  if (left == not_ahead) {
+    next_passage = not_ahead;
+    best_passage = none_yet;
+    only_close = false;
+    return Crossing::none;
+  }
+  if (h <= 0.5 * left && (to.sine > constants.in_sight || left > next_passage)) return Crossing::none;
+  next_passage = left / constants.spread;
+  try {
+    double singular = to.t + left;
+    const double lowest = find_singular(singular);
+    only_close = lowest > constants.clearly_there * to.sine;
+    if (only_close) return Crossing::none;
+    if (lowest <= constants.vanished * to.sine && pass(singular)) return Crossing::passed;
+    h = std::min(h, 0.5 * std::min(left, singular - to.t));
+  } catch (const EquationFault& error) {
+    fault = error.what();
+    h = std::min(h, 0.5 * left);
+  }
+  usual = std::min(usual, h);
+  return Crossing::ahead;
+}
+
+/// Whether a long step may have gone over a singular position that was not in sight where it began.
+bool ErkStepper::State::may_have_crossed() const {
+  if (to.sine > worn) return least.sine < 0.5 * worn;
+  if (!(least.sine < constants.close_to_dependent && least.sine < 0.5 * to.sine)) return false;
+  return !only_close || least_between_stages() < constants.clearly_there * to.sine;
+}
+
+/// The least sine, if the angle has passed it.
+double ErkStepper::State::least_between_stages() const {
+  Angle before = to.angle(), after{none_yet, 1.0};
+  for (const Angle& angle : angles) {
+    if (angle.t < least.t && angle.t > before.t) before = angle;
+    if (angle.t > least.t && angle.t < after.t) after = angle;
+  }
+  if (!(before.t < least.t && after.t < none_yet)) return least.sine;
+  const auto lowest = least_of_parabola({before, least, after});
+  return lowest ? lowest->sine : least.sine;
+}
+
+void ErkStepper::State::extrapolate(std::size_t nodes, double t, Node& out) {
+  const auto [v, a] = halves(out.va);
+  passage.go(nodes, t, to.q, std::span(to.va).first(n), out.q, v, a);
+  out.t = t;
+}
+
+/// Improves the time at which the angle is least on the extrapolated motion. Returns its sine there.
+double ErkStepper::State::find_singular(double& t) {
+  constexpr int attempts = 4;
+  std::array<Angle, 3> at{from.angle(), to.angle(), {t, 0.0}};
+  const double until = to.t + 4.0 * (t - to.t);
+  const std::size_t nodes = passage.choose(t);
+  Angle lowest = to.angle();
+  for (int i = 0; i < attempts && lowest.sine > constants.vanished * to.sine; ++i) {
+    extrapolate(nodes, t, middle);
+    at[2] = {t, manifold.sine({t, middle.q, halves(middle.va).first})};
+    if (at[2].sine < lowest.sine) lowest = at[2];
+    const auto next_guess = least_of_parabola(at);
+    if (!next_guess || !(next_guess->t > to.t && next_guess->t < until) || next_guess->t == at[2].t) break;
+    t = next_guess->t;
+    at[0] = std::exchange(at[1], at[2]);
+  }
+  t = lowest.t;
+  return lowest.sine;
+}
+
+/// Whether `next`, which errs by `error` over the tolerance, or the best passage so far in its place, is to
+/// be taken. The constraints make of an error there one that is larger by 1/sin.
+bool ErkStepper::State::worth_taking(double error) {
+  if (error < best_passage) {
+    best_passage = error;
+    landing = next;
+    return error <= std::min(1.0, to.sine);
+  }
+  if (best_passage * tolerance > std::sqrt(tolerance)) return false;
+  next = landing;
+  return true;
+}
+
+bool ErkStepper::State::pass(double singular) {
+  const std::size_t nodes = passage.choose(singular);
+  if (nodes < 2) return false;
+  passage.keep_chosen();
+  const double beyond = std::min(2.0 * singular - to.t, t_end);
+  extrapolate(nodes, beyond, next);
+  extrapolate(nodes - 1, beyond, middle);
+  weigh(next);
+  for (std::size_t i = 0; i < n; ++i) {
+    difference[i] = next.q[i] - middle.q[i];
+    difference[n + i] = next.va[i] - middle.va[i];
+  }
+  if (!worth_taking(size())) return false;
+  if (next.t < t_end) {
+    (void)land();
+    next.sine = manifold.sine();
+  }
+  largest_passage_error = std::max(largest_passage_error, std::exchange(best_passage, none_yet));
+  passage_nodes = nodes;
+  next_passage = not_ahead;
+  if (next.t > singular) ++singular_positions;
+  return true;
+}
+
+/// Between the nodes on both sides of a singular position.
+void ErkStepper::State::read_crossing(double t, std::span<double> q, std::span<double> v) const {
+  passage.go(passage_nodes, t, from.q, std::span(from.va).first(n), q, v, {});
+}
+
+}  // namespace dalembert

@@ -1,0 +1,120 @@
+#include "dalembert/solvers/erk/erk_state.h"
+
+#include <dalembert/solvers/base/constants.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dalembert {
+
+namespace {
+
+constexpr auto& pair = verner87;
+constexpr int stages = pair.stages;
+
+/// The 13th stage serves the error estimate only.
+constexpr std::size_t last_stage_of_step = stages - 2;
+
+/// Of the stages 12 and 13, both at t + h.
+std::array<double, stages> difference_of_last_rows() {
+  std::array<double, stages> d{};
+  for (std::size_t j = 0; j < d.size(); ++j) d[j] = pair.a[12][j] - pair.a[11][j];
+  return d;
+}
+
+}  // namespace
+
+ErkStepper::State::State(const System& s, const Start& start, const Options& options)
+    : system(&s),
+      n(start.q.size()),
+      scales(start.scales),
+      tolerance(options.tolerance),
+      t_end(options.t_end),
+      manifold(s, start.rows, start.scales.lever()),
+      a(pair.a.begin(), pair.a.end()),
+      last_difference(difference_of_last_rows()),
+      stage_q(start.q.size()),
+      difference(2 * start.q.size()),
+      weight(difference.size()),
+      covered(start.scales.way),
+      h(std::min(
+          constants.first_explicit_step * std::pow(options.tolerance, 1.0 / pair.order) * start.scales.time,
+          options.t_end - options.t_start)),
+      passage(n),
+      switches(s, {options.t_start, start.q, start.v}, start.lambda),
+      multipliers(start.lambda.size()) {
+  for (Node* node : {&from, &to, &middle, &next, &short_of, &beyond}) {
+    node->t = options.t_start;
+    node->q = start.q;
+    node->va = start.v;
+    node->va.insert(node->va.end(), start.a.begin(), start.a.end());
+  }
+  if (switches.any()) {
+    sticking.emplace(s, start, options.t_start, tolerance);
+    manifold.listen();
+    for (Side* side : {&from.side, &to.side, &middle.side, &next.side, &short_of.side, &beyond.side,
+                       &stage_side, &behind_side})
+      switches.make_room(*side);
+  }
+  for (std::size_t i = 1; i < stage.size(); ++i) {
+    stage[i].resize(2 * n);
+    k[i] = stage[i].data();
+  }
+  passage.remember(to.t, start.a);
+  to.sine = manifold.sine({to.t, to.q, halves(to.va).first});
+  if (start.rows.size() < s.rows()) worn = constants.worn * to.sine;
+  if (!system->compliant()) return;
+  auto e = system->evaluation();
+  system->evaluate({options.t_start, start.q, start.v}, e);
+  const auto lever = scales.lever();
+  for (std::size_t r = 0; r < start.lambda.size(); ++r) {
+    const bool spring = system->compliance()[r] > 0.0;
+    const double impulse = spring ? impulse_of_row(*system, e.w, lever, r, scales.speed()) : 0.0;
+    force_of_spring.push_back(impulse / scales.time);
+  }
+}
+
+void ErkStepper::State::require(bool regular) {
+  if (!regular) throw EquationFault("the constraints became dependent on each other");
+}
+
+/// Whether the angle between constraints changes by much in a step. An error e of a stage
+/// off the constraints is one of e/sin^2 in its accelerations; put onto them it is not felt.
+bool ErkStepper::State::close_to_singular(double step) const {
+  const double rate = steps > 0 ? std::abs(to.sine - from.sine) / (to.t - from.t) : 0.0;
+  return to.sine < constants.close_to_dependent && step * rate > constants.changing_angle * to.sine;
+}
+
+void ErkStepper::State::run_stages(const Node& start, double step, std::size_t last) {
+  const bool project = close_to_singular(step);
+  k[0] = start.va.data();
+  angles.fill(start.angle());
+  least = angles[0];
+  for (std::size_t i = 1; i <= last; ++i) {
+    a[i].move(step, k, start.q.data(), stage_q.data(), start.va.data(), stage[i].data(), n);
+    const auto [v, v_dot] = halves(stage[i]);
+    const double t = start.t + pair.c[i] * step;
+    require(project ? manifold.land(t, stage_q, v, v_dot) : manifold.accelerate({t, stage_q, v}, v_dot));
+    angles[i] = {t, manifold.sine()};
+    if (angles[i].sine < least.sine) least = angles[i];
+    if (&start == &to) look(i, t);
+  }
+}
+
+void ErkStepper::State::finish(const Node& start, double step, Node& end) const {
+  end.t = start.t + step;
+  b.move(step, k, start.q.data(), end.q.data(), start.va.data(), end.va.data(), n);
+}
+
+/// Half a step of the method itself from where the last step began.
+void ErkStepper::State::find_middle() {
+  if (has_middle) return;
+  const double half = 0.5 * (to.t - from.t);
+  run_stages(from, half, last_stage_of_step);
+  finish(from, half, middle);
+  const auto [v, v_dot] = halves(middle.va);
+  require(manifold.accelerate({middle.t, middle.q, v}, v_dot));
+  has_middle = true;
+}
+
+}  // namespace dalembert

@@ -1,0 +1,140 @@
+#pragma once
+
+#include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/erk/combination.h>
+#include <dalembert/solvers/erk/erk.h>
+#include <dalembert/solvers/erk/verner.h>
+#include <dalembert/solvers/manifold/manifold.h>
+#include <dalembert/solvers/run/passage.h>
+#include <dalembert/solvers/run/singularity.h>
+#include <dalembert/solvers/run/sticking.h>
+
+#include <array>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// The pair and what a step of it needs.
+struct ErkStepper::State {
+  static constexpr const ButcherTable<13>& pair = verner87;
+  static constexpr int stages = pair.stages;
+  static constexpr long stability_check_interval = 8;  // steps
+
+  State(const System& system, const Start& start, const Options& options);
+
+  /// An instant between two steps: positions, and velocities and accelerations in one piece, as the
+  /// first stage of the next step.
+  struct Node {
+    double t = 0.0;
+    std::vector<double> q, va;
+    double sine = 1.0;  // see Manifold
+    Side side{};        // of the switches in the equations; unset if there are none
+
+    [[nodiscard]] Angle angle() const { return {t, sine}; }
+  };
+
+  /// Velocities and accelerations.
+  [[nodiscard]] std::pair<std::span<double>, std::span<double>> halves(std::vector<double>& x) const {
+    return {std::span(x).first(n), std::span(x).subspan(n)};
+  }
+  static void require(bool regular);
+  /// Stages 2 to `last` of a step from `start`: a stage's velocity is written where its derivative is kept.
+  void run_stages(const Node& start, double step, std::size_t last);
+  [[nodiscard]] bool close_to_singular(double step) const;
+  void finish(const Node& start, double step, Node& end) const;
+  void find_middle();
+
+  void weigh(const Node& at);
+  [[nodiscard]] double size() const;
+  [[nodiscard]] double error(double step);
+  [[nodiscard]] double error_of_springs(std::span<const double> dq) const;
+  [[nodiscard]] double land();
+  [[nodiscard]] double disagreement(double step);
+  void watch_stability(double step);
+
+  [[nodiscard]] double round_off_of_projection() const;
+  // See erk_switch.cpp.
+  void find_first_side();
+  void find_side(Node& node);
+  void find_side_anew();
+  void look(std::size_t i, double t);
+  [[nodiscard]] bool failed_behind_switch();
+  [[nodiscard]] double effect_of_switch(const Node& a, const Node& b, double step);
+  [[nodiscard]] double error_of_switch(double step);
+  [[nodiscard]] bool stop_short(double step);
+  [[nodiscard]] StepFailure why_not_over(Node& before);
+  [[nodiscard]] bool driven_back();
+  void go_on_behind();
+  void read(const Node& node, Motion& out) const;
+
+  [[nodiscard]] double attempt(double step);
+  void accept(bool by_extrapolation);
+
+  /// What became of the attempt to pass a singular position.
+  enum class Crossing { none, ahead, passed };
+  [[nodiscard]] Crossing cross();
+  [[nodiscard]] bool may_have_crossed() const;
+  [[nodiscard]] double least_between_stages() const;
+  [[nodiscard]] double find_singular(double& t);
+  [[nodiscard]] bool pass(double singular);
+  [[nodiscard]] bool worth_taking(double error);
+  /// From the last node to t, see Passage.
+  void extrapolate(std::size_t nodes, double t, Node& out);
+  void read_crossing(double t, std::span<double> q, std::span<double> v) const;
+  [[nodiscard]] double shortest() const;
+  [[nodiscard]] double shorter(double step, double factor) const;
+  [[nodiscard]] double step_towards(double wanted) const;
+
+  const System* system;
+  std::size_t n;
+  Scales scales;
+  double tolerance, t_end;
+  Manifold manifold;
+  std::vector<Combination<stages>> a;
+  Combination<stages> b{pair.b}, d{pair.d}, last_difference;
+  Node from, to;  // the last step; before the first, both are the start
+  Node middle;    // of that step, if `has_middle`
+  bool has_middle = false;
+  bool crossed = false;  // the last step passed a singular position
+  Node next;             // where a step goes until it is accepted
+  std::array<std::vector<double>, stages> stage;
+  std::array<const double*, stages> k{};
+  std::vector<double> stage_q;             // work
+  std::vector<double> difference, weight;  // of positions and velocities
+  std::vector<double> force_of_spring;     // per row, 0 in rigid ones; empty if all are
+  Way covered;                             // by the steps taken; `scales` may be those of one that is tried
+  double h;
+  double usual = h;  // step
+  long steps = 0, failures = 0, stability_limited = 0;
+
+  Passage passage;
+  std::size_t passage_nodes = 0;  // of the step that crossed
+  static constexpr double none_yet = std::numeric_limits<double>::infinity();
+  std::array<Angle, stages> angles{};  // at the stages of an attempt,
+  Angle least{};                       // and the least of them
+  bool only_close = false;             // the constraints, not dependent, where the angle falls now
+  double next_passage = none_yet;      // the distance from which it is worth another attempt
+  double best_passage = none_yet;      // error over the tolerance, of
+  Node landing;                        // a passage that was not taken yet
+  double largest_passage_error = 0.0;  // of those taken
+  int singular_positions = 0;
+  double worn = none_yet;  // sine below which other rows may take over; infinite if all are in use
+  std::string fault;       // of the last attempt that failed
+
+  Switches switches;
+  std::optional<Sticking> sticking;     // if there are any
+  std::vector<double> multipliers;      // work
+  Motion before_switch, behind_switch;  // work
+  Side stage_side, behind_side;         // of stages, the latter behind a switch
+  bool passed_switch = false;           // by the last attempt,
+  bool passed_several = false;          // and more than one
+  Node short_of, beyond;                // where steps end in front of a switch, and behind it
+  double over = 0.0;                    // the step to take next, over a switch
+  std::optional<StepFailure> end;       // what the run ends with where the last step ended
+};
+
+}  // namespace dalembert

@@ -1,0 +1,229 @@
+#include "dalembert/solvers/ida/ida.h"
+
+#include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/ida/ida_state.h>
+#include <dalembert/solvers/run/singularity.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace dalembert {
+
+namespace {
+
+/// Below this tolerance round-off comes into question where Newton's iteration fails.
+constexpr double tight = 1e-9;
+
+/// Steps longer than this over a force's own rate do not follow its vibration.
+constexpr double unresolved = 0.45;
+/// A force that would vibrate so often in the scene's own time is stiff: round-off in the positions times
+/// its stiffness disturbs the velocities.
+constexpr double stiff_rate = 1000.0;
+
+}  // namespace
+
+IdaStepper::IdaStepper(const System& system, const Start& start, const Options& options)
+    : state_(std::make_unique<State>(system, start, options)) {
+  State& s = *state_;
+  void* ida = s.ida.get();
+  const auto residual = [](double t, N_Vector x, N_Vector xp, N_Vector r, void* data) noexcept {
+    State& own = *static_cast<State*>(data);
+    return guarded(own, t, [&] {
+      own.residual(t, x, xp, r);
+      return 0;
+    });
+  };
+  const auto weigh = [](N_Vector x, N_Vector weight, void* data) noexcept {
+    State& own = *static_cast<State*>(data);
+    return guarded(own, own.t, [&] {
+      own.weights = weight;
+      own.weigh(x, weight);
+      return 0;
+    });
+  };
+  const auto record = [](double t, double c, N_Vector x, N_Vector, N_Vector, SUNMatrix, void* data, N_Vector,
+                         N_Vector, N_Vector) noexcept {
+    State& own = *static_cast<State*>(data);
+    own.matrix_t = t;
+    own.matrix_c = c;
+    own.matrix_y = x;
+    return 0;
+  };
+#if SUNDIALS_VERSION_MAJOR < 7  // from 7 on the context is silent
+  const auto silence = [](int, const char*, const char*, char*, void*) noexcept {};
+  check(IDASetErrHandlerFn(ida, silence, nullptr), "IDASetErrHandlerFn");
+#endif
+  check(IDAInit(ida, residual, s.t, s.y.get(), s.yp.get()), "IDAInit");
+  check(IDASetUserData(ida, &s), "IDASetUserData");
+  check(IDAWFtolerances(ida, weigh), "IDAWFtolerances");
+  s.make_newton();
+  check(IDASetLinearSolver(ida, s.solver.get(), s.matrix.get()), "IDASetLinearSolver");
+  check(IDASetJacFn(ida, record), "IDASetJacFn");
+  check(IDASetLinearSolutionScaling(ida, 0), "IDASetLinearSolutionScaling");  // NewtonMatrix knows c
+  check(IDASetId(ida, s.id.get()), "IDASetId");
+  check(IDASetSuppressAlg(ida, 1), "IDASetSuppressAlg");
+  check(IDASetNonlinConvCoef(ida, constants.newton_tolerance), "IDASetNonlinConvCoef");
+  check(IDASetInitStep(ida, s.first_step), "IDASetInitStep");
+  check(IDASetStopTime(ida, s.t_end), "IDASetStopTime");
+  check(IDASetMaxNumSteps(ida, -1), "IDASetMaxNumSteps");
+}
+
+IdaStepper::IdaStepper(IdaStepper&&) noexcept = default;
+IdaStepper& IdaStepper::operator=(IdaStepper&&) noexcept = default;
+IdaStepper::~IdaStepper() = default;
+
+std::string IdaStepper::State::explain(int code) const {
+  switch (code) {
+    case IDA_RES_FAIL:
+    case IDA_FIRST_RES_FAIL:
+    case IDA_REP_RES_ERR:
+    case IDA_LSETUP_FAIL:
+    case IDA_LSOLVE_FAIL:
+      return fault_or("the equations could not be evaluated");
+    case IDA_ERR_FAIL:
+      return "the error tolerance cannot be met with any step that double precision resolves; "
+             "ask for a looser tolerance, or look for a discontinuous or very stiff force";
+    case IDA_CONV_FAIL:
+      return fault_or(
+          asked_for < tight
+              ? "Newton's iteration does not converge: the tolerance asks for more than double precision can "
+                "deliver here; ask for one ten times as large, or look for a discontinuous force"
+          : sine() < constants.close_to_dependent
+              ? "Newton's iteration does not converge; the constraints are close to dependent here"
+              : "Newton's iteration does not converge; look for a discontinuous or very stiff force");
+    case IDA_TOO_MUCH_ACC:
+      return "the tolerance asks for more than double precision can deliver; ask for a looser one";
+    default:
+      return "IDA returned " + std::to_string(code);
+  }
+}
+
+std::string IdaStepper::State::advice() const {
+  return "stiff: " + newton.stiffest_force() +
+         " makes vibrations much faster than the motion; if it is a spring, state it as a constraint with "
+         "compliance 1/stiffness, as in compliant(Distance{a, b, length}, 1.0 / stiffness)";
+}
+
+/// Whether most steps were longer than the vibration of a force, or shorter because of it.
+bool IdaStepper::State::has_stiff_force() const {
+  return 2 * unresolved_steps > steps || newton.fastest_of_forces() * scales.time > stiff_rate;
+}
+
+/// After a step: changes the highest order if the guard says so. IDA has no way down but to begin anew
+/// at order 1.
+void IdaStepper::State::watch_order() {
+  double h = 0.0;
+  check(IDAGetLastStep(ida.get(), &h), "IDAGetLastStep");
+  const int before = guard.order();
+  order_changed = guard.watch(h, newton.fastest_compliant());
+  if (h * newton.fastest_of_forces() > unresolved) ++unresolved_steps;
+  begin_anew = order_changed && guard.order() < before;
+}
+
+/// Before the next step, so that the last can be read until then.
+void IdaStepper::State::change_order() {
+  order_changed = false;
+  if (begin_anew) {
+    count_failures(error_tests, convergence);
+    check(IDAReInit(ida.get(), t, y.get(), yp.get()), "IDAReInit");
+    check(IDASetStopTime(ida.get(), t_end), "IDASetStopTime");
+  }
+  check(IDASetMaxOrd(ida.get(), guard.order()), "IDASetMaxOrd");
+}
+
+/// Newton's iteration that fails often with forces left out of its matrix is to have them. The larger matrix
+/// makes every step dearer, so a few failures are better borne.
+void IdaStepper::State::watch_convergence() {
+  long failures = 0;
+  check(IDAGetNumStepSolveFails(ida.get(), &failures), "IDAGetNumStepSolveFails");
+  if (failures == std::exchange(solve_failures, failures)) return;
+  if (static_cast<double>(failures - 1) > constants.tolerated_failures * static_cast<double>(steps))
+    newton.converged_badly();
+}
+
+/// Adds IDA's own counts since it began.
+void IdaStepper::State::count_failures(long& of_tests, long& of_newton) const {
+  long tests = 0, newtons = 0;
+  check(IDAGetNumErrTestFails(ida.get(), &tests), "IDAGetNumErrTestFails");
+  check(IDAGetNumStepSolveFails(ida.get(), &newtons), "IDAGetNumStepSolveFails");
+  of_tests += tests;
+  of_newton += newtons;
+}
+
+void IdaStepper::step(double /*wanted*/) {
+  State& s = *state_;
+  if (s.order_changed) s.change_order();
+  const double before = s.t;
+  const int code = IDASolve(s.ida.get(), s.t_end, &s.t, s.y.get(), s.yp.get(), IDA_ONE_STEP);
+  if (s.thrown) std::rethrow_exception(std::exchange(s.thrown, {}));
+  if (code < 0) throw StepFailure{s.explain(code), s.t};
+  ++s.steps;
+  s.noise_of_steps += s.noise_of_step;
+  s.watch_convergence();
+  // In front of a fault IDA would halve and double such steps for ever.
+  if (code == IDA_SUCCESS && s.t - before <= 4.0 * std::numeric_limits<double>::epsilon() * std::abs(s.t)) {
+    throw StepFailure{
+        s.fault_or("the step has become too short to advance time; look for a discontinuous force"), s.t};
+  }
+  s.watch_order();
+}
+
+double IdaStepper::time() const { return state_->t; }
+double IdaStepper::sine() const { return state_->newton.sine(); }
+
+void IdaStepper::interpolate(double t, std::span<double> q, std::span<double> v) const {
+  const State& s = *state_;
+  if (s.steps == 0) {
+    std::ranges::copy(s.instant(t, s.y.get()).q, q.begin());
+    std::ranges::copy(s.instant(t, s.y.get()).v, v.begin());
+    return;
+  }
+  check(IDAGetDky(s.ida.get(), t, 0, s.dense.get()), "IDAGetDky");
+  std::ranges::copy(s.instant(t, s.dense.get()).q, q.begin());
+  std::ranges::copy(s.instant(t, s.dense.get()).v, v.begin());
+}
+
+bool IdaStepper::springs(double t, Springs& out) const {
+  const State& s = *state_;
+  if (s.steps == 0) return false;
+  const auto read = [&](int derivative, std::vector<double>& numbers) {
+    check(IDAGetDky(s.ida.get(), t, derivative, s.dense.get()), "IDAGetDky");
+    const auto active = s.entries(s.dense.get()).subspan(2 * s.n(), s.m());
+    for (std::size_t r = 0; r < s.m(); ++r) numbers[static_cast<std::size_t>(s.rows.rows[r])] = active[r];
+  };
+  int order = 0;
+  double h = 0.0;
+  check(IDAGetLastOrder(s.ida.get(), &order), "IDAGetLastOrder");
+  check(IDAGetLastStep(s.ida.get(), &h), "IDAGetLastStep");
+  read(0, out.lambda);
+  read(1, out.rate);
+  if (order >= 2)
+    read(2, out.second);  // otherwise none is known
+  else
+    std::ranges::fill(out.second, 0.0);
+  out.c = 1.0 / h;
+  return true;
+}
+
+void IdaStepper::count(Statistics& statistics) const {
+  const State& s = *state_;
+  long error_tests = s.error_tests, convergence = s.convergence;
+  if (s.steps > 0) s.count_failures(error_tests, convergence);
+  statistics.steps += s.steps;
+  if (s.steps > 0)
+    statistics.accuracy = std::max(statistics.accuracy, s.asked_for + s.noise_of_steps / (s.t - s.t_start));
+  Scales scales = s.scales;
+  const Instant now = s.instant(s.t, s.y.get());
+  if (scales.of_path) scales.take(scales.further(now.q, now.v, scales.way.step, s.tolerance));
+  statistics.length = scales.length;
+  statistics.time = scales.time;
+  statistics.evaluations += s.evaluations;
+  statistics.factorisations += s.newton.factorisations();
+  statistics.linear_algebra = s.newton.method();
+  statistics.error_test_failures += error_tests;
+  statistics.convergence_failures += convergence;
+  if (s.steps > 0 && s.has_stiff_force()) statistics.advice = s.advice();
+}
+
+}  // namespace dalembert

@@ -1,0 +1,61 @@
+#include <dalembert/solvers/ida/ida_state.h>
+
+#include <sunnonlinsol/sunnonlinsol_newton.h>
+
+#include <cmath>
+
+namespace dalembert {
+
+namespace {
+
+/// As in IDA: a slower iteration has failed.
+constexpr double slowest_rate = 0.9;
+/// IDA's 4 are too few where the last of them get fresh gradients; 6 to 12 take the same steps.
+constexpr int most_corrections = 8;
+/// Of what is asked for: a first correction so small needs no second.
+constexpr double negligible = 1e-8;
+
+double rate_of(double correction, double first, int iteration) {
+  return std::pow(correction / first, 1.0 / iteration);
+}
+
+}  // namespace
+
+/// IDA's Newton iteration, but for its test of divergence. Multipliers enter the equations linearly: their
+/// first correction makes up for the predictor and may be as small as chance will have it, their second, from
+/// the squares of those of q and v, does not depend on it. Growing from one to the next they tell nothing;
+/// the iteration diverges if the corrections of q and v grow.
+void IdaStepper::State::make_newton() {
+  nonlinear.reset(check(SUNNonlinSol_Newton(y.get(), context.get())));
+  check(IDASetNonlinearSolver(ida.get(), nonlinear.get()), "IDASetNonlinearSolver");
+  const auto test = [](SUNNonlinearSolver newton, N_Vector, N_Vector correction, sunrealtype tolerance,
+                       N_Vector weight, void* data) noexcept {
+    State& s = *static_cast<State*>(data);
+    int iteration = 0;
+    (void)SUNNonlinSolGetCurIter(newton, &iteration);  // cannot fail
+    return s.test_convergence(iteration, correction, weight, tolerance);
+  };
+  check(IDASetMaxNonlinIters(ida.get(), most_corrections), "IDASetMaxNonlinIters");
+  check(SUNNonlinSolSetConvTestFn(nonlinear.get(), test, this), "SUNNonlinSolSetConvTestFn");
+}
+
+int IdaStepper::State::test_convergence(int iteration, N_Vector correction, N_Vector weight,
+                                        double newton_tolerance) {
+  const double size = N_VWrmsNorm(correction, weight);
+  const auto of_motion = [&] { return N_VWrmsNormMask(correction, weight, id.get()); };
+  if (iteration == 0) {
+    first_correction = size;
+    first_of_motion = of_motion();
+    if (size <= negligible * newton_tolerance) return SUN_NLS_SUCCESS;
+  } else {
+    const double rate = rate_of(size, first_correction, iteration);
+    if (rate > slowest_rate) {
+      const bool diverges = rate_of(of_motion(), first_of_motion, iteration) > slowest_rate;
+      return diverges ? SUN_NLS_CONV_RECVR : SUN_NLS_CONTINUE;
+    }
+    error_over_correction = rate / (1.0 - rate);
+  }
+  return error_over_correction * size <= newton_tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
+}
+
+}  // namespace dalembert

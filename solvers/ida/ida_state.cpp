@@ -1,0 +1,164 @@
+#include "dalembert/solvers/ida/ida_state.h"
+
+#include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/ida/vector_operations.h>
+
+#include <nvector/nvector_serial.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dalembert {
+
+IdaStepper::State::State(const System& s, const Start& start, const Options& options)
+    : system(&s),
+      rows(start.rows),
+      scales(start.scales),
+      asked_for(options.tolerance),
+      tolerance(constants.share_of_a_step * options.tolerance),
+      t_start(options.t_start),
+      t_end(options.t_end),
+      first_step(std::min(constants.first_implicit_step * std::sqrt(options.tolerance) * start.scales.time,
+                          options.t_end - options.t_start)),
+      e(s.evaluation()),
+      lambda(start.lambda),
+      impulse_row(static_cast<std::size_t>(start.rows.size())),
+      compliance_row(impulse_row.size()),
+      newton(s, start.rows, start.scales.time),
+      t(options.t_start) {
+  y.reset(check(N_VNew_Serial(static_cast<sunindextype>(unknowns()), context.get())));
+  vectorise(y.get());
+  yp.reset(check(N_VClone(y.get())));
+  dense.reset(check(N_VClone(y.get())));
+  id.reset(check(N_VClone(y.get())));
+  for (N_Vector v : {y.get(), yp.get(), id.get()}) N_VConst(0.0, v);
+  const auto y0 = entries(y.get());
+  const auto yp0 = entries(yp.get());
+  std::ranges::copy(start.q, y0.begin());
+  std::ranges::copy(start.v, y0.subspan(n()).begin());
+  for (std::size_t r = 0; r < m(); ++r)
+    y0[2 * n() + r] = start.lambda[static_cast<std::size_t>(rows.rows[r])];
+  std::ranges::copy(start.v, yp0.begin());
+  std::ranges::copy(start.a, yp0.subspan(n()).begin());
+  std::fill_n(entries(id.get()).begin(), 2 * n(), 1.0);
+  system->evaluate(instant(t, y.get()), e);
+  for (std::size_t r = 0; r < m(); ++r) {
+    const auto row = static_cast<std::size_t>(rows.rows[r]);
+    if (system->compliance()[row] > 0.0) yp0[2 * n() + r] = -e.psi[row] / system->compliance()[row];
+  }
+  find_impulses();
+
+  ida.reset(check(IDACreate(context.get())));
+  make_linear_solver();
+}
+
+void IdaStepper::State::find_impulses() {
+  const auto lever = scales.lever();
+  for (std::size_t r = 0; r < m(); ++r) {
+    const auto row = static_cast<std::size_t>(rows.rows[r]);
+    impulse_row[r] = impulse_of_row(*system, e.w, lever, row, scales.speed());
+    compliance_row[r] = system->compliance()[row] / gradient_length(*system, e.w, lever, row);
+  }
+}
+
+/// IDA's multipliers, one per active row, into one per row of the system.
+void IdaStepper::State::spread_multipliers(N_Vector x) {
+  const auto active = entries(x).subspan(2 * n(), m());
+  for (std::size_t r = 0; r < m(); ++r) lambda[static_cast<std::size_t>(rows.rows[r])] = active[r];
+}
+
+void IdaStepper::State::residual(double at, N_Vector x, N_Vector xp, N_Vector r) {
+  ++evaluations;
+  const Instant now = instant(at, x);
+  system->evaluate(now, e);
+  if (system->frictional()) {
+    spread_multipliers(x);
+    system->add_friction(now, lambda, e.force);
+  }
+  evaluated_at = at;
+  evaluated = x;
+  const auto qp = entries(xp).subspan(0, n());
+  const auto vp = entries(xp).subspan(n(), n());
+  const auto active = entries(x).subspan(2 * n(), m());
+  const auto rates = entries(xp).subspan(2 * n(), m());
+  const auto mu = entries(x).subspan(2 * n() + m(), m_holonomic());
+  const auto r1 = entries(r).subspan(0, n());
+  const auto r2 = entries(r).subspan(n(), n());
+  const auto r3 = entries(r).subspan(2 * n(), m());
+  const auto r4 = entries(r).subspan(2 * n() + m(), m_holonomic());
+  const auto masses = system->masses();
+  for (std::size_t i = 0; i < n(); ++i) {
+    r1[i] = masses[i] * (now.v[i] - qp[i]);
+    r2[i] = e.force[i] - masses[i] * vp[i];
+  }
+  for (std::size_t k = 0; k < m(); ++k) {
+    const auto row = static_cast<std::size_t>(rows.rows[k]);
+    const bool holonomic = k < m_holonomic();
+    for (auto j = static_cast<std::size_t>(system->row_start()[row]);
+         j < static_cast<std::size_t>(system->row_start()[row + 1]); ++j) {
+      const auto i = static_cast<std::size_t>(system->w_columns()[j]);
+      r2[i] += e.w[j] * active[k];
+      if (holonomic) r1[i] += e.w[j] * mu[k];
+    }
+    const double C = system->compliance()[row];
+    r3[k] = e.psi[row] + C * rates[k];
+    if (holonomic) r4[k] = e.g[row] + C * active[k];
+  }
+  for (const std::size_t k : rows.slack) r3[k] = mu[k];
+}
+
+/// Of a row, the largest |q| that it reads, in units of each coordinate.
+double IdaStepper::State::farthest(std::size_t row, std::span<const double> q) const {
+  double far = 0.0;
+  for (auto k = static_cast<std::size_t>(system->row_start()[row]);
+       k < static_cast<std::size_t>(system->row_start()[row + 1]); ++k) {
+    const auto i = static_cast<std::size_t>(system->w_columns()[k]);
+    far = std::max(far, std::abs(q[i]) / scales.coordinate[i]);
+  }
+  return far;
+}
+
+/// Weighs by what is asked for, but never asks for more than double precision gives to Newton's corrections:
+/// with q good to eps |q|, the v of BDF's (v - q') is good to eps |q|/h, M v' and with it lambda to
+/// M eps |q|/h^2, mu to M eps |q|/h; of rows that make an angle with others, to 1/sin^2 times that. Newton's
+/// iteration stops at a part of the weights, so they hold that many roundings.
+///
+/// The multiplier of a compliant row is felt besides in psi + C lambda', as C lambda/h: in steps that
+/// follow the vibration of its spring it is that which limits its error.
+void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
+  double h = 0.0;
+  check(IDAGetCurrentStep(ida.get(), &h), "IDAGetCurrentStep");  // 0 before the first
+  if (h == 0.0) h = first_step;
+  weighed_h = h;
+  const auto value = entries(x);
+  const auto w = entries(weight);
+  if (scales.of_path) {
+    scales.take(scales.further(value.first(n()), value.subspan(n(), n()), h, tolerance));
+    find_impulses();
+  }
+  const double eps = constants.roundings_of_newton * std::numeric_limits<double>::epsilon();
+  noise_of_step = 0.0;
+  for (std::size_t i = 0; i < n(); ++i) {
+    const double noise = eps * std::abs(value[i]);
+    const double speed = scales.velocity_error(i, value[n() + i], tolerance);
+    w[i] = 1.0 / (scales.position_error(i, value[i], tolerance) + noise);
+    w[n() + i] = 1.0 / (speed + noise / h);
+    noise_of_step = std::max(noise_of_step, noise * tolerance / speed);
+  }
+  const double amplified = eps / std::max(sine() * sine(), eps);
+  for (std::size_t r = 0; r < m(); ++r) {
+    // In units of the tolerance's own: of the scene's length, and over the step of its speed.
+    const double far = farthest(static_cast<std::size_t>(rows.rows[r]), value.first(n()));
+    const double noise = amplified * far, noise_of_speed = noise * scales.time / h;
+    // Of a multiplier far larger than its own masses explain (a heavy load on a light link) no more
+    // digits than the tolerance asks for.
+    const double impulse =
+        impulse_row[r] * (tolerance + noise_of_speed) + tolerance * h * std::abs(value[2 * n() + r]);
+    const double stretching = scales.speed() * (tolerance + eps * far * scales.time / h);
+    w[2 * n() + r] = h / impulse + compliance_row[r] / (h * stretching);
+    if (r < m_holonomic()) w[2 * n() + m() + r] = h / (impulse_row[r] * scales.time * (tolerance + noise));
+  }
+}
+
+}  // namespace dalembert

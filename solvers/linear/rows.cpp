@@ -1,0 +1,32 @@
+#include "dalembert/solvers/linear/rows.h"
+
+#include <cmath>
+
+namespace dalembert {
+
+double mobility(const System& system, std::span<const double> w, std::size_t row) {
+  double sum = 0.0;
+  for (auto k = static_cast<std::size_t>(system.row_start()[row]);
+       k < static_cast<std::size_t>(system.row_start()[row + 1]); ++k) {
+    sum += w[k] * w[k] / system.masses()[static_cast<std::size_t>(system.w_columns()[k])];
+  }
+  return sum;
+}
+
+double gradient_length(const System& system, std::span<const double> w, std::span<const double> lever,
+                       std::size_t row) {
+  double square = 0.0;
+  for (auto k = static_cast<std::size_t>(system.row_start()[row]);
+       k < static_cast<std::size_t>(system.row_start()[row + 1]); ++k) {
+    const double slope = w[k] / lever[static_cast<std::size_t>(system.w_columns()[k])];
+    square += slope * slope;
+  }
+  return std::sqrt(square);
+}
+
+double impulse_of_row(const System& system, std::span<const double> w, std::span<const double> lever,
+                      std::size_t row, double speed) {
+  return speed * gradient_length(system, w, lever, row) / mobility(system, w, row);
+}
+
+}  // namespace dalembert

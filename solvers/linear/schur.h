@@ -1,0 +1,76 @@
+#pragma once
+
+#include <dalembert/core/scene/system.h>
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/linear/ldl.h>
+
+#include <span>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// Solves
+///
+///   [ M  -W^T ] [ x ]   [ a ]
+///   [ W   s   ] [ y ] = [ b ]                                                            (1)
+///
+/// through the Schur complement of M, which is diagonal and positive:
+///
+///   S y = b - W M^-1 a,   x = M^-1 (a + W^T y),   S = W M^-1 W^T + s                      (2)
+///
+/// s is diagonal, not 0 in compliant rows only. S has one row per constraint, is positive definite if the
+/// rows of W are independent, and for a chain it is tridiagonal: a sum of products of entries of W and V = W
+/// M^-1 that share a coordinate; which ones is settled once.
+///
+/// The condition of S is the square of that of W M^-1/2: rows that make an angle of 1e-8 are
+/// dependent here, while (1) as a whole still tells them apart. SaddleMatrix takes care of that.
+class SchurComplement {
+ public:
+  /// `rows` are the rows of the system's W to use.
+  SchurComplement(const System& system, std::span<const int> rows);
+
+  /// Number of products that make up S: the sum over all coordinates of the square of how many
+  /// entries of W they have. Large where many constraints share a particle.
+  [[nodiscard]] static std::size_t products(const System& system, std::span<const int> rows);
+
+  /// `w` in the pattern of the system's W, `s` one number per row of the system, or none for 0. False if S is
+  /// singular to working precision.
+  [[nodiscard]] bool factorise(std::span<const double> w, std::span<const double> s = {});
+  /// In place: (a, b) becomes (x, y), n and then one number per row.
+  void solve(std::span<double> x);
+  /// See SparseLdl: sin^2 of the smallest angle that a row makes with others.
+  [[nodiscard]] double smallest_pivot() const { return ldl_.smallest_pivot(); }
+
+ private:
+  /// A row's entries in the system's W, and where its copies in w_ and v_ start.
+  struct Row {
+    std::size_t first, last, own;
+  };
+  /// A sum of products of consecutive entries of W and V; goes to one place in S.
+  struct Product {
+    int place, a, b, count;
+  };
+  /// Where a compliant row of the system stands on the diagonal of S.
+  struct Diagonal {
+    std::size_t row;
+    int place;
+  };
+  struct Plan {
+    std::vector<Row> rows;
+    std::vector<Diagonal> compliant;        // `place` is the number of an entry
+    std::vector<SparseLdl::Entry> entries;  // one per product
+    std::vector<Product> products;
+  };
+  [[nodiscard]] static Plan plan(const System& system, std::span<const int> rows);
+  SchurComplement(const System& system, Plan plan);
+
+  std::vector<double> inverse_mass_;
+  std::vector<Row> rows_;
+  std::vector<int> column_;
+  std::vector<double> w_, v_;
+  std::vector<Product> products_;
+  std::vector<Diagonal> compliant_;
+  SparseLdl ldl_;
+};
+
+}  // namespace dalembert

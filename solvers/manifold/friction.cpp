@@ -1,0 +1,190 @@
+#include "dalembert/solvers/manifold/friction.h"
+
+#include <dalembert/core/errors.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <sstream>
+#include <utility>
+
+namespace dalembert {
+
+namespace {
+
+/// A law that is linear between two steps needs two, one that changes its slope with the sign of
+/// lambda three; smooth laws converge quadratically.
+constexpr int most_steps = 30;
+
+/// Newton's iteration stops when the forces are those that the last slope predicted, to some hundred
+/// roundings of the user's law.
+constexpr double same = 1e-13;
+
+double largest(std::span<const double> x) {
+  double most = 0.0;
+  for (const double value : x) most = std::max(most, std::abs(value));
+  return most;
+}
+
+}  // namespace
+
+FrictionSolver::FrictionSolver(const System& system, const ActiveRows& rows)
+    : system_(&system),
+      rows_(rows),
+      matrix_(system, rows, KktMatrix::Forces::friction),
+      given_(static_cast<std::size_t>(matrix_.size())),
+      lambda_(static_cast<std::size_t>(system.rows())),
+      slope_(system.friction_pattern().size()),
+      slope_mirrored_(slope_.size()),
+      force_(static_cast<std::size_t>(system.coordinates())),
+      predicted_(force_.size()) {}
+
+void FrictionSolver::add_slope(double factor, std::span<const double> x, std::span<double> y) const {
+  for (std::size_t k = 0; k < slope_.size(); ++k) {
+    const auto [coordinate, row] = system_->friction_pattern()[k];
+    y[static_cast<std::size_t>(coordinate)] += factor * slope_[k] * x[static_cast<std::size_t>(row)];
+  }
+}
+
+bool FrictionSolver::settled() const {
+  double difference = 0.0;
+  for (std::size_t i = 0; i < force_.size(); ++i)
+    difference = std::max(difference, std::abs(force_[i] - predicted_[i]));
+  return difference <= same * std::max(largest(force_), largest(predicted_));
+}
+
+/// The multipliers that the motion would have without friction.
+bool FrictionSolver::begin(std::span<const double> w, std::span<const double> s) {
+  if (!matrix_.factorise(w, s)) return false;
+  without_.assign(given_.begin(), given_.end());
+  matrix_.solve(without_);
+  std::ranges::fill(lambda_, 0.0);
+  spread(without_);
+  return std::ranges::all_of(without_, [](double value) { return std::isfinite(value); });
+}
+
+void FrictionSolver::spread(std::span<const double> x) {
+  for (std::size_t r = 0; r < rows_.rows.size(); ++r)
+    lambda_[static_cast<std::size_t>(rows_.rows[r])] = x[force_.size() + r];
+}
+
+FrictionSolver::Outcome FrictionSolver::iterate(const Instant& at, std::span<const double> w,
+                                                std::span<const double> s, std::span<double> x) {
+  const std::size_t n = force_.size();
+  std::ranges::fill(force_, 0.0);
+  system_->add_friction(at, lambda_, force_);
+  for (int step = 0; step < most_steps; ++step) {
+    system_->friction_slope(at, lambda_, slope_);
+    if (!matrix_.factorise_with_friction(w, s, slope_))
+      return matrix_.factorise(w, s) ? Outcome::none : Outcome::singular;
+    // F_f(lambda) - slope lambda: what stands on the right of (2), and with slope times the new lambda
+    // the force predicted there.
+    std::ranges::copy(force_, predicted_.begin());
+    add_slope(-1.0, lambda_, predicted_);
+    std::ranges::copy(given_, x.begin());
+    for (std::size_t i = 0; i < n; ++i) x[i] += predicted_[i];
+    matrix_.solve(x);
+    if (!std::ranges::all_of(x, [](double value) { return std::isfinite(value); })) return Outcome::singular;
+    spread(x);
+    add_slope(1.0, lambda_, predicted_);
+    std::ranges::fill(force_, 0.0);
+    system_->add_friction(at, lambda_, force_);
+    if (settled()) return matrix_.sign_of_determinant() > 0 ? Outcome::solved : Outcome::none;
+  }
+  return Outcome::none;
+}
+
+/// From the multipliers of the last solution, if there is one and that leads to another.
+FrictionSolver::Outcome FrictionSolver::iterate_from_last(const Instant& at, std::span<const double> w,
+                                                          std::span<const double> s,
+                                                          std::span<double> x) try {
+  return std::exchange(begun_, false) ? iterate(at, w, s, x) : Outcome::none;
+} catch (const EquationFault&) {
+  return Outcome::none;
+}
+
+bool FrictionSolver::solve(const Instant& at, std::span<const double> w, std::span<const double> s,
+                           std::span<double> x) {
+  std::ranges::copy(x, given_.begin());
+  Outcome outcome = iterate_from_last(at, w, s, x);
+  if (outcome == Outcome::none) {
+    if (!begin(w, s)) return false;
+    outcome = iterate(at, w, s, x);
+  }
+  if (outcome == Outcome::none) refuse(at.t);
+  begun_ = outcome == Outcome::solved;
+  return begun_;
+}
+
+/// A law that has no slope at -lambda has no solution there either.
+bool FrictionSolver::mirrored_slope(const Instant& at) try {
+  for (const double value : lambda_) mirrored_.push_back(-value);
+  system_->friction_slope(at, mirrored_, slope_mirrored_);
+  return true;
+} catch (const EquationFault&) {
+  return false;
+}
+
+void FrictionSolver::require_unique(const Instant& at, std::span<const double> w, std::span<const double> s) {
+  mirrored_.clear();
+  if (!mirrored_slope(at) || slope_mirrored_ == slope_) return;
+  require_regular(matrix_.factorise_with_friction(w, s, slope_mirrored_) && matrix_.sign_of_determinant() > 0,
+                  at.t);
+}
+
+void FrictionSolver::find_what_is_read(const Instant& at) {
+  constexpr int trials = 4;
+  reads_.assign(slope_.size(), 0);
+  std::vector<double> v(at.v.size()), lambda(lambda_.size()), slope(slope_.size());
+  std::minstd_rand generator;
+  const double speed = std::max(1.0, largest(at.v)), force = std::max(1.0, largest(lambda_));
+  const auto any_up_to = [&generator](double size) {
+    return size *
+           (2.0 * static_cast<double>(generator()) / static_cast<double>(std::minstd_rand::max()) - 1.0);
+  };
+  for (int k = 0; k < trials; ++k) {
+    std::ranges::generate(v, [&] { return any_up_to(speed); });
+    std::ranges::generate(lambda, [&] { return any_up_to(force); });
+    try {
+      system_->friction_slope({at.t, at.q, v}, lambda, slope);
+    } catch (const EquationFault&) {
+      std::ranges::fill(slope, 1.0);  // a law without values there may read anything
+    }
+    for (std::size_t i = 0; i < slope.size(); ++i) {
+      if (slope[i] != 0.0) reads_[i] = 1;
+    }
+  }
+}
+
+void FrictionSolver::require_determined(const Instant& at, std::span<const char> determined) {
+  if (std::ranges::find(determined, 0) == determined.end()) return;
+  if (reads_.empty()) find_what_is_read(at);
+  for (std::size_t k = 0; k < slope_.size(); ++k) {
+    const int row = system_->friction_pattern()[k].column;
+    if (determined[static_cast<std::size_t>(row)] || (!reads_[k] && slope_[k] == 0.0)) continue;
+    throw InconsistentStart(system_->force_of_friction(k) + " reads the multiplier of " +
+                            system_->row_label(row) +
+                            ", which the motion does not determine: other constraints repeat that one; "
+                            "remove what is redundant");
+  }
+}
+
+void FrictionSolver::require_regular(bool regular, double t) {
+  if (!regular) refuse(t);
+}
+
+/// Names the force with the largest slope: where several act, the likeliest.
+void FrictionSolver::refuse(double t) const {
+  std::size_t steepest = 0;
+  for (std::size_t k = 0; k < slope_.size(); ++k)
+    if (std::abs(slope_[k]) > std::abs(slope_[steepest])) steepest = k;
+  std::ostringstream what;
+  what.precision(10);
+  what << system_->force_of_friction(steepest) << " changes the multiplier of "
+       << system_->row_label(system_->friction_pattern()[steepest].column)
+       << " that it reads so much that no or no unique acceleration exists (Painleve's paradox; t = " << t
+       << "); make the friction smaller, or end the run before";
+  throw EquationFault(what.str());
+}
+
+}  // namespace dalembert

@@ -1,0 +1,257 @@
+#include "dalembert/solvers/manifold/manifold.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dalembert {
+
+namespace {
+
+/// s over the mobility w M^-1 w of a row whose multiplier is given: beyond round-off.
+constexpr double unyielding = 1e20;
+
+Violation largest(const System& system, std::span<const double> residual, std::span<const double> w,
+                  std::span<const double> lever) {
+  Violation worst;
+  for (std::size_t r = 0; r < residual.size(); ++r) {
+    if (residual[r] == 0.0) continue;
+    const double size = std::abs(residual[r]) / gradient_length(system, w, lever, r);
+    if (!(size <= worst.size)) worst = {size, static_cast<int>(r)};
+  }
+  return worst;
+}
+
+}  // namespace
+
+Violation position_violation(const System& system, const System::Evaluation& e,
+                             std::span<const double> lever) {
+  return largest(system, e.g, e.w, lever);
+}
+
+Violation velocity_violation(const System& system, const System::Evaluation& e,
+                             std::span<const double> lever) {
+  return largest(system, e.psi, e.w, lever);
+}
+
+Manifold::Manifold(const System& system, const ActiveRows& rows, std::vector<double> lever)
+    : system_(&system),
+      rows_(rows),
+      lever_(std::move(lever)),
+      e_(system.evaluation()),
+      gamma_(static_cast<std::size_t>(system.rows())),
+      kkt_(system, rows),
+      minimum_norm_(system, rows, lever_),
+      weakest_(system) {
+  x_.resize(static_cast<std::size_t>(kkt_.size()));
+  q_before_.resize(static_cast<std::size_t>(system.coordinates()));
+  if (system.frictional()) friction_.emplace(system, rows);
+  if (!system.compliant()) return;
+  for (auto* numbers : {&springs_.lambda, &springs_.rate, &springs_.second, &s_})
+    numbers->resize(static_cast<std::size_t>(system.rows()), 0.0);
+  springs_before_ = springs_;
+}
+
+void Manifold::follow(const Springs& springs) {
+  springs_ = springs;
+  following_ = true;
+}
+
+/// Makes the residuals of compliant rows those of g + C lambda.
+void Manifold::add_springs() {
+  for (std::size_t r = 0; r < springs_.lambda.size(); ++r) {
+    const double C = system_->compliance()[r];
+    if (C == 0.0) continue;
+    if (!following_) {
+      springs_.lambda[r] = -e_.g[r] / C;
+      springs_.rate[r] = -e_.psi[r] / C;
+    }
+    e_.g[r] = following_ ? e_.g[r] + C * springs_.lambda[r] : 0.0;
+    e_.psi[r] = following_ ? e_.psi[r] + C * springs_.rate[r] : 0.0;
+  }
+}
+
+void Manifold::weigh_springs() {
+  for (std::size_t r = 0; r < s_.size(); ++r) {
+    if (system_->compliance()[r] > 0.0)
+      s_[r] = following_ ? springs_.c * springs_.c * system_->compliance()[r]
+                         : unyielding * mobility(*system_, e_.w, r);
+  }
+}
+
+double Manifold::sine(const Instant& at) {
+  evaluate(at);
+  return factorise() ? sine() : 0.0;
+}
+
+double Manifold::weakest_direction(std::span<const double> lever, std::span<double> n) {
+  (void)weakest_.find(kkt_, rows_, e_.w);
+  double largest = 0.0, response = 0.0;
+  for (std::size_t i = 0; i < n.size(); ++i)
+    largest = std::max(largest, std::abs(weakest_.n()[i]) * lever[i]);
+  for (std::size_t i = 0; i < n.size(); ++i) n[i] = weakest_.n()[i] / largest;
+  for (const int row : rows_.rows) {
+    const auto r = static_cast<std::size_t>(row);
+    double change = 0.0;
+    for (auto k = static_cast<std::size_t>(system_->row_start()[r]);
+         k < static_cast<std::size_t>(system_->row_start()[r + 1]); ++k)
+      change += e_.w[k] * n[static_cast<std::size_t>(system_->w_columns()[k])];
+    response = std::max(response, std::abs(change) / gradient_length(*system_, e_.w, lever_, r));
+  }
+  return response;
+}
+
+bool Manifold::factorise() {
+  weigh_springs();
+  return kkt_.factorise(e_.w, s_);
+}
+
+template <class F>
+void Manifold::hear(const F& equations) {
+  if (!listening_) return equations();
+  const Branches listening(heard_);
+  equations();
+}
+
+void Manifold::evaluate(const Instant& at) {
+  std::ranges::fill(heard_, 0);
+  hear([&] { system_->evaluate(at, e_); });
+  add_springs();
+  ++evaluations_;
+}
+
+void Manifold::solve_for_position_step(std::size_t n) {
+  std::fill_n(x_.begin(), n, 0.0);
+  for (std::size_t r = 0; r < rows_.rows.size(); ++r) {
+    const bool holonomic = static_cast<int>(r) < rows_.holonomic;
+    x_[n + r] = holonomic ? -e_.g[static_cast<std::size_t>(rows_.rows[r])] : 0.0;
+  }
+  kkt_.solve(x_);
+}
+
+Violation Manifold::project_positions(double t, std::span<double> q, std::span<const double> v,
+                                      double tolerance) {
+  constexpr int most_iterations = 100;
+  constexpr int most_halvings = 30;
+  evaluate({t, q, v});
+  Violation left = position_violation(*system_, e_, lever_);
+  bool matrix_serves = false;
+  for (int i = 0; i < most_iterations && left.size > tolerance; ++i) {
+    if (!matrix_serves && !factorise()) break;
+    solve_for_position_step(q.size());
+    std::ranges::copy(q, q_before_.begin());
+    springs_before_ = springs_;
+    const Violation before = left;
+    double fraction = 1.0;
+    for (int halving = 0; halving < most_halvings; ++halving, fraction *= 0.5) {
+      for (std::size_t k = 0; k < q.size(); ++k) q[k] = q_before_[k] + fraction * x_[k];
+      if (following_) add_to_springs(springs_before_.lambda, fraction, springs_.lambda);
+      evaluate({t, q, v});
+      left = position_violation(*system_, e_, lever_);
+      if (left.size < before.size) break;
+    }
+    if (!(left.size < before.size)) {
+      std::ranges::copy(q_before_, q.begin());
+      springs_ = springs_before_;
+      evaluate({t, q, v});
+      return before;
+    }
+    // Close to the manifold one matrix serves for all iterations.
+    matrix_serves = left.size < 0.1 * before.size;
+  }
+  return left;
+}
+
+/// to = from + c^2 y in compliant rows, with y of the last solve.
+void Manifold::add_to_springs(const std::vector<double>& from, double fraction, std::vector<double>& to) {
+  const std::size_t n = x_.size() - rows_.rows.size();
+  for (std::size_t k = 0; k < rows_.rows.size(); ++k) {
+    const auto r = static_cast<std::size_t>(rows_.rows[k]);
+    if (system_->compliance()[r] > 0.0) to[r] = from[r] + fraction * springs_.c * springs_.c * x_[n + k];
+  }
+}
+
+/// (2), with the matrix at hand. Of the equations psi is then out of date, and F if it depends on
+/// velocities.
+void Manifold::correct_velocities(std::span<double> v) {
+  const std::size_t n = v.size();
+  std::fill_n(x_.begin(), n, 0.0);
+  for (std::size_t r = 0; r < rows_.rows.size(); ++r)
+    x_[n + r] = -e_.psi[static_cast<std::size_t>(rows_.rows[r])];
+  kkt_.solve(x_);
+  for (std::size_t k = 0; k < n; ++k) v[k] += x_[k];
+  if (following_) add_to_springs(springs_.rate, 1.0, springs_.rate);
+}
+
+/// (3), with the matrix and the forces at hand. Friction has a matrix of its own.
+bool Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
+  const std::size_t n = at.q.size();
+  hear([&] { system_->bias(at, gamma_); });
+  std::ranges::copy(e_.force, x_.begin());
+  for (std::size_t k = 0; k < rows_.rows.size(); ++k) {
+    const auto r = static_cast<std::size_t>(rows_.rows[k]);
+    x_[n + k] = -gamma_[r];
+    if (system_->compliance()[r] > 0.0)
+      x_[n + k] += s_[r] * springs_.lambda[r] - system_->compliance()[r] * springs_.second[r];
+  }
+  if (!friction_) {
+    kkt_.solve(x_);
+  } else if (!friction_->solve(at, e_.w, s_, x_)) {
+    return false;
+  }
+  std::copy_n(x_.begin(), n, a.begin());
+  return true;
+}
+
+void Manifold::multipliers(std::span<double> lambda) const {
+  const std::size_t n = x_.size() - rows_.rows.size();
+  std::ranges::fill(lambda, 0.0);
+  for (std::size_t r = 0; r < rows_.rows.size(); ++r)
+    lambda[static_cast<std::size_t>(rows_.rows[r])] = x_[n + r];
+}
+
+bool Manifold::accelerate(const Instant& at, std::span<double> a) {
+  evaluate(at);
+  if (friction_) {
+    weigh_springs();
+  } else if (!factorise()) {
+    return false;
+  }
+  return solve_for_accelerations(at, a);
+}
+
+bool Manifold::land(double t, std::span<double> q, std::span<double> v, std::span<double> a) {
+  evaluate({t, q, v});
+  if (rows_.holonomic > 0) {
+    if (!factorise()) return false;
+    solve_for_position_step(q.size());
+    for (std::size_t k = 0; k < q.size(); ++k) q[k] += x_[k];
+    evaluate({t, q, v});
+  }
+  if (!factorise()) return false;
+  correct_velocities(v);
+  if (!system_->damping_pattern().empty() || listening_) evaluate({t, q, v});
+  return solve_for_accelerations({t, q, v}, a);
+}
+
+bool Manifold::solve_motion(double t, std::span<const double> q, std::span<double> v, std::span<double> a,
+                            std::span<double> lambda) {
+  evaluate({t, q, v});
+  if (!factorise()) return false;
+  if (!rows_.rows.empty()) {
+    correct_velocities(v);
+    evaluate({t, q, v});
+  }
+  if (!solve_for_accelerations({t, q, v}, a)) return false;
+  multipliers(lambda);
+  const bool finite = std::ranges::all_of(x_, [](double x) { return std::isfinite(x); });
+  if (finite && minimum_norm_.needed()) {
+    minimum_norm_.spread([this](std::span<double> x) { kkt_.solve(x); }, {t, q, v}, e_, lambda);
+  }
+  if (finite && friction_) {
+    friction_->require_determined({t, q, v}, unique());
+    friction_->require_unique({t, q, v}, e_.w, s_);
+  }
+  return finite;
+}
+
+}  // namespace dalembert

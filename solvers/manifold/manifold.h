@@ -1,0 +1,127 @@
+#pragma once
+
+#include <dalembert/core/autodiff/branches.h>
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/linear/saddle.h>
+#include <dalembert/solvers/manifold/friction.h>
+#include <dalembert/solvers/manifold/minimum_norm.h>
+#include <dalembert/solvers/manifold/springs.h>
+#include <dalembert/solvers/manifold/weakest_direction.h>
+
+#include <optional>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// The largest violation of the constraints at a state, and which row has it. A row's residual is
+/// divided by the length of its gradient: |g|/|G| is the distance to the constraint, |psi|/|W| a
+/// speed. `lever` turns each coordinate into a length: 1, or the scene's length for an angle.
+struct Violation {
+  double size = 0.0;
+  int row = -1;
+};
+[[nodiscard]] Violation position_violation(const System& system, const System::Evaluation& e,
+                                           std::span<const double> lever);
+[[nodiscard]] Violation velocity_violation(const System& system, const System::Evaluation& e,
+                                           std::span<const double> lever);
+
+/// The set of states that obey the constraints: puts a state onto it, and finds the accelerations
+/// and multipliers there.
+///
+/// Position: Newton's iteration for the least mass-weighted change, with q0 the given state,
+///
+///   [ M  -W^T ] [ dq ]   [  0 ]
+///   [ W   0   ] [ y  ] = [ -g ]      (0 in nonholonomic rows).                        (1)
+///
+/// Velocity: the same matrix with -psi on the right, linear and so done in one solve.        (2)
+/// Acceleration and multipliers:
+///
+///   [ M  -W^T ] [ v'     ]   [    F   ]
+///   [ W   0   ] [ lambda ] = [ -gamma ].                                              (3)
+///
+/// Where forces read multipliers (3) is that of FrictionSolver, with its errors.
+///
+/// A compliant row takes part with its multiplier as a variable, s = c^2 C in the lower right block:
+/// its residuals are g + C lambda, psi + C lambda', W v' + gamma + C lambda'', and y changes lambda by
+/// c^2 y. A stiff spring (s small) is treated like a rigid constraint and gets the recovered
+/// multiplier; of a soft one (s large) the stepper's own is kept. Without `follow` the multipliers are
+/// -g/C, the limit of large s.
+class Manifold {
+ public:
+  Manifold(const System& system, const ActiveRows& rows, std::vector<double> lever);
+
+  /// From here on the multipliers of compliant rows are these, and projected with the state.
+  void follow(const Springs& springs);
+
+  /// (1), with steps halved until they bring the state closer, until the distance is at most
+  /// `tolerance` or no longer shrinks. Returns what is left. Throws EquationFault.
+  Violation project_positions(double t, std::span<double> q, std::span<const double> v, double tolerance);
+  /// (2) and (3) at positions that obey the constraints. False if the matrix is singular there.
+  /// `lambda` has one number per row of the system; where rows depend on each other the forces are
+  /// the smallest that do (see MinimumNorm).
+  [[nodiscard]] bool solve_motion(double t, std::span<const double> q, std::span<double> v,
+                                  std::span<double> a, std::span<double> lambda);
+
+  /// (3) alone, at any state: the accelerations of the constrained motion. False if singular.
+  [[nodiscard]] bool accelerate(const Instant& at, std::span<double> a);
+  /// After a step: one step of (1), then (2) and (3) with the matrix of the new positions. What one
+  /// step of (1) leaves is the square of what it found. False if singular.
+  [[nodiscard]] bool land(double t, std::span<double> q, std::span<double> v, std::span<double> a);
+
+  /// The sine of the smallest angle that a row makes with others, in the metric of the masses: at a state,
+  /// and where the matrix was factored last. 0 where rows depend on each other.
+  [[nodiscard]] double sine(const Instant& at);
+  [[nodiscard]] double sine() const { return kkt_.sine(); }
+  /// Where the matrix was factored last, the direction of the coordinates that the constraints hold least,
+  /// with the largest entry 1 (lengths, by `lever`). Returns the largest violation, as a length, of a unit of
+  /// it.
+  double weakest_direction(std::span<const double> lever, std::span<double> n);
+
+  /// From here on comparisons that the constraints make are heard.
+  void listen() { listening_ = true; }
+  /// Those of the last `accelerate` or `land`.
+  [[nodiscard]] const Branches::Outcomes& heard() const { return heard_; }
+
+  /// The multipliers last found, one per row of the system; 0 in rows that are not in use.
+  void multipliers(std::span<double> lambda) const;
+
+  /// Per row of the system, whether its last multiplier is determined by the motion.
+  [[nodiscard]] std::span<const char> unique() const { return minimum_norm_.unique(); }
+
+  /// The equations at the state last visited.
+  [[nodiscard]] const System::Evaluation& equations() const { return e_; }
+  [[nodiscard]] long evaluations() const { return evaluations_; }
+  [[nodiscard]] long factorisations() const {
+    return kkt_.factorisations() + (friction_ ? friction_->factorisations() : 0);
+  }
+  [[nodiscard]] const char* method() const { return kkt_.method(); }
+
+ private:
+  template <class F>
+  void hear(const F& equations);
+  void evaluate(const Instant& at);
+  void add_springs();
+  void weigh_springs();
+  [[nodiscard]] bool factorise();
+  void add_to_springs(const std::vector<double>& from, double fraction, std::vector<double>& to);
+  void solve_for_position_step(std::size_t n);
+  void correct_velocities(std::span<double> v);
+  [[nodiscard]] bool solve_for_accelerations(const Instant& at, std::span<double> a);
+
+  const System* system_;
+  ActiveRows rows_;
+  std::vector<double> lever_;
+  System::Evaluation e_;
+  std::vector<double> gamma_, x_, q_before_;
+  Springs springs_, springs_before_;
+  std::vector<double> s_;
+  bool following_ = false, listening_ = false;
+  Branches::Outcomes heard_;
+  SaddleMatrix kkt_;
+  MinimumNorm minimum_norm_;
+  WeakestDirection weakest_;
+  std::optional<FrictionSolver> friction_;  // if any force reads a multiplier
+  long evaluations_ = 0;
+};
+
+}  // namespace dalembert

@@ -1,0 +1,191 @@
+#include "dalembert/solvers/manifold/minimum_norm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace dalembert {
+
+namespace {
+
+constexpr double round_off = std::numeric_limits<double>::epsilon();
+
+/// The worst change of the positions is some times worse than the one that is tried.
+constexpr double margin = 10.0;
+
+std::vector<int> others(const System& system, const ActiveRows& active) {
+  std::vector<int> dropped;
+  for (int r = 0; r < system.rows(); ++r) {
+    if (!std::ranges::binary_search(active.rows, r)) dropped.push_back(r);
+  }
+  return dropped;
+}
+
+/// Numbers between -1 and 1 without a pattern, which a scene might share.
+std::vector<double> irregular(std::size_t count) {
+  std::minstd_rand generator;
+  std::vector<double> numbers(count);
+  for (double& x : numbers)
+    x = 2.0 * static_cast<double>(generator()) / static_cast<double>(std::minstd_rand::max()) - 1.0;
+  return numbers;
+}
+
+/// How exactly positions are known: to some roundings of the farthest, and to what is left of the
+/// constraints.
+double rounding(const System& system, const Instant& at, const System::Evaluation& e,
+                std::span<const double> lever) {
+  constexpr double roundings = 4.0;
+  double size = 0.0;
+  for (std::size_t i = 0; i < lever.size(); ++i)
+    size = std::max(size, roundings * round_off * std::abs(at.q[i]) * lever[i]);
+  for (std::size_t r = 0; r < e.g.size(); ++r) {
+    if (system.compliance()[r] == 0.0 && e.g[r] != 0.0)
+      size = std::max(size, std::abs(e.g[r]) / gradient_length(system, e.w, lever, r));
+  }
+  return size;
+}
+
+}  // namespace
+
+MinimumNorm::MinimumNorm(const System& system, const ActiveRows& active, std::vector<double> lever)
+    : system_(&system),
+      lever_(std::move(lever)),
+      active_(active.rows),
+      dropped_(others(system, active)),
+      unique_(static_cast<std::size_t>(system.rows()), 1) {
+  if (!dropped_.empty()) place(system);
+}
+
+void MinimumNorm::place(const System& system) {
+  std::vector<const Layout::Constraint*> constraints;
+  for (const auto& c : system.layout()->constraints) constraints.push_back(&c);
+  std::ranges::sort(constraints, {}, &Layout::Constraint::first_row);
+  Eigen::Index first = 0, forces = 0;
+  for (const auto* c : constraints) {
+    if (!c->internal) {
+      stated_.push_back({c->first_row, c->rows, c->inputs, first, forces});
+      forces += stated_.back().forces();
+    }
+    first += static_cast<Eigen::Index>(c->rows) * c->inputs;
+  }
+  for (const int r : dropped_) unique_[static_cast<std::size_t>(r)] = 0;
+  const auto d = static_cast<Eigen::Index>(dropped_.size());
+  x_.resize(static_cast<std::size_t>(system.coordinates()) + active_.size());
+  U_.resize(static_cast<std::size_t>(first));
+  nudge_ = irregular(lever_.size());
+  q_nearby_.resize(lever_.size());
+  nearby_ = system.evaluation();
+  size_.resize(system.rows());
+  N_.resize(system.rows(), d);
+  DN_.resize(forces, d);
+  zero_.resize(d);
+  scale_.resize(d);
+  lambda_.resize(system.rows(), 1);
+  right_.resize(forces, 1);
+}
+
+void MinimumNorm::spread(const Solve& solve, const Instant& at, const System::Evaluation& e,
+                         std::span<double> lambda) {
+  measure(e.w);
+  evaluate_nearby(at, e);
+  find_null_space(solve, e.w);
+  mark_unique();
+  Eigen::Map<Eigen::VectorXd> all(lambda.data(), N_.rows());
+  lambda_ = all;
+  minimise();
+  all.noalias() += N_ * z_;
+}
+
+/// The rods inside bodies are of unit gradient: their multipliers are forces.
+void MinimumNorm::measure(std::span<const double> w) {
+  system_->forces_at_points(w, lever_, U_);
+  size_.setOnes();
+  for (const Stated& c : stated_) {
+    for (Eigen::Index k = 0; k < c.rows; ++k)
+      size_[c.row + k] =
+          Eigen::Map<Eigen::VectorXd>(&U_[static_cast<std::size_t>(c.first + k * c.inputs)], c.inputs).norm();
+  }
+}
+
+void MinimumNorm::evaluate_nearby(const Instant& at, const System::Evaluation& e) {
+  const double size = rounding(*system_, at, e, lever_);
+  for (std::size_t i = 0; i < lever_.size(); ++i) q_nearby_[i] = at.q[i] + nudge_[i] * size / lever_[i];
+  system_->evaluate({at.t, q_nearby_, at.v}, nearby_);
+}
+
+void MinimumNorm::find_null_space(const Solve& solve, std::span<const double> w) {
+  constexpr int solves = 2;  // the first may have lost half of the digits, see SaddleMatrix
+  const auto y = std::span(x_).subspan(lever_.size());
+  N_.setZero();
+  for (Eigen::Index j = 0; j < N_.cols(); ++j) {
+    const int own = dropped_[static_cast<std::size_t>(j)];
+    N_(own, j) = 1.0;
+    for (int k = 0; k < solves; ++k) {
+      solve_for_correction(solve, w, j);
+      for (std::size_t r = 0; r < y.size(); ++r) N_(active_[r], j) += y[r];
+    }
+    solve_for_correction(solve, nearby_.w, j);
+    double change = round_off * N_.col(j).cwiseProduct(size_).lpNorm<Eigen::Infinity>();
+    for (std::size_t r = 0; r < y.size(); ++r) change = std::max(change, std::abs(y[r]) * size_[active_[r]]);
+    zero_[j] = margin * change;
+  }
+}
+
+/// M x - W_a^T y = W^T N_j,  W_a x = 0: then y is what N_j lacks.
+void MinimumNorm::solve_for_correction(const Solve& solve, std::span<const double> w, Eigen::Index j) {
+  std::ranges::fill(x_, 0.0);
+  for (Eigen::Index r = 0; r < N_.rows(); ++r) {
+    const double factor = N_(r, j);
+    if (factor == 0.0) continue;
+    const auto row = static_cast<std::size_t>(r);
+    for (auto k = static_cast<std::size_t>(system_->row_start()[row]);
+         k < static_cast<std::size_t>(system_->row_start()[row + 1]); ++k)
+      x_[static_cast<std::size_t>(system_->w_columns()[k])] += w[k] * factor;
+  }
+  solve(x_);
+}
+
+void MinimumNorm::mark_unique() {
+  for (const int r : active_) {
+    char& unique = unique_[static_cast<std::size_t>(r)];
+    unique = 1;
+    for (Eigen::Index j = 0; j < N_.cols(); ++j) {
+      if (std::abs(N_(r, j)) * size_[r] > zero_[j]) unique = 0;
+    }
+    if (unique) N_.row(r).setZero();
+  }
+}
+
+/// D x, column by column of x.
+void MinimumNorm::weigh(const Eigen::MatrixXd& multipliers, Eigen::MatrixXd& forces) const {
+  using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+  for (const Stated& c : stated_) {
+    const auto own = multipliers.middleRows(c.row, c.rows);
+    auto force = forces.middleRows(c.force, c.forces());
+    if (c.rows == 1) {
+      force = size_[c.row] * own;
+    } else {
+      force.noalias() = Rows(&U_[static_cast<std::size_t>(c.first)], c.rows, c.inputs).transpose() * own;
+    }
+  }
+}
+
+/// (3). What changes no stated force stays out of the basis: a column of D N that is zero to rounding, as
+/// where the equations of one constraint repeat each other, and what columns have in common.
+void MinimumNorm::minimise() {
+  weigh(N_, DN_);
+  weigh(lambda_, right_);
+  double zero = 0.0;  // of columns of length 1
+  for (Eigen::Index j = 0; j < DN_.cols(); ++j) {
+    const double length = DN_.col(j).norm();
+    scale_[j] = length > zero_[j] ? 1.0 / length : 0.0;
+    zero = std::max(zero, zero_[j] * scale_[j]);
+  }
+  DN_ *= scale_.asDiagonal();
+  qr_.setThreshold(zero);
+  qr_.compute(DN_);
+  z_ = -qr_.solve(right_).cwiseProduct(scale_);
+}
+
+}  // namespace dalembert

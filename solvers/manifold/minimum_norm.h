@@ -1,0 +1,75 @@
+#pragma once
+
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/linear/rows.h>
+
+#include <Eigen/Core>
+#include <Eigen/QR>
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// Forces of dependent constraints. Where rows of W depend on each other, W^T lambda is unique but lambda
+/// is not. With a an independent set of rows, d the others, and N a basis of the null space of W^T,
+///
+///   N_d = 1,   W_a^T N_a = -W_d^T            by solves of the KKT matrix                       (1)
+///   lambda = lambda_0 + N z                  gives the same force for any z                    (2)
+///   |D (lambda_0 + N z)| = min               least squares, by QR                              (3)
+///
+/// D gives the forces at the points that the user stated the constraints for (ForcesAtPoints), and nothing
+/// for the rods inside bodies. So the forces of the stated constraints are the smallest that do, and
+/// neither the choice of a, nor how equations are scaled, nor what bodies are made of shows in them.
+///
+/// A multiplier is determined by the motion if its row of N is zero, which is asked as exactly as the
+/// positions are known: (1) is corrected by what is left of W^T N a rounding of the positions away, and
+/// what changes by no more than a few times the largest such correction is zero.
+class MinimumNorm {
+ public:
+  using Solve = std::function<void(std::span<double>)>;
+
+  /// `active` are the independent rows; `lever` as in Violation.
+  MinimumNorm(const System& system, const ActiveRows& active, std::vector<double> lever);
+
+  [[nodiscard]] bool needed() const { return !dropped_.empty(); }
+  /// Spreads lambda (one per row of the system, zero for dropped ones) by (1)-(3); `e` holds the equations
+  /// at the state, `solve` solves [M -W^T; W 0] of the active rows there in place. Throws EquationFault.
+  void spread(const Solve& solve, const Instant& at, const System::Evaluation& e, std::span<double> lambda);
+  /// Per row of the system, after `spread`: 1 if its multiplier is determined by the motion.
+  [[nodiscard]] std::span<const char> unique() const { return unique_; }
+
+ private:
+  /// A constraint that the user stated: its rows, and where its part of U and of D N begins.
+  struct Stated {
+    Eigen::Index row, rows, inputs, first, force;
+    /// One equation's force has one size, whatever its direction.
+    [[nodiscard]] Eigen::Index forces() const { return rows == 1 ? 1 : inputs; }
+  };
+
+  void place(const System& system);
+  void measure(std::span<const double> w);
+  void evaluate_nearby(const Instant& at, const System::Evaluation& e);
+  void find_null_space(const Solve& solve, std::span<const double> w);
+  void solve_for_correction(const Solve& solve, std::span<const double> w, Eigen::Index j);
+  void mark_unique();
+  void weigh(const Eigen::MatrixXd& multipliers, Eigen::MatrixXd& forces) const;
+  void minimise();
+
+  const System* system_;
+  std::vector<double> lever_;
+  std::vector<int> active_, dropped_;
+  std::vector<Stated> stated_;
+  std::vector<char> unique_;
+  std::vector<double> x_, U_, nudge_, q_nearby_;
+  System::Evaluation nearby_;
+  Eigen::VectorXd size_;    // of each row's force, for a multiplier of 1
+  Eigen::MatrixXd N_, DN_;  // one column per dropped row
+  Eigen::VectorXd zero_;    // what counts as such in each column of N, as a force
+  Eigen::VectorXd scale_, z_;
+  Eigen::MatrixXd lambda_, right_;  // one column
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr_;
+};
+
+}  // namespace dalembert

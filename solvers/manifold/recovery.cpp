@@ -1,0 +1,143 @@
+#include "dalembert/solvers/manifold/recovery.h"
+
+#include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/linear/rows.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace dalembert {
+
+namespace {
+
+constexpr double undetermined = std::numeric_limits<double>::quiet_NaN();
+
+bool finite(std::span<const double> x) {
+  return std::ranges::all_of(x, [](double value) { return std::isfinite(value); });
+}
+
+}  // namespace
+
+Moment::Moment(const System& system, const Start& start)
+    : q(start.q),
+      v(start.v),
+      a(start.a),
+      lambda(start.lambda),
+      forces(system.layout()->slot_coordinate.size()) {
+  if (start.rows.size() < system.rows()) unique.resize(lambda.size());
+}
+
+Recovery::Recovery(const System& system, const Start& start, double tolerance)
+    : system_(&system),
+      scales_(start.scales),
+      lever_(start.scales.lever()),
+      tolerance_(tolerance),
+      q_given_(start.q.size()),
+      v_given_(start.q.size()),
+      q_(start.q),
+      v_(start.q),
+      a_(start.q),
+      lambda_(start.lambda),
+      n_(start.q.size()),
+      w_(system.w_columns().size()) {}
+
+/// A state moved by more than the tolerance is not better for it.
+bool Recovery::moved_too_far(const Moment& m) const {
+  for (std::size_t i = 0; i < m.q.size(); ++i) {
+    const double speed = scales_.coordinate[i] / scales_.time + std::abs(v_given_[i]);
+    if (std::abs(m.q[i] - q_given_[i]) > scales_.position_error(i, q_given_[i], tolerance_) ||
+        std::abs(m.v[i] - v_given_[i]) > tolerance_ * speed)
+      return true;
+  }
+  return false;
+}
+
+/// False if the constraints do not tell the motion here.
+bool Recovery::project(Manifold& manifold, Moment& m) {
+  const double L = scales_.length;
+  m.position = manifold.project_positions(
+      m.t, m.q, m.v, std::max(constants.output_distance * L, 0.1 * scales_.rounding(m.q)));
+  if (!manifold.solve_motion(m.t, m.q, m.v, m.a, m.lambda)) return false;
+  return manifold.sine() > constants.well_conditioned || !moved_too_far(m);
+}
+
+void Recovery::require_agreement(const Moment& m) const {
+  const double L = scales_.length;
+  const auto refuse = [&](const Violation& left, const char* what) {
+    std::ostringstream text;
+    text << system_->row_label(left.row) << " contradicts the other constraints: it is violated by " << what
+         << left.size << "; remove or correct one of those that act on the same points";
+    throw StepFailure{text.str(), m.t};
+  };
+  if (m.position.size > constants.tolerated_contradiction * L + scales_.rounding(m.q)) refuse(m.position, "");
+}
+
+void Recovery::leave_forces_out(Moment& m) const {
+  std::ranges::fill(m.lambda, undetermined);
+  std::ranges::fill(m.forces, undetermined);
+}
+
+/// Compares with a second state, see above.
+void Recovery::mark_undetermined(Manifold& manifold, Moment& m) {
+  std::ranges::copy(manifold.equations().w, w_.begin());
+  const double response = manifold.weakest_direction(lever_, n_);
+  const double off = std::max(m.position.size, scales_.rounding(m.q)) / response;
+  for (std::size_t i = 0; i < n_.size(); ++i) {
+    q_[i] = m.q[i] + off * n_[i];
+    v_[i] = m.v[i];
+  }
+  bool known = true;
+  try {
+    known = manifold.solve_motion(m.t, q_, v_, a_, lambda_);
+  } catch (const EquationFault&) {
+    known = false;
+  }
+  if (!known) return leave_forces_out(m);
+  double largest = 0.0;
+  const auto force = [&](std::size_t r, double lambda) {
+    return std::abs(lambda) * gradient_length(*system_, w_, lever_, r);
+  };
+  for (std::size_t r = 0; r < lambda_.size(); ++r) largest = std::max(largest, force(r, m.lambda[r]));
+  for (const Layout::Constraint& c : system_->layout()->constraints) {
+    for (int k = 0; k < c.rows; ++k) {
+      const auto r = static_cast<std::size_t>(c.first_row + k);
+      if (!(force(r, lambda_[r] - m.lambda[r]) > std::sqrt(tolerance_) * largest)) continue;
+      m.lambda[r] = undetermined;
+      std::fill_n(m.forces.begin() + c.first_slot, c.width, undetermined);
+    }
+  }
+}
+
+void Recovery::recover(Manifold& manifold, Moment& m) {
+  std::ranges::copy(m.q, q_given_.begin());
+  std::ranges::copy(m.v, v_given_.begin());
+  const bool known = project(manifold, m);
+  if (known) {
+    require_agreement(m);
+    if (!m.unique.empty()) std::ranges::copy(manifold.unique(), m.unique.begin());
+    system_->constraint_forces(manifold.equations().w, m.lambda, m.forces);
+  } else {
+    std::ranges::copy(q_given_, m.q.begin());
+    std::ranges::copy(v_given_, m.v.begin());
+  }
+  m.velocity = velocity_violation(*system_, manifold.equations(), lever_);
+  m.correction = 0.0;
+  for (std::size_t i = 0; i < q_given_.size(); ++i)
+    m.correction = std::max(m.correction, std::abs(m.q[i] - q_given_[i]) * lever_[i]);
+  m.energy = system_->kinetic_energy(m.v) + system_->potential_energy({m.t, m.q, m.v});
+  if (system_->compliant()) m.energy += system_->elastic_energy(m.lambda);
+  if (!std::isfinite(m.energy) || (known && !finite(m.forces))) {
+    throw StepFailure{
+        "the energy or a force of constraint exceeds what double precision holds; choose units in which "
+        "masses, lengths and speeds are closer to 1",
+        m.t};
+  }
+  if (!known) return leave_forces_out(m);
+  if (manifold.sine() <= constants.well_conditioned) mark_undetermined(manifold, m);
+}
+
+}  // namespace dalembert

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/manifold/manifold.h>
+#include <dalembert/solvers/manifold/start.h>
+
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// Everything that can be read at one instant.
+struct Moment {
+  Moment(const System& system, const Start& start);
+
+  double t = 0.0;
+  std::vector<double> q, v, a, lambda, forces;
+  double energy = 0.0;
+  std::vector<char> unique;  // empty if all multipliers are
+  // How well the state keeps the constraints, and how far it was moved for that.
+  Violation position, velocity;
+  double correction = 0.0;
+};
+
+/// Puts a stepper's state onto the constraints and finds the forces of constraint there.
+///
+/// A state that is right to the tolerance is moved by about as much, except where the constraints are so
+/// close to dependent that they turn its error e into e/sin: there the stepper's own state is the better one
+/// and stays as it is, and no force is determined.
+///
+/// Where they are close to dependent the forces of a state on the constraints, too, may be those of its
+/// round-off. What the constraints hold least is one direction n (see Manifold::weakest_direction). A second
+/// state, as far off along n as the constraints cannot tell, shows what that does: a multiplier that differs
+/// by more than the root of the tolerance, relative to the largest force, is not determined. It is
+/// NaN here, and Sample refuses to read it.
+class Recovery {
+ public:
+  Recovery(const System& system, const Start& start, double tolerance);
+
+  /// At m.t, from the stepper's m.q and m.v. Throws StepFailure, EquationFault.
+  void recover(Manifold& manifold, Moment& m);
+
+ private:
+  [[nodiscard]] bool project(Manifold& manifold, Moment& m);
+  [[nodiscard]] bool moved_too_far(const Moment& m) const;
+  void require_agreement(const Moment& m) const;
+  void mark_undetermined(Manifold& manifold, Moment& m);
+  void leave_forces_out(Moment& m) const;
+
+  const System* system_;
+  Scales scales_;
+  std::vector<double> lever_;
+  double tolerance_;
+  std::vector<double> q_given_, v_given_;       // before projection
+  std::vector<double> q_, v_, a_, lambda_, n_;  // of the second state
+  std::vector<double> w_;
+};
+
+}  // namespace dalembert

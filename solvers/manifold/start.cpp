@@ -1,0 +1,305 @@
+#include "dalembert/solvers/manifold/start.h"
+
+#include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/manifold/manifold.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+namespace dalembert {
+
+namespace {
+
+/// A start that violates a constraint by less than this, relative to the scene's length or speed,
+/// is taken for one that obeys it in rounded numbers, and projected without a word.
+constexpr double rounding_of_the_user = 1e-8;
+/// What Newton's iteration leaves when it has converged; a few units of round-off.
+constexpr double converged = 1e-14;
+
+double largest_entry(std::span<const double> x) {
+  return std::accumulate(x.begin(), x.end(), 0.0,
+                         [](double m, double y) { return std::max(m, std::abs(y)); });
+}
+
+/// Largest |x_i| in units of each coordinate's scale; coordinates of scale 0 do not count.
+double largest_scaled(std::span<const double> x, std::span<const double> scale) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (scale[i] > 0.0) largest = std::max(largest, std::abs(x[i]) / scale[i]);
+  }
+  return largest;
+}
+
+/// F/m, as if there were no constraints.
+std::vector<double> forced_acceleration(const System& system, const System::Evaluation& e) {
+  std::vector<double> a(e.force);
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] /= system.masses()[i];
+  return a;
+}
+
+/// The equations at a state whose springs are as long as it says: compliant rows are obeyed there.
+void evaluate_relaxed(const System& system, const Instant& at, System::Evaluation& e) {
+  system.evaluate(at, e);
+  for (std::size_t r = 0; r < e.g.size(); ++r) {
+    if (system.compliance()[r] > 0.0) e.g[r] = e.psi[r] = 0.0;
+  }
+}
+
+void require_gradients(const System& system, const System::Evaluation& e, double t) {
+  for (std::size_t r = 0; r + 1 < system.row_start().size(); ++r) {
+    const auto first = static_cast<std::size_t>(system.row_start()[r]);
+    const auto count = static_cast<std::size_t>(system.row_start()[r + 1]) - first;
+    if (largest_entry(std::span(e.w).subspan(first, count)) > 0.0) continue;
+    std::ostringstream what;
+    what << system.row_label(static_cast<int>(r))
+         << " has no gradient: " << system.singular_hint(static_cast<int>(r)) << " (t = " << t << ')';
+    throw InconsistentStart(what.str());
+  }
+}
+
+/// 1 for every coordinate that is a length, 0 for an angle.
+std::vector<double> lengths_only(const System& system) {
+  auto scales = system.coordinate_scales(0.0);
+  for (double& s : scales) s = 1.0 - s;
+  return scales;
+}
+
+/// Smallest radius of curvature of the holonomic constraints, from their second derivatives at
+/// unit gradient; infinite if all are flat. It needs no knowledge of what they are.
+double smallest_radius(const System& system, const Instant& at, const System::Evaluation& e) {
+  std::vector<double> unit(static_cast<std::size_t>(system.rows()), 0.0);
+  for (std::size_t r = 0; r < static_cast<std::size_t>(system.holonomic_rows()); ++r) {
+    double square = 0.0;
+    for (int k = system.row_start()[r]; k < system.row_start()[r + 1]; ++k) {
+      square += e.w[static_cast<std::size_t>(k)] * e.w[static_cast<std::size_t>(k)];
+    }
+    unit[r] = 1.0 / std::sqrt(square);
+  }
+  auto bent = system.linearisation();
+  system.linearise_constraints(at, unit, bent);
+  double curvature = 0.0;
+  const auto length = lengths_only(system);
+  for (std::size_t k = 0; k < system.stiffness_of_constraints(); ++k) {
+    const auto [row, column] = system.stiffness_pattern()[k];
+    if (length[static_cast<std::size_t>(row)] == 0.0 || length[static_cast<std::size_t>(column)] == 0.0)
+      continue;
+    curvature = std::max(curvature, std::abs(bent.stiffness[k]));
+  }
+  return 1.0 / curvature;
+}
+
+/// Sets the length of the scene: the box around its points; for a lone particle on a surface or curve
+/// the radius of curvature, unless it does not get so far. What is free or on something nearly flat has no
+/// length but that of its path, of which the first instant gives a guess. (On a compliant constraint that
+/// guess has to do: an explicit step would tell the vibration of the spring.)
+void set_length(const System& system, const Instant& at, const System::Evaluation& e, const Options& options,
+                Scales& scales) {
+  const double duration = options.t_end - options.t_start;
+  scales.length = options.length > 0.0 ? options.length : system.extent(at.t);
+  if (scales.length > 0.0) return;
+  const double radius = smallest_radius(system, at, e);
+  const auto lengths = lengths_only(system);
+  const double v = largest_scaled(at.v, lengths);
+  const double a = largest_scaled(forced_acceleration(system, e), lengths);
+  const double reach = v * duration + a * duration * duration;
+  scales.length = reach > 0.0 ? std::min(radius, reach) : std::isfinite(radius) ? radius : 1.0;
+  scales.of_path = !system.compliant() && scales.length < radius && largest_entry(lengths) > 0.0;
+  if (std::isinf(radius) && v > 0.0 && a > 0.0) scales.length = v * v / a;
+  scales.forced = a;
+}
+
+/// Squares of lengths and their inverses occur everywhere.
+void require_size(double length) {
+  if (std::isnormal(length * length) && std::isnormal(1.0 / (length * length))) return;
+  std::ostringstream what;
+  what << "The size of this scene, " << length
+       << ", is beyond what double precision computes with; choose other units, or correct the position or "
+          "speed that makes it so";
+  throw InconsistentStart(what.str());
+}
+
+/// The shortest time in which the scene's speeds, forces or accelerations move a coordinate by its
+/// scale.
+double time_scale(const System& system, const System::Evaluation& e, const Start& start, double duration) {
+  const auto& scale = start.scales.coordinate;
+  const double v = largest_scaled(start.v, scale);
+  const double a =
+      std::max(largest_scaled(start.a, scale), largest_scaled(forced_acceleration(system, e), scale));
+  double time = duration;
+  if (v > 0.0) time = std::min(time, 1.0 / v);
+  if (a > 0.0) time = std::min(time, 1.0 / std::sqrt(a));
+  return time;
+}
+
+[[noreturn]] void refuse(const System& system, const Violation& violation, double t, const char* quantity,
+                         const char* remedy) {
+  std::ostringstream what;
+  what << system.row_label(violation.row) << ' ' << quantity << ' ' << violation.size << " at t = " << t
+       << "; " << remedy;
+  throw InconsistentStart(what.str());
+}
+
+/// Dropped rows follow from the others in position and velocity once they hold at the start. In
+/// acceleration they must agree too: two drives of one point may meet and yet contradict each other.
+///
+/// Where nothing moves, whatever speeds were given, or all move alike, the terms are round-off and agree in
+/// nothing: they are known to the round-off of a term of those speeds, v^2/L. A row's terms are divided by
+/// the length of its gradient: they are accelerations.
+void require_consistent_accelerations(const System& system, const Manifold& manifold, const Start& start,
+                                      std::span<const double> given, double t) {
+  const auto& unit = start.scales.coordinate;
+  const double speed = std::max(largest_scaled(given, unit), largest_scaled(start.v, unit));
+  const double rounding = std::numeric_limits<double>::epsilon() * speed * speed * start.scales.length;
+  std::vector<double> residual(static_cast<std::size_t>(system.rows()));
+  system.bias({t, start.q, start.v}, residual);
+  const auto& w = manifold.equations().w;
+  const auto forced = forced_acceleration(system, manifold.equations());
+  const auto lever = start.scales.lever();
+  double scale = 0.0;
+  for (std::size_t r = 0; r < residual.size(); ++r) {
+    const double gradient = gradient_length(system, w, lever, r);
+    residual[r] /= gradient;
+    for (auto k = static_cast<std::size_t>(system.row_start()[r]);
+         k < static_cast<std::size_t>(system.row_start()[r + 1]); ++k) {
+      const auto i = static_cast<std::size_t>(system.w_columns()[k]);
+      const double term = w[k] * start.a[i] / gradient;
+      scale = std::max({scale, std::abs(term), std::abs(residual[r]), std::abs(w[k] * forced[i]) / gradient});
+      residual[r] += term;
+    }
+  }
+  for (std::size_t r = 0; r < residual.size(); ++r) {
+    if (system.compliance()[r] > 0.0 || std::abs(residual[r]) <= 1e-6 * scale + rounding) continue;
+    throw InconsistentStart(
+        system.row_label(static_cast<int>(r)) +
+        " contradicts the other constraints: no accelerations satisfy all of them; remove or "
+        "correct one of those that act on the same particles");
+  }
+}
+
+/// The speed that the scene has, or that its forces give it over its own length.
+double speed_of(const System& system, const System::Evaluation& e, const Start& start) {
+  const auto& scale = start.scales.coordinate;
+  const double forced = std::sqrt(largest_scaled(forced_acceleration(system, e), scale));
+  return std::max(largest_scaled(start.v, scale), forced) * start.scales.length;
+}
+
+/// After projection: what is left is a contradiction.
+void require_met(const System& system, const Violation& left, double bound, double t, const char* what) {
+  if (left.size <= bound) return;
+  const std::string quantity =
+      std::string("cannot be met together with the other constraints: remaining ") + what;
+  refuse(system, left, t, quantity.c_str(),
+         "check lengths and fixed points, or start closer to the intended configuration");
+}
+
+void start_positions(const System& system, Start& start, const System::Evaluation& e,
+                     const Options& options) {
+  const double L = start.scales.length;
+  const auto lever = start.scales.lever();
+  const double bound = rounding_of_the_user * L + start.scales.rounding(start.q);
+  const Violation given = position_violation(system, e, lever);
+  if (given.size > bound && !options.assemble) {
+    refuse(system, given, options.t_start, "is violated by the initial positions: distance",
+           "correct the positions, or set the option assemble to have them moved");
+  }
+  // Rows are told apart only as well as the given state is known: rows that depend on each other on
+  // the constraints do so only roughly nearby, and must not be solved against each other.
+  const double known = std::max(rank_threshold, std::min(10.0 * given.size / L, 1e-3));
+  Manifold manifold(system, independent_rows(system, e.w, known), lever);
+  require_met(system, manifold.project_positions(options.t_start, start.q, start.v, converged * L), bound,
+              options.t_start, "distance");
+}
+
+void start_velocities(const System& system, const Start& start, const System::Evaluation& e,
+                      const Options& options) {
+  const Violation given = velocity_violation(system, e, start.scales.lever());
+  if (given.size > rounding_of_the_user * speed_of(system, e, start) && !options.assemble) {
+    refuse(system, given, options.t_start, "is violated by the initial velocities: speed",
+           "correct the velocities, or set the option assemble to have them changed");
+  }
+}
+
+}  // namespace
+
+double Scales::rounding(std::span<const double> q) const {
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < q.size(); ++i)
+    farthest = std::max(farthest, std::abs(q[i]) * length / coordinate[i]);
+  return 10.0 * std::numeric_limits<double>::epsilon() * farthest;
+}
+
+std::vector<double> Scales::lever() const {
+  auto lever = coordinate;
+  for (double& s : lever) s = length / s;
+  return lever;
+}
+
+Start consistent_start(const System& system, std::span<const double> q, std::span<const double> v,
+                       const Options& options) {
+  const double t = options.t_start;
+  const double duration = options.t_end - options.t_start;
+  Start start{{q.begin(), q.end()},
+              {v.begin(), v.end()},
+              std::vector<double>(q.size()),
+              std::vector<double>(static_cast<std::size_t>(system.rows())),
+              {},
+              {}};
+  try {
+    auto e = system.evaluation();
+    evaluate_relaxed(system, {t, q, v}, e);
+    require_gradients(system, e, t);
+    set_length(system, {t, q, v}, e, options, start.scales);
+    require_size(start.scales.length);
+    start.scales.coordinate = system.coordinate_scales(start.scales.length);
+    start.scales.is_angle = system.coordinate_scales(0.0);
+
+    start_positions(system, start, e, options);
+    evaluate_relaxed(system, {t, start.q, start.v}, e);
+    start_velocities(system, start, e, options);
+
+    start.scales.origin = start.q;
+    start.rows = independent_rows(system, e.w);
+    Manifold manifold(system, start.rows, start.scales.lever());
+    const auto left = [&] {
+      if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda)) {
+        throw InconsistentStart(
+            "The constraints of this scene are singular at the start, though none repeats another");
+      }
+      return velocity_violation(system, manifold.equations(), start.scales.lever());
+    };
+    Violation violation = left();
+    if (largest_scaled(start.v, start.scales.coordinate) * start.scales.length <= start.scales.rounding(v)) {
+      std::ranges::fill(start.v, 0.0);  // the constraints took away all but round-off of what was given
+      violation = left();
+    }
+    require_met(system, violation, rounding_of_the_user * speed_of(system, manifold.equations(), start), t,
+                "speed");
+    require_consistent_accelerations(system, manifold, start, v, t);
+    start.scales.time = time_scale(system, manifold.equations(), start, duration);
+  } catch (const EquationFault& fault) {
+    throw InconsistentStart(std::string(fault.what()) +
+                            ": correct the equation, or start where it is defined");
+  }
+  return start;
+}
+
+Start begin_anew(const System& system, const Start& before, double t, std::span<const double> q,
+                 std::span<const double> v) {
+  Start start = before;
+  start.q.assign(q.begin(), q.end());
+  start.v.assign(v.begin(), v.end());
+  auto e = system.evaluation();
+  system.evaluate({t, q, v}, e);
+  start.rows = independent_rows(system, e.w, before.rows);
+  Manifold manifold(system, start.rows, start.scales.lever());
+  manifold.project_positions(t, start.q, start.v, converged * start.scales.length);
+  if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda))
+    throw StepFailure{"the constraints became dependent on each other", t};
+  return start;
+}
+
+}  // namespace dalembert

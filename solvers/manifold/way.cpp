@@ -1,0 +1,43 @@
+#include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/manifold/start.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dalembert {
+
+/// Relative to the way, errors are the same whatever the units and wherever t_end lies: a step from rest at
+/// constant acceleration a covers a h^2/2, and the first term of its error is smaller by a power of h over
+/// the time in which the acceleration changes. Round-off in forces of size m a moves it in a step by eps a
+/// h^2: that must not count against the tolerance, so no way is shorter than some eps a h^2 over the
+/// tolerance.
+Way Scales::further(std::span<const double> q, std::span<const double> v, double h, double tolerance) const {
+  const double rounding = constants.roundings_of_path * std::numeric_limits<double>::epsilon();
+  const double noise = std::max(rounding / tolerance * forced * h, least);
+  Way next{std::max({way.length, noise * h, least}), std::max(way.speed, noise), way.rate, h};
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    if (is_angle[i] > 0.0) {
+      next.rate = std::max(next.rate, std::abs(v[i]));
+    } else {
+      next.length = std::max(next.length, std::abs(q[i] - origin[i]));
+      next.speed = std::max(next.speed, std::abs(v[i]));
+    }
+  }
+  next.rate = std::max(next.rate, noise / next.length);
+  return next;
+}
+
+void Scales::take(const Way& next) {
+  way = next;
+  length = way.length;
+  time = length / way.speed;
+  for (std::size_t i = 0; i < coordinate.size(); ++i)
+    if (is_angle[i] == 0.0) coordinate[i] = length;
+}
+
+double Scales::velocity_error(std::size_t i, double v, double tolerance) const {
+  const double speed = is_angle[i] > 0.0 ? way.rate : way.speed;
+  return tolerance * ((of_path ? speed : coordinate[i] / time) + std::abs(v));
+}
+
+}  // namespace dalembert

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/linear/saddle.h>
+
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// The direction n of the coordinates that the constraints hold least: the right singular vector of the
+/// smallest singular value of W M^-1/2 with rows of unit length, by inverse iteration with
+///
+///   [ M  -W^T ] [ x ]   [  0  ]
+///   [ W   0   ] [ y ] = [ D u ],     D^2 the diagonal of W M^-1 W^T,     u <- D y,  n ~ x.
+class WeakestDirection {
+ public:
+  explicit WeakestDirection(const System& system) : system_(&system) {}
+
+  /// With the factors that `matrix` has at W; returns the singular value.
+  double find(SaddleMatrix& matrix, const ActiveRows& rows, std::span<const double> w);
+  /// n, not normalised, of the last `find`.
+  [[nodiscard]] std::span<const double> n() const {
+    return std::span(x_).first(static_cast<std::size_t>(system_->coordinates()));
+  }
+
+ private:
+  const System* system_;
+  std::vector<double> x_, u_;
+};
+
+}  // namespace dalembert

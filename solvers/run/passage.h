@@ -1,0 +1,52 @@
+#pragma once
+
+#include <dalembert/solvers/base/hidden.h>
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// The accelerations of the last steps, to go on with where those of the equations are worth nothing:
+///
+///   v(t) = v0 + int p,   q(t) = q0 + (t - t0) v0 + int int p,   p through a at the last nodes  (Adams)
+///
+/// Close to a singular position at t*, sin ~ |t - t*|, positions are good to eps/sin, velocities to
+/// eps/sin^2, accelerations to eps/sin^3. Nodes whose distances from t* double, and a point as far beyond t*
+/// as the last one is before it, multiply the noise in a (t - t0) by about 20 whatever their number. A
+/// polynomial through q and v as well would have the higher order, but multiply the noise in q by 1e4.
+class Passage {
+ public:
+  static constexpr std::size_t most_nodes = 7;
+
+  explicit Passage(std::size_t n);
+
+  /// After each step, and before the first: the accelerations at t.
+  void remember(double t, std::span<const double> a);
+  /// Accelerations that others do not continue.
+  void forget() { known_ = 0; }
+
+  /// Chooses, from the last node back, those whose distances from `singular` grow by at least `spread`.
+  /// Returns how many: at most `most_nodes`.
+  std::size_t choose(double singular);
+  /// Forgets all others: closer to `singular` they will not be needed.
+  void keep_chosen();
+  /// Through the first `nodes` of those chosen (also after one more `remember`): moves q0, v0 at the last
+  /// node to the time t. The three spans of results may be q0, v0 themselves; `a` may be empty.
+  void go(std::size_t nodes, double t, std::span<const double> q0, std::span<const double> v0,
+          std::span<double> q, std::span<double> v, std::span<double> a) const;
+
+ private:
+  struct Past {
+    double t = 0.0;
+    std::vector<double> a;
+  };
+  std::vector<Past> past_;  // the last one first
+  std::size_t known_ = 0;
+  std::array<std::size_t, most_nodes> chosen_{};
+  std::size_t count_ = 0;  // of those
+};
+
+}  // namespace dalembert

@@ -1,0 +1,146 @@
+#include "dalembert/solvers/run/sticking.h"
+
+#include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/base/step_failure.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace dalembert {
+
+namespace {
+
+/// How close to where a friction turns it is asked for, of the way between the states given.
+constexpr double next_to = 1e-9;
+
+/// to = the point at `part` of the way from a to b.
+void between(const Motion& a, const Motion& b, double part, Motion& to) {
+  to.t = a.t + part * (b.t - a.t);
+  to.q.resize(a.q.size());
+  to.v.resize(a.v.size());
+  for (std::size_t i = 0; i < a.q.size(); ++i) {
+    to.q[i] = a.q[i] + part * (b.q[i] - a.q[i]);
+    to.v[i] = a.v[i] + part * (b.v[i] - a.v[i]);
+  }
+}
+
+/// to = where `from` leads in a short time with its accelerations.
+void move(const Motion& from, double duration, Motion& to) {
+  to.t = from.t + duration;
+  to.q.resize(from.q.size());
+  to.v.resize(from.v.size());
+  for (std::size_t i = 0; i < from.q.size(); ++i) {
+    to.q[i] = from.q[i] + duration * (from.v[i] + 0.5 * duration * from.a[i]);
+    to.v[i] = from.v[i] + duration * from.a[i];
+  }
+}
+
+}  // namespace
+
+std::string Sticking::would_stick(std::size_t friction) const {
+  return switches_.friction(friction) +
+         " would stick here: the sliding velocity is zero, and friction exceeds what drives it either way. A "
+         "law that jumps there describes sliding only; smooth it, v / sqrt(v^2 + small^2) in place of the "
+         "direction of v, or end the run here";
+}
+
+Sticking::Sticking(const System& system, const Start& start, double t_start, double tolerance)
+    : system_(&system),
+      manifold_(system, start.rows, start.scales.lever()),
+      switches_(system, {t_start, start.q, start.v}, start.lambda),
+      time_(start.scales.time),
+      // The square of this, of the scene's time, is what the time of sticking may be wrong by.
+      soon_(std::sqrt(tolerance) * time_),
+      lambda_(start.lambda) {
+  manifold_.listen();
+}
+
+void Sticking::find_slope(const Motion& at, Side& side) {
+  side.slope.resize(system_->friction_pattern().size());
+  system_->friction_slope(at.instant(), lambda_, side.slope);
+}
+
+bool Sticking::accelerate(Motion& at, Side& side) {
+  at.a.resize(at.q.size());
+  if (!manifold_.accelerate(at.instant(), at.a)) return false;
+  manifold_.multipliers(lambda_);
+  switches_.find(at.instant(), lambda_, manifold_.heard(), side);
+  return true;
+}
+
+Departure Sticking::leave(const Instant& at, std::span<const double> a, Side& side) {
+  const auto copy = [](std::span<const double> x) { return std::vector<double>(x.begin(), x.end()); };
+  Motion start{at.t, copy(at.q), copy(at.v), copy(a)}, later;
+  if (!accelerate(start, side) || !switches_.rests(side)) return {};
+  move(start, constants.instant_after * time_, later);
+  if (!accelerate(later, side)) return {};
+  start.a = later.a;
+  move(start, constants.instant_after * time_, trial_);
+  find_slope(trial_, near_);
+  return {switches_.turned(side, near_), true, later.a};
+}
+
+bool Sticking::jumps(const Motion& before, const Motion& behind, std::size_t friction) {
+  find_slope(before, side_);
+  double a = 0.0, b = 1.0;
+  while (b - a > next_to) {
+    const double middle = 0.5 * (a + b);
+    between(before, behind, middle, trial_);
+    find_slope(trial_, near_);
+    (switches_.turned(side_, near_) ? b : a) = middle;
+  }
+  find_slope(behind, far_);
+  between(before, behind, b, trial_);
+  find_slope(trial_, near_);
+  const double away = std::min(switches_.steepness(side_, friction), switches_.steepness(far_, friction));
+  return switches_.steepness(near_, friction) > 0.5 * away;
+}
+
+void Sticking::watch(double t, std::span<const double> q, std::span<const double> v) {
+  now_.t = t;
+  now_.q.assign(q.begin(), q.end());
+  now_.v.assign(v.begin(), v.end());
+  if (!std::exchange(begun_, true)) {
+    if (!accelerate(now_, side_)) return;
+    const Departure departure = leave(now_.instant(), now_.a, side_);
+    if (departure.held_by) throw StepFailure{would_stick(*departure.held_by), t};
+  } else {
+    const double step = t - last_.t;
+    find_slope(last_, side_);
+    find_slope(now_, near_);
+    if (switches_.turned(side_, near_)) {
+      look_ahead(last_, step);
+    } else {
+      now_.a.resize(v.size());
+      for (std::size_t i = 0; i < v.size(); ++i) now_.a[i] = (now_.v[i] - last_.v[i]) / step;
+      move(now_, step, trial_);
+      find_slope(trial_, far_);
+      if (switches_.turned(near_, far_)) look_ahead(now_, std::min(step, soon_));
+    }
+  }
+  std::swap(last_, now_);
+}
+
+/// Whether sliding comes to zero so soon.
+void Sticking::look_ahead(Motion from, double duration) {
+  if (!accelerate(from, near_)) return;
+  move(from, duration, trial_);
+  find_slope(trial_, far_);
+  if (switches_.turned(near_, far_)) require_sliding(from, trial_);
+}
+
+/// From in front of where a friction turns to behind it.
+void Sticking::require_sliding(const Motion& before, Motion& behind) {
+  find_slope(before, side_);
+  find_slope(behind, far_);
+  const auto friction = switches_.turned(side_, far_);
+  Motion after = behind;
+  if (!friction || !jumps(before, after, *friction) || !accelerate(after, far_)) return;
+  const double t = trial_.t;
+  move(after, 8.0 * (after.t - before.t), trial_);
+  find_slope(trial_, near_);
+  if (!switches_.turned(side_, near_)) throw StepFailure{would_stick(*friction), t};
+}
+
+}  // namespace dalembert

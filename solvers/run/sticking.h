@@ -1,0 +1,67 @@
+#pragma once
+
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/manifold/manifold.h>
+#include <dalembert/solvers/manifold/start.h>
+#include <dalembert/solvers/run/switches.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// A state, and the accelerations there.
+struct Motion {
+  double t = 0.0;
+  std::vector<double> q, v, a;
+
+  [[nodiscard]] Instant instant() const { return {t, q, v}; }
+};
+
+/// How a motion leaves a state.
+struct Departure {
+  std::optional<std::size_t> held_by{};  ///< the friction that lets nothing slide, if one does
+  bool from_rest = false;                ///< some friction has no direction yet
+  std::vector<double> a{};               ///< the accelerations once it has
+};
+
+/// Finds whether sliding friction sticks.
+///
+/// Where the sliding velocity comes to zero Coulomb's force turns by a jump. With e the direction of sliding
+/// before: if the acceleration points against e before the jump and along e behind it, the direction fields
+/// on both sides lead to it (Filippov) and neither sliding on nor back is a solution. At rest the same is
+/// asked of the direction in which the other forces drive. If it points against e on both sides sliding turns
+/// back.
+class Sticking {
+ public:
+  Sticking(const System& system, const Start& start, double t_start, double tolerance);
+
+  /// Of a state with the accelerations a; `side` is the one that the motion begins on.
+  [[nodiscard]] Departure leave(const Instant& at, std::span<const double> a, Side& side);
+  /// Whether the friction that turns between two states does so by a jump, and not steeply: whether it is as
+  /// large next to where it turns as away from there.
+  [[nodiscard]] bool jumps(const Motion& before, const Motion& behind, std::size_t friction);
+  /// What is said of a friction that would stick.
+  [[nodiscard]] std::string would_stick(std::size_t friction) const;
+
+  /// For a motion known only at its steps: called before the first and after each. Throws StepFailure.
+  void watch(double t, std::span<const double> q, std::span<const double> v);
+
+ private:
+  void find_slope(const Motion& at, Side& side);
+  bool accelerate(Motion& at, Side& side);
+  void require_sliding(const Motion& before, Motion& behind);
+  void look_ahead(Motion from, double duration);
+
+  const System* system_;
+  Manifold manifold_;
+  Switches switches_;
+  double time_, soon_;
+  std::vector<double> lambda_;
+  Motion last_, now_, trial_;
+  Side side_, near_, far_;  // work
+  bool begun_ = false;
+};
+
+}  // namespace dalembert
