@@ -1,6 +1,16 @@
 #pragma once
 
-/// The whole library: states a scene, runs it, reads its motion and its forces of constraint.
+/// The whole library. Points, forces, a scene:
+#include <dalembert/core/points/points.h>
+/// its results and analysis;
+#include <dalembert/core/analysis/audit.h>
+#include <dalembert/core/analysis/integrability.h>
+#include <dalembert/core/forces/fields.h>
+#include <dalembert/core/forces/forces.h>
+#include <dalembert/core/forces/friction.h>
+#include <dalembert/core/results/trajectory.h>
+#include <dalembert/core/scene/scene.h>
+/// constraints, and the bodies that they hold together;
 #include <dalembert/constraints/bodies/lamina.h>
 #include <dalembert/constraints/bodies/rigid_body.h>
 #include <dalembert/constraints/bodies/thin_rod.h>
@@ -20,11 +30,5 @@
 #include <dalembert/constraints/pursuit.h>
 #include <dalembert/constraints/rolling.h>
 #include <dalembert/constraints/upright_rolling.h>
-#include <dalembert/core/analysis/audit.h>
-#include <dalembert/core/analysis/integrability.h>
-#include <dalembert/core/forces/fields.h>
-#include <dalembert/core/forces/forces.h>
-#include <dalembert/core/forces/friction.h>
-#include <dalembert/core/results/trajectory.h>
-#include <dalembert/core/scene/scene.h>
+/// and running it.
 #include <dalembert/solvers/simulation.h>

@@ -20,7 +20,7 @@ struct Motion {
 
 /// One way of stating a scene.
 struct Statement {
-  int unknowns;
+  std::size_t unknowns;
   std::function<Motion(const Options&)> run;
 };
 
@@ -36,7 +36,7 @@ struct Watched {
 
 /// Of the stabilised index-2 equations: q, v, lambda, mu.
 template <int D>
-[[nodiscard]] int unknowns(const Scene<D>& scene) {
+[[nodiscard]] std::size_t unknowns(const Scene<D>& scene) {
   const System system = scene.system();
   return 2 * system.coordinates() + system.rows() + system.holonomic_rows();
 }
@@ -45,7 +45,7 @@ template <int D>
 /// Scenes stand in a deque: growing, it neither copies nor moves them.
 template <int D>
 [[nodiscard]] Statement state(std::deque<Watched<D>> scenes) {
-  int largest = 0;
+  std::size_t largest = 0;
   for (const Watched<D>& watched : scenes) largest = std::max(largest, unknowns(watched.scene));
   const auto shared = std::make_shared<const std::deque<Watched<D>>>(std::move(scenes));
   return {largest, [shared](const Options& options) {

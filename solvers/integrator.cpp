@@ -94,8 +94,10 @@ struct DALEMBERT_HIDDEN Integrator::State {
     record.layout = system.layout();
     record.stepper = name(o.stepper);
     record.tolerance = o.tolerance;
-    record.statistics.degrees_of_freedom = system.coordinates() + system.compliant_rows() - start.rows.size();
-    record.statistics.redundant_equations = system.rows() - start.rows.size();
+    const auto count = [](std::size_t equations) { return static_cast<int>(equations); };
+    record.statistics.degrees_of_freedom =
+        count(system.coordinates() + system.compliant_rows()) - count(start.rows.size());
+    record.statistics.redundant_equations = count(system.rows() - start.rows.size());
     if (system.frictional() && o.stepper == Stepper::ida)
       sticking.emplace(system, start, o.t_start, o.tolerance);
     visit(o.t_start);

@@ -19,26 +19,25 @@ struct State {
   }
 };
 
+inline Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
 inline Eigen::VectorXd vector(std::span<const double> x) {
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
 }
 
 inline Eigen::MatrixXd by_rows(const System& system, std::span<const double> w) {
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(system.rows(), system.coordinates());
-  for (int r = 0; r < system.rows(); ++r) {
-    for (int k = system.row_start()[static_cast<std::size_t>(r)];
-         k < system.row_start()[static_cast<std::size_t>(r) + 1]; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      dense(r, system.w_columns()[at]) += w[at];
-    }
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(index(system.rows()), index(system.coordinates()));
+  for (std::size_t r = 0; r < system.rows(); ++r) {
+    for (const std::size_t k : system.row(r)) dense(index(r), index(system.w_columns()[k])) += w[k];
   }
   return dense;
 }
 
-inline Eigen::MatrixXd by_entries(int n, std::span<const System::Entry> pattern,
+inline Eigen::MatrixXd by_entries(Eigen::Index n, std::span<const System::Entry> pattern,
                                   std::span<const double> values) {
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
-  for (std::size_t k = 0; k < pattern.size(); ++k) dense(pattern[k].row, pattern[k].column) += values[k];
+  for (std::size_t k = 0; k < pattern.size(); ++k)
+    dense(index(pattern[k].row), index(pattern[k].column)) += values[k];
   return dense;
 }
 
@@ -49,7 +48,7 @@ struct Values {
 
 inline Values values(const System& system, const State& s) {
   auto e = system.evaluation();
-  std::vector<double> gamma(static_cast<std::size_t>(system.rows()));
+  std::vector<double> gamma(system.rows());
   system.evaluate(s.instant(), e);
   system.bias(s.instant(), gamma);
   return {vector(e.force), vector(e.g), vector(e.psi), vector(gamma), by_rows(system, e.w)};
@@ -57,7 +56,7 @@ inline Values values(const System& system, const State& s) {
 
 /// The forces that read multipliers.
 inline Eigen::VectorXd friction(const System& system, const State& s, const Eigen::VectorXd& lambda) {
-  Eigen::VectorXd F = Eigen::VectorXd::Zero(system.coordinates());
+  Eigen::VectorXd F = Eigen::VectorXd::Zero(index(system.coordinates()));
   system.add_friction(s.instant(), {lambda.data(), static_cast<std::size_t>(lambda.size())},
                       {F.data(), static_cast<std::size_t>(F.size())});
   return F;
@@ -70,10 +69,11 @@ struct Derivatives {
 inline Derivatives derivatives(const System& system, const State& s, const Eigen::VectorXd& lambda) {
   auto d = system.linearisation();
   system.linearise(s.instant(), {lambda.data(), static_cast<std::size_t>(lambda.size())}, d);
-  const int n = system.coordinates();
-  Eigen::MatrixXd by_lambda = Eigen::MatrixXd::Zero(n, system.rows());
+  const Eigen::Index n = index(system.coordinates());
+  Eigen::MatrixXd by_lambda = Eigen::MatrixXd::Zero(n, index(system.rows()));
   for (std::size_t k = 0; k < d.friction.size(); ++k)
-    by_lambda(system.friction_pattern()[k].row, system.friction_pattern()[k].column) += d.friction[k];
+    by_lambda(index(system.friction_pattern()[k].row), index(system.friction_pattern()[k].column)) +=
+        d.friction[k];
   return {by_rows(system, d.psi_q), by_entries(n, system.stiffness_pattern(), d.stiffness),
           by_entries(n, system.damping_pattern(), d.damping), by_lambda};
 }
@@ -82,7 +82,7 @@ inline Derivatives derivatives(const System& system, const State& s, const Eigen
 inline void expect_consistent(const System& system, const State& at, const Eigen::VectorXd& lambda) {
   const Values now = values(system, at);
   const Derivatives d = derivatives(system, at, lambda);
-  const Eigen::Index holonomic = system.holonomic_rows();
+  const Eigen::Index holonomic = index(system.holonomic_rows());
   for (Eigen::Index j = 0; j < at.q.size(); ++j) {
     const auto force_moved = [&](double s) {
       State to = at;

@@ -43,16 +43,15 @@ void schur_assemble_and_factorise(benchmark::State& state) {
 
 /// LDL alone, on a matrix of the pattern and kind of a chain's S: tridiagonal, positive definite.
 void ldl_factorise(benchmark::State& state) {
-  const int n = static_cast<int>(state.range(0));
+  const auto n = static_cast<std::size_t>(state.range(0));
   std::vector<SparseLdl::Entry> entries;
-  for (int i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     entries.push_back({i, i});
     if (i > 0) entries.push_back({i, i - 1});
   }
   SparseLdl matrix(n, entries);
   for (std::size_t k = 0; k < entries.size(); ++k) {
-    matrix.values()[static_cast<std::size_t>(matrix.place(k))] =
-        entries[k].row == entries[k].column ? 2.0 : -0.5;
+    matrix.values()[matrix.place(k)] = entries[k].row == entries[k].column ? 2.0 : -0.5;
   }
   bool regular = true;
   for (auto _ : state) regular = matrix.factorise() && regular;

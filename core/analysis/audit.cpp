@@ -15,8 +15,10 @@ namespace {
 /// Unit columns: displacements that all rows of W allow, and that span all such. In the metric of the masses
 /// they are orthogonal.
 Eigen::MatrixXd tangent_space(const System& system, std::span<const double> w) {
-  if (system.rows() == 0) return Eigen::MatrixXd::Identity(system.coordinates(), system.coordinates());
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(system.coordinates(), system.rows());
+  const auto n = static_cast<Eigen::Index>(system.coordinates());
+  const auto m = static_cast<Eigen::Index>(system.rows());
+  if (m == 0) return Eigen::MatrixXd::Identity(n, n);
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(n, m);
   qr.setThreshold(rank_threshold);
   qr.compute(Eigen::MatrixXd(rows_in_mass_metric(system, w)));
   const Eigen::MatrixXd Q = qr.householderQ();
@@ -42,7 +44,7 @@ Audit audit(const System& system, const FlatSample& sample) {
   }
   Audit result;
 
-  Eigen::VectorXd Z = Eigen::VectorXd::Zero(system.coordinates());
+  Eigen::VectorXd Z = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(system.coordinates()));
   for (const auto& constraint : layout.constraints) {
     double power = 0.0;
     for (int s = constraint.first_slot; s < constraint.first_slot + constraint.width; ++s) {

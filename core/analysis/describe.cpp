@@ -26,7 +26,7 @@ std::string rotors(std::size_t count) {
 }
 
 /// By count: where there are more equations than coordinates some depend on others.
-std::string freedom(int coordinates, int equations) {
+std::string freedom(std::size_t coordinates, std::size_t equations) {
   if (equations <= coordinates) return std::to_string(coordinates - equations);
   return "not to be counted: " + std::to_string(equations - coordinates) + " equations too many";
 }
@@ -34,8 +34,8 @@ std::string freedom(int coordinates, int equations) {
 }  // namespace
 
 std::string System::describe() const {
-  const int n = coordinates();
-  const int nonholonomic = rows() - holonomic_rows();
+  const std::size_t n = coordinates();
+  const std::size_t nonholonomic = rows() - holonomic_rows();
   std::ostringstream out;
   out << "scene \"" << layout_->scene << "\": " << layout_->particles.size()
       << (layout_->particles.size() == 1 ? " particle" : " particles") << rotors(layout_->rotors.size())
@@ -68,7 +68,8 @@ std::string System::describe(double t, std::span<const double> q) const {
   const std::vector<double> at_rest(q.size(), 0.0);
   auto e = evaluation();
   evaluate({t, q, at_rest}, e);
-  const int rank = independent_rows(*this, e.w).size() - compliant_rows();  // those take no freedom away
+  const std::size_t rank =
+      independent_rows(*this, e.w).size() - compliant_rows();  // those take no freedom away
   out << "at t = " << t << ": " << rank << " of " << rows() - compliant_rows()
       << " constraint equations independent, " << coordinates() - rank << " degrees of freedom of velocity\n";
   for (const Integrability& set : integrability(*this, t, q)) {

@@ -10,21 +10,20 @@ namespace dalembert {
 /// Disjoint sets of numbers from 0, each known by its smallest member.
 class DisjointSets {
  public:
-  explicit DisjointSets(int size) : parent_(static_cast<std::size_t>(size)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
+  explicit DisjointSets(std::size_t size) : parent_(size) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   }
-  int root(int i) {
-    while (parent(i) != i) i = parent(i) = parent(parent(i));
+  std::size_t root(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  void join(int a, int b) {
-    const int first = root(a), second = root(b);
-    parent(std::max(first, second)) = std::min(first, second);
+  void join(std::size_t a, std::size_t b) {
+    const std::size_t first = root(a), second = root(b);
+    parent_[std::max(first, second)] = std::min(first, second);
   }
 
  private:
-  int& parent(int i) { return parent_[static_cast<std::size_t>(i)]; }
-  std::vector<int> parent_;
+  std::vector<std::size_t> parent_;
 };
 
 }  // namespace dalembert

@@ -22,13 +22,12 @@ struct Forms {
   std::vector<Eigen::MatrixXd> derivative;  // J of each nonholonomic row
 };
 
+Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
 Eigen::MatrixXd dense(const System& system, std::span<const double> w) {
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(system.rows(), system.coordinates());
-  for (int r = 0; r < system.rows(); ++r) {
-    for (int k = system.row_start()[static_cast<std::size_t>(r)];
-         k < system.row_start()[static_cast<std::size_t>(r) + 1]; ++k) {
-      rows(r, system.w_columns()[static_cast<std::size_t>(k)]) += w[static_cast<std::size_t>(k)];
-    }
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(index(system.rows()), index(system.coordinates()));
+  for (std::size_t r = 0; r < system.rows(); ++r) {
+    for (const std::size_t k : system.row(r)) rows(index(r), index(system.w_columns()[k])) += w[k];
   }
   return rows;
 }
@@ -40,7 +39,7 @@ struct Slopes {
 };
 Slopes slopes(const System& system, const Instant& at) {
   auto linear = system.linearisation();
-  std::vector<double> gamma(static_cast<std::size_t>(system.rows()));
+  std::vector<double> gamma(system.rows());
   system.linearise(at, gamma, linear);
   system.bias(at, gamma);
   return {dense(system, linear.psi_q), std::move(gamma)};
@@ -64,54 +63,47 @@ Slopes unit_slopes(const System& system, double t, std::span<const double> q, st
 /// give those of A and a: with psi_q(v) and gamma(v) = psi_q v + A_t v + a_t,
 ///   a_q = psi_q(0),   (A_k)_q = s (psi_q(v) - psi_q(0)),   (A_k)_t = s (gamma(v) - gamma(0)) - psi_q(v) e_k.
 Forms forms(const System& system, double t, std::span<const double> q) {
-  const auto n = static_cast<Eigen::Index>(system.coordinates());
+  const Eigen::Index n = index(system.coordinates());
   const std::vector<double> v(q.size(), 0.0);
   auto e = system.evaluation();
   system.evaluate({t, q, v}, e);
   Forms result;
-  result.all.resize(system.rows(), n + 1);
+  result.all.resize(index(system.rows()), n + 1);
   result.all.leftCols(n) = dense(system, e.w);
-  result.all.col(n) = Eigen::Map<const Eigen::VectorXd>(e.psi.data(), system.rows());
+  result.all.col(n) = Eigen::Map<const Eigen::VectorXd>(e.psi.data(), index(system.rows()));
 
   const Slopes rest = slopes(system, {t, q, v});
-  const int first = system.holonomic_rows();
-  result.derivative.assign(static_cast<std::size_t>(system.rows() - first),
-                           Eigen::MatrixXd::Zero(n + 1, n + 1));
+  const std::size_t first = system.holonomic_rows();
+  result.derivative.assign(system.rows() - first, Eigen::MatrixXd::Zero(n + 1, n + 1));
   for (Eigen::Index k = 0; k < n; ++k) {
     double sign = 1.0;
     const Slopes unit = unit_slopes(system, t, q, static_cast<std::size_t>(k), sign);
-    for (int r = first; r < system.rows(); ++r) {
-      const auto row = static_cast<std::size_t>(r);
-      auto& J = result.derivative[static_cast<std::size_t>(r - first)];
-      J.col(k).head(n) = sign * (unit.psi_q.row(r) - rest.psi_q.row(r)).transpose();
-      J(n, k) = sign * (unit.gamma[row] - rest.gamma[row]) - unit.psi_q(r, k);
+    for (std::size_t r = first; r < system.rows(); ++r) {
+      auto& J = result.derivative[r - first];
+      J.col(k).head(n) = sign * (unit.psi_q.row(index(r)) - rest.psi_q.row(index(r))).transpose();
+      J(n, k) = sign * (unit.gamma[r] - rest.gamma[r]) - unit.psi_q(index(r), k);
     }
   }
-  for (int r = first; r < system.rows(); ++r) {
-    result.derivative[static_cast<std::size_t>(r - first)].col(n).head(n) = rest.psi_q.row(r).transpose();
-  }
+  for (std::size_t r = first; r < system.rows(); ++r)
+    result.derivative[r - first].col(n).head(n) = rest.psi_q.row(index(r)).transpose();
   return result;
 }
 
 /// Sets of rows that share coordinates, also through other rows; each sorted. Compliant rows take no freedom
 /// away, and are left out.
-std::vector<std::vector<int>> connected_rows(const System& system) {
-  const auto columns = [&system](int r) {
-    const auto first = static_cast<std::size_t>(system.row_start()[static_cast<std::size_t>(r)]);
-    const auto last = static_cast<std::size_t>(system.row_start()[static_cast<std::size_t>(r) + 1]);
-    return system.w_columns().subspan(first, last - first);
-  };
-  const auto rigid = [&system](int r) { return !(system.compliance()[static_cast<std::size_t>(r)] > 0.0); };
+std::vector<std::vector<std::size_t>> connected_rows(const System& system) {
+  const auto first_column = [&system](std::size_t r) { return system.w_columns()[system.row(r).front()]; };
+  const auto rigid = [&system](std::size_t r) { return !(system.compliance()[r] > 0.0); };
   DisjointSets coordinates(system.coordinates());
-  for (int r = 0; r < system.rows(); ++r) {
+  for (std::size_t r = 0; r < system.rows(); ++r) {
     if (!rigid(r)) continue;
-    for (const int i : columns(r)) coordinates.join(columns(r)[0], i);
+    for (const std::size_t k : system.row(r)) coordinates.join(first_column(r), system.w_columns()[k]);
   }
-  std::vector<std::vector<int>> sets;
-  std::vector<int> roots;
-  for (int r = 0; r < system.rows(); ++r) {
+  std::vector<std::vector<std::size_t>> sets;
+  std::vector<std::size_t> roots;
+  for (std::size_t r = 0; r < system.rows(); ++r) {
     if (!rigid(r)) continue;
-    const int mine = coordinates.root(columns(r)[0]);
+    const std::size_t mine = coordinates.root(first_column(r));
     const auto known = std::ranges::find(roots, mine);
     if (known == roots.end()) sets.emplace_back();
     const auto set = static_cast<std::size_t>(known - roots.begin());
@@ -122,9 +114,9 @@ std::vector<std::vector<int>> connected_rows(const System& system) {
 }
 
 /// Directions that the given rows allow, as orthonormal columns.
-Eigen::MatrixXd allowed(const Eigen::MatrixXd& all, const std::vector<int>& rows) {
+Eigen::MatrixXd allowed(const Eigen::MatrixXd& all, const std::vector<std::size_t>& rows) {
   Eigen::MatrixXd I(std::ssize(rows), all.cols());
-  for (Eigen::Index r = 0; r < I.rows(); ++r) I.row(r) = all.row(rows[static_cast<std::size_t>(r)]);
+  for (Eigen::Index r = 0; r < I.rows(); ++r) I.row(r) = all.row(index(rows[static_cast<std::size_t>(r)]));
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(I.transpose());
   qr.setThreshold(1e-9);
   const Eigen::MatrixXd Q = qr.householderQ();
@@ -132,11 +124,11 @@ Eigen::MatrixXd allowed(const Eigen::MatrixXd& all, const std::vector<int>& rows
 }
 
 /// (1) for the nonholonomic rows among `rows`.
-bool integrable(const Forms& forms, const std::vector<int>& rows, int holonomic) {
+bool integrable(const Forms& forms, const std::vector<std::size_t>& rows, std::size_t holonomic) {
   const Eigen::MatrixXd X = allowed(forms.all, rows);
-  return std::ranges::all_of(rows, [&](int r) {
+  return std::ranges::all_of(rows, [&](std::size_t r) {
     if (r < holonomic) return true;
-    const Eigen::MatrixXd& J = forms.derivative[static_cast<std::size_t>(r - holonomic)];
+    const Eigen::MatrixXd& J = forms.derivative[r - holonomic];
     const Eigen::MatrixXd B = X.transpose() * (J - J.transpose()) * X;
     return B.size() == 0 || B.cwiseAbs().maxCoeff() <= round_off * std::max(J.cwiseAbs().maxCoeff(), 1e-300);
   });
@@ -148,17 +140,17 @@ std::vector<Integrability> integrability(const System& system, double t, std::sp
   std::vector<Integrability> verdicts;
   if (system.rows() == system.holonomic_rows()) return verdicts;
   const Forms at = forms(system, t, q);
-  const int holonomic = system.holonomic_rows();
+  const std::size_t holonomic = system.holonomic_rows();
   for (const auto& set : connected_rows(system)) {
     if (set.back() < holonomic) continue;
     const auto first = std::ranges::lower_bound(set, holonomic);
-    const std::vector<int> velocity(first, set.end());
+    const std::vector<std::size_t> velocity(first, set.end());
     Integrability verdict;
-    for (const int r : velocity) verdict.constraints.push_back(system.row_label(r));
+    for (const std::size_t r : velocity) verdict.constraints.push_back(system.row_label(r));
     verdict.holonomic = integrable(at, set, holonomic);
-    for (const int r : velocity) {
+    for (const std::size_t r : velocity) {
       if (verdict.holonomic) break;
-      std::vector<int> alone(set.begin(), first);
+      std::vector<std::size_t> alone(set.begin(), first);
       alone.push_back(r);
       if (integrable(at, alone, holonomic)) verdict.holonomic_alone.push_back(system.row_label(r));
     }

@@ -5,25 +5,20 @@
 namespace dalembert {
 
 Islands islands(const System& system) {
-  const int n = system.coordinates();
+  const std::size_t n = system.coordinates();
   DisjointSets sets(n);
-  for (std::size_t r = 0; r < static_cast<std::size_t>(system.rows()); ++r) {
-    const auto first = static_cast<std::size_t>(system.row_start()[r]);
-    for (auto k = first; k < static_cast<std::size_t>(system.row_start()[r + 1]); ++k)
-      sets.join(system.w_columns()[first], system.w_columns()[k]);
+  const auto first_column = [&system](std::size_t r) { return system.w_columns()[system.row(r).front()]; };
+  for (std::size_t r = 0; r < system.rows(); ++r) {
+    for (const std::size_t k : system.row(r)) sets.join(first_column(r), system.w_columns()[k]);
   }
   for (const auto& entry : system.stiffness_pattern()) sets.join(entry.row, entry.column);
   for (const auto& entry : system.damping_pattern()) sets.join(entry.row, entry.column);
-  for (const auto& entry : system.friction_pattern()) {
-    const auto first = static_cast<std::size_t>(system.row_start()[static_cast<std::size_t>(entry.column)]);
-    sets.join(entry.row, system.w_columns()[first]);
-  }
+  for (const auto& entry : system.friction_pattern()) sets.join(entry.row, first_column(entry.column));
 
-  Islands islands{0, std::vector<int>(static_cast<std::size_t>(n))};
-  for (int i = 0; i < n; ++i) {
-    const int root = sets.root(i);
-    islands.of_coordinate[static_cast<std::size_t>(i)] =
-        root == i ? islands.count++ : islands.of_coordinate[static_cast<std::size_t>(root)];
+  Islands islands{0, std::vector<std::size_t>(n)};
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t root = sets.root(i);
+    islands.of_coordinate[i] = root == i ? islands.count++ : islands.of_coordinate[root];
   }
   return islands;
 }

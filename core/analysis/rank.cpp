@@ -8,13 +8,14 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <span>
 
 namespace dalembert {
 
 namespace {
 
 /// Up to this many entries a dense QR with column pivoting is affordable, and it chooses better.
-constexpr std::size_t dense_entries = 100'000;
+constexpr Eigen::Index dense_entries = 100'000;
 
 using Columns = Eigen::SparseMatrix<double>;
 
@@ -24,12 +25,14 @@ struct Wanted {
   std::optional<Eigen::Index> count{};
 };
 
+std::size_t number(Eigen::Index i) { return static_cast<std::size_t>(i); }
+
 /// The columns with, for each compliant row, an entry of its own: its elongation, in units of its length.
 Columns with_elongations(const System& system, const Columns& rows) {
   std::vector<Eigen::Triplet<double>> entries;
   const double half = std::sqrt(0.5);
   for (int r = 0; r < rows.cols(); ++r) {
-    const bool yields = system.compliance()[static_cast<std::size_t>(r)] > 0.0;
+    const bool yields = system.compliance()[number(r)] > 0.0;
     for (Columns::InnerIterator it(rows, r); it; ++it)
       entries.emplace_back(static_cast<int>(it.row()), r, (yields ? half : 1.0) * it.value());
     if (yields) entries.emplace_back(static_cast<int>(rows.rows()) + r, r, half);
@@ -39,9 +42,9 @@ Columns with_elongations(const System& system, const Columns& rows) {
   return extended;
 }
 
-std::vector<int> all_rows(const System& system) {
-  std::vector<int> all(static_cast<std::size_t>(system.rows()));
-  std::iota(all.begin(), all.end(), 0);
+std::vector<std::size_t> all_rows(const System& system) {
+  std::vector<std::size_t> all(system.rows());
+  std::iota(all.begin(), all.end(), std::size_t{0});
   return all;
 }
 
@@ -59,22 +62,21 @@ bool clearly_independent(const Columns& rows) {
 
 /// The first of an ordering, in increasing order.
 template <class Permutation>
-std::vector<int> first_of(const Permutation& permutation, Eigen::Index rank) {
-  std::vector<int> rows(permutation.indices().data(), permutation.indices().data() + rank);
+std::vector<std::size_t> first_of(const Permutation& permutation, Eigen::Index rank) {
+  std::vector<std::size_t> rows(permutation.indices().data(), permutation.indices().data() + rank);
   std::ranges::sort(rows);
   return rows;
 }
 
 /// As many columns as are independent; of those that depend on each other the longer ones.
-std::vector<int> independent_columns(const Columns& columns, const Wanted& wanted) {
+std::vector<std::size_t> independent_columns(const Columns& columns, const Wanted& wanted) {
   const auto dense = [&] {
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns.rows(), columns.cols());
     qr.setThreshold(wanted.threshold);
     qr.compute(Eigen::MatrixXd(columns));
     return first_of(qr.colsPermutation(), wanted.count.value_or(qr.rank()));
   };
-  if (static_cast<std::size_t>(columns.rows()) * static_cast<std::size_t>(columns.cols()) <= dense_entries)
-    return dense();
+  if (columns.rows() * columns.cols() <= dense_entries) return dense();
   Eigen::SparseQR<Columns, Eigen::COLAMDOrdering<int>> qr;
   qr.setPivotThreshold(wanted.threshold);
   qr.compute(columns);
@@ -83,39 +85,40 @@ std::vector<int> independent_columns(const Columns& columns, const Wanted& wante
 }
 
 /// Of the columns, those that depend neither on others of `columns` that are not `second`, nor on each other.
-std::vector<int> independent_among(Columns columns, const std::vector<char>& second, Wanted wanted) {
+std::vector<std::size_t> independent_among(Columns columns, const std::vector<char>& second, Wanted wanted) {
   constexpr double shorter = 1e-3;  // than the first: QR with column pivoting takes these before
-  const auto is_second = [&second](int r) { return second[static_cast<std::size_t>(r)] != 0; };
-  for (int r = 0; r < columns.cols(); ++r) {
-    if (is_second(r)) columns.col(r) *= shorter;
+  for (Eigen::Index r = 0; r < columns.cols(); ++r) {
+    if (second[number(r)]) columns.col(r) *= shorter;
   }
   wanted.threshold *= shorter;
   auto chosen = independent_columns(columns, wanted);
-  std::erase_if(chosen, [&](int r) { return !is_second(r); });
+  std::erase_if(chosen, [&second](std::size_t r) { return !second[r]; });
   return chosen;
 }
 
 /// Holonomic rows first: of a rod's equation and its derivative the rod is kept.
-std::vector<int> independent(const System& system, const Columns& columns, double threshold,
-                             const ActiveRows* like) {
-  const int holonomic = system.holonomic_rows();
-  const auto wanted = [&](int count) {
-    return Wanted{threshold, like != nullptr ? std::optional<Eigen::Index>(count) : std::nullopt};
+std::vector<std::size_t> independent(const System& system, const Columns& columns, double threshold,
+                                     const ActiveRows* like) {
+  const std::size_t holonomic = system.holonomic_rows();
+  const auto wanted = [&](std::size_t count) {
+    return Wanted{threshold,
+                  like != nullptr ? std::optional(static_cast<Eigen::Index>(count)) : std::nullopt};
   };
   if (holonomic == 0 || holonomic == system.rows())
     return independent_columns(columns, wanted(like != nullptr ? like->size() : 0));
-  auto chosen =
-      independent_columns(columns.leftCols(holonomic), wanted(like != nullptr ? like->holonomic : 0));
-  std::vector<char> velocity_level(static_cast<std::size_t>(system.rows()), 0);
-  std::fill(velocity_level.begin() + holonomic, velocity_level.end(), 1);
-  for (const int r : independent_among(columns, velocity_level, wanted(like != nullptr ? like->size() : 0)))
+  auto chosen = independent_columns(columns.leftCols(static_cast<Eigen::Index>(holonomic)),
+                                    wanted(like != nullptr ? like->holonomic : 0));
+  std::vector<char> velocity_level(system.rows(), 0);
+  std::ranges::fill(std::span(velocity_level).subspan(holonomic), 1);
+  for (const std::size_t r :
+       independent_among(columns, velocity_level, wanted(like != nullptr ? like->size() : 0)))
     chosen.push_back(r);
   return chosen;
 }
 
 /// Compliant rows among `active` that depend on others, rigid ones first of all.
-std::vector<std::size_t> slack_rows(const System& system, const Columns& columns, std::span<const int> active,
-                                    double threshold) {
+std::vector<std::size_t> slack_rows(const System& system, const Columns& columns,
+                                    std::span<const std::size_t> active, double threshold) {
   if (!system.compliant() || clearly_independent(columns)) return {};
   std::vector<char> is_compliant;
   for (const double C : system.compliance()) is_compliant.push_back(C > 0.0);
@@ -123,7 +126,7 @@ std::vector<std::size_t> slack_rows(const System& system, const Columns& columns
   std::vector<std::size_t> slack;
   for (std::size_t k = 0; k < active.size(); ++k) {
     const bool carries = std::ranges::binary_search(carrying, active[k]);
-    if (is_compliant[static_cast<std::size_t>(active[k])] && !carries) slack.push_back(k);
+    if (is_compliant[active[k]] && !carries) slack.push_back(k);
   }
   return slack;
 }
@@ -134,26 +137,25 @@ ActiveRows choose(const System& system, std::span<const double> w, double thresh
   const Columns extended = system.compliant() ? with_elongations(system, columns) : columns;
   const bool all = like != nullptr ? like->size() == system.rows() : clearly_independent(extended);
   auto rows = all ? all_rows(system) : independent(system, extended, threshold, like);
-  const auto holonomic = std::ranges::count_if(rows, [&](int r) { return r < system.holonomic_rows(); });
+  const auto holonomic =
+      std::ranges::count_if(rows, [&](std::size_t r) { return r < system.holonomic_rows(); });
   auto slack = slack_rows(system, columns, rows, threshold);
-  return {std::move(rows), static_cast<int>(holonomic), std::move(slack)};
+  return {std::move(rows), number(holonomic), std::move(slack)};
 }
 
 }  // namespace
 
 Eigen::SparseMatrix<double> rows_in_mass_metric(const System& system, std::span<const double> w) {
   std::vector<Eigen::Triplet<double>> entries;
-  for (int r = 0; r < system.rows(); ++r) {
-    const auto first = static_cast<std::size_t>(system.row_start()[static_cast<std::size_t>(r)]);
-    const auto last = static_cast<std::size_t>(system.row_start()[static_cast<std::size_t>(r) + 1]);
-    for (std::size_t k = first; k < last; ++k) {
-      const int i = system.w_columns()[k];
-      entries.emplace_back(i, r, w[k] / std::sqrt(system.masses()[static_cast<std::size_t>(i)]));
+  for (std::size_t r = 0; r < system.rows(); ++r) {
+    for (const std::size_t k : system.row(r)) {
+      const std::size_t i = system.w_columns()[k];
+      entries.emplace_back(static_cast<int>(i), static_cast<int>(r), w[k] / std::sqrt(system.masses()[i]));
     }
   }
-  Columns rows(system.coordinates(), system.rows());
+  Columns rows(static_cast<Eigen::Index>(system.coordinates()), static_cast<Eigen::Index>(system.rows()));
   rows.setFromTriplets(entries.begin(), entries.end());
-  for (int r = 0; r < system.rows(); ++r) {
+  for (Eigen::Index r = 0; r < rows.cols(); ++r) {
     const double length = rows.col(r).norm();
     if (length > 0.0) rows.col(r) /= length;
   }

@@ -12,13 +12,13 @@ namespace dalembert {
 /// The constraint rows a solver works with: all of them, unless some depend on others. Holonomic
 /// rows come first.
 struct ActiveRows {
-  std::vector<int> rows;
-  int holonomic = 0;
+  std::vector<std::size_t> rows;
+  std::size_t holonomic = 0;
   /// Places in `rows` of compliant rows whose gradients depend on those of others: springs side by side. The
   /// others put positions and velocities onto the constraints; g + C lambda = 0 gives these their forces.
   std::vector<std::size_t> slack{};
 
-  [[nodiscard]] int size() const { return static_cast<int>(rows.size()); }
+  [[nodiscard]] std::size_t size() const { return rows.size(); }
 };
 
 /// The threshold at a state that obeys its constraints to round-off: far above round-off, far below

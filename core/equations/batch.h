@@ -110,7 +110,7 @@ class ForceBatch {
 /// The multipliers of a scene, and at which row those that each element of a batch reads begin.
 struct Multipliers {
   std::span<const double> all;
-  std::span<const int> first_row;
+  std::span<const std::size_t> first_row;
 };
 
 /// What all forces of one type that read multipliers have in common.

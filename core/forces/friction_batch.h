@@ -92,7 +92,7 @@ class FrictionBatch final : public MultiplierForceBatch {
   [[nodiscard]] static VecOf<S, inputs> forces(const E& e, const Instant& at, const Multipliers& lambda,
                                                std::size_t i, const LiftPosition& lift_r,
                                                const LiftVelocity& lift_v, const LiftMultiplier& lift) {
-    const auto own = lambda.all.subspan(static_cast<std::size_t>(lambda.first_row[i]), rows);
+    const auto own = lambda.all.subspan(lambda.first_row[i], rows);
     detail::MultiplierOf<S, rows> multiplier;
     if constexpr (rows == 1) {
       multiplier = lift(own[0], 0.0, 0);

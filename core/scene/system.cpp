@@ -29,7 +29,8 @@ std::string System::at_time(double t) {
 void System::append_blocks(std::span<const int> coordinates, std::size_t width, std::vector<Entry>& pattern) {
   for (std::size_t first = 0; first < coordinates.size(); first += width) {
     for (const int row : coordinates.subspan(first, width)) {
-      for (const int column : coordinates.subspan(first, width)) pattern.push_back({row, column});
+      for (const int column : coordinates.subspan(first, width))
+        pattern.push_back({static_cast<std::size_t>(row), static_cast<std::size_t>(column)});
     }
   }
 }
@@ -70,20 +71,21 @@ void System::place_constraints() {
     append_blocks(coordinates, width, stiffness_pattern_);
     for (std::size_t i = 0; i < batches[b]->size(); ++i) {
       auto& info = parts_.layout.constraints[static_cast<std::size_t>(parts_.constraint_numbers[b][i])];
-      info.first_row = rows();
+      info.first_row = static_cast<int>(rows());
       info.first_slot = static_cast<int>(slots.size());
       const auto own = coordinates.subspan(i * width, width);
       slots.insert(slots.end(), own.begin(), own.end());
       for (int k = 0; k < shape.rows; ++k) {
         w_columns_.insert(w_columns_.end(), own.begin(), own.end());
-        row_start_.push_back(static_cast<int>(w_columns_.size()));
+        row_start_.push_back(w_columns_.size());
       }
     }
     compliance_.resize(row_start_.size() - 1);
     batches[b]->compliance(std::span(compliance_).last(row_count));
     if (shape.holonomic) holonomic_rows_ = rows();
   }
-  compliant_rows_ = static_cast<int>(std::ranges::count_if(compliance_, [](double C) { return C > 0.0; }));
+  compliant_rows_ =
+      static_cast<std::size_t>(std::ranges::count_if(compliance_, [](double C) { return C > 0.0; }));
 }
 
 void System::place_forces() {
@@ -108,9 +110,8 @@ bool System::rheonomic() const {
 }
 
 System::Evaluation System::evaluation() const {
-  return {std::vector<double>(parts_.masses.size()),
-          std::vector<double>(static_cast<std::size_t>(holonomic_rows())),
-          std::vector<double>(static_cast<std::size_t>(rows())), std::vector<double>(w_columns_.size())};
+  return {std::vector<double>(parts_.masses.size()), std::vector<double>(holonomic_rows()),
+          std::vector<double>(rows()), std::vector<double>(w_columns_.size())};
 }
 
 System::Linearisation System::linearisation() const {
@@ -214,7 +215,7 @@ void System::constraint_forces(std::span<const double> w, std::span<const double
   for (const Layout::Constraint& c : layout_->constraints) {
     for (int k = 0; k < c.rows; ++k) {
       const auto row = static_cast<std::size_t>(c.first_row + k);
-      const auto first_w = static_cast<std::size_t>(row_start_[row]);
+      const std::size_t first_w = row_start_[row];
       for (std::size_t j = 0; j < static_cast<std::size_t>(c.width); ++j) {
         slots[static_cast<std::size_t>(c.first_slot) + j] += lambda[row] * w[first_w + j];
       }
@@ -266,21 +267,20 @@ std::string System::force_of_stiffness(std::size_t entry) const {
                      (entry - force_offsets_[batch].stiffness) / static_cast<std::size_t>(width * width));
 }
 
-const Layout::Constraint& System::constraint_of_row(int row, std::size_t& batch) const {
-  const auto next =
-      std::ranges::upper_bound(constraint_offsets_, static_cast<std::size_t>(row), {}, &Offsets::row);
+const Layout::Constraint& System::constraint_of_row(std::size_t row, std::size_t& batch) const {
+  const auto next = std::ranges::upper_bound(constraint_offsets_, row, {}, &Offsets::row);
   batch = static_cast<std::size_t>(next - constraint_offsets_.begin()) - 1;
-  const auto i = (static_cast<std::size_t>(row) - constraint_offsets_[batch].row) /
+  const auto i = (row - constraint_offsets_[batch].row) /
                  static_cast<std::size_t>(parts_.constraints[batch]->shape().rows);
   return layout_->constraints[static_cast<std::size_t>(parts_.constraint_numbers[batch][i])];
 }
 
-std::string System::row_label(int row) const {
+std::string System::row_label(std::size_t row) const {
   std::size_t batch = 0;
   return constraint_of_row(row, batch).label();
 }
 
-std::string_view System::singular_hint(int row) const {
+std::string_view System::singular_hint(std::size_t row) const {
   std::size_t batch = 0;
   (void)constraint_of_row(row, batch);
   return parts_.constraints[batch]->shape().singular;

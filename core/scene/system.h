@@ -51,22 +51,44 @@ class System {
     std::vector<double> friction;   ///< dF_f/dlambda, in the order of its pattern
   };
   struct Entry {
-    int row;
-    int column;
+    std::size_t row;
+    std::size_t column;
+  };
+
+  /// Consecutive entries of W.
+  class Places {
+   public:
+    Places(std::size_t first, std::size_t last) : first_(first), last_(last) {}
+    struct Iterator {
+      std::size_t k;
+      std::size_t operator*() const { return k; }
+      Iterator& operator++() {
+        ++k;
+        return *this;
+      }
+      bool operator==(const Iterator&) const = default;
+    };
+    [[nodiscard]] Iterator begin() const { return {first_}; }
+    [[nodiscard]] Iterator end() const { return {last_}; }
+    [[nodiscard]] std::size_t front() const { return first_; }
+    [[nodiscard]] std::size_t size() const { return last_ - first_; }
+
+   private:
+    std::size_t first_, last_;
   };
 
   explicit System(SystemParts parts);
 
-  [[nodiscard]] int coordinates() const { return static_cast<int>(parts_.masses.size()); }
-  [[nodiscard]] int rows() const { return static_cast<int>(row_start_.size()) - 1; }
-  [[nodiscard]] int holonomic_rows() const { return holonomic_rows_; }
+  [[nodiscard]] std::size_t coordinates() const { return parts_.masses.size(); }
+  [[nodiscard]] std::size_t rows() const { return row_start_.size() - 1; }
+  [[nodiscard]] std::size_t holonomic_rows() const { return holonomic_rows_; }
   /// Whether any constraint depends on time explicitly.
   [[nodiscard]] bool rheonomic() const;
   /// C of each row: g + C lambda = 0 instead of g = 0; 0 where it is rigid.
   [[nodiscard]] std::span<const double> compliance() const { return compliance_; }
   /// Whether any row is not rigid.
   [[nodiscard]] bool compliant() const { return compliant_rows() > 0; }
-  [[nodiscard]] int compliant_rows() const { return compliant_rows_; }
+  [[nodiscard]] std::size_t compliant_rows() const { return compliant_rows_; }
   [[nodiscard]] std::span<const double> masses() const { return parts_.masses; }
   /// What one unit of each coordinate means: `length` for a length, 1 for an angle.
   [[nodiscard]] std::vector<double> coordinate_scales(double length) const;
@@ -74,10 +96,10 @@ class System {
   [[nodiscard]] double extent(double t_start) const { return parts_.extent(t_start); }
   [[nodiscard]] const std::shared_ptr<const Layout>& layout() const { return layout_; }
 
-  /// Pattern of W by rows: row r has the entries row_start()[r] ... row_start()[r+1] - 1. A column
-  /// may occur twice in a row; its entries add.
-  [[nodiscard]] std::span<const int> row_start() const { return row_start_; }
-  [[nodiscard]] std::span<const int> w_columns() const { return w_columns_; }
+  /// Pattern of W: its entries by rows, `for (const std::size_t k : row(r))`, and the column of each, the
+  /// coordinate w_columns()[k]. A column may occur twice in a row; its entries add.
+  [[nodiscard]] Places row(std::size_t r) const { return {row_start_[r], row_start_[r + 1]}; }
+  [[nodiscard]] std::span<const std::size_t> w_columns() const { return w_columns_; }
   /// Places of the entries of Linearisation; places may repeat, their entries add.
   [[nodiscard]] std::span<const Entry> stiffness_pattern() const { return stiffness_pattern_; }
   [[nodiscard]] std::span<const Entry> damping_pattern() const { return damping_pattern_; }
@@ -136,9 +158,9 @@ class System {
   /// The label of what a batch holds, by its number in Branches.
   [[nodiscard]] std::string label_of_batch(std::size_t batch) const;
   /// The label of the constraint that row r belongs to.
-  [[nodiscard]] std::string row_label(int row) const;
+  [[nodiscard]] std::string row_label(std::size_t row) const;
   /// What a constraint of this row says when it is singular; may be empty.
-  [[nodiscard]] std::string_view singular_hint(int row) const;
+  [[nodiscard]] std::string_view singular_hint(std::size_t row) const;
 
   /// What the scene consists of, its degrees of freedom, and what was left out because nothing in
   /// it needs it.
@@ -159,7 +181,7 @@ class System {
   [[nodiscard]] std::string friction_label(std::size_t batch, std::size_t element) const;
   [[nodiscard]] std::string friction_of_stiffness(std::size_t entry) const;
   [[nodiscard]] std::string force_label(std::size_t batch, std::size_t element) const;
-  [[nodiscard]] const Layout::Constraint& constraint_of_row(int row, std::size_t& batch) const;
+  [[nodiscard]] const Layout::Constraint& constraint_of_row(std::size_t row, std::size_t& batch) const;
 
   template <class F>
   void on_constraints(double t, const F& f) const;
@@ -178,18 +200,18 @@ class System {
   /// Where a batch of frictions stands, and at which row the multipliers of each element begin.
   struct FrictionPlace {
     std::size_t slope, stiffness, damping, slope_count, block_count;
-    std::vector<int> first_row;
+    std::vector<std::size_t> first_row;
   };
 
   SystemParts parts_;
   std::shared_ptr<const Layout> layout_;
   std::vector<Offsets> constraint_offsets_;
   std::vector<Offsets> force_offsets_;
-  int holonomic_rows_ = 0;
-  std::vector<int> row_start_;
-  std::vector<int> w_columns_;
+  std::size_t holonomic_rows_ = 0;
+  std::vector<std::size_t> row_start_;
+  std::vector<std::size_t> w_columns_;
   std::vector<double> compliance_;
-  int compliant_rows_ = 0;
+  std::size_t compliant_rows_ = 0;
   std::vector<Entry> stiffness_pattern_;
   std::vector<Entry> damping_pattern_;
   std::size_t stiffness_of_constraints_ = 0;

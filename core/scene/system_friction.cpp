@@ -17,11 +17,11 @@ void System::place_frictions() {
     append_blocks(batch->coordinates(), width, damping_pattern_);
     for (std::size_t i = 0; i < batch->size(); ++i) {
       const auto constraint = static_cast<std::size_t>(batch->constraints()[i]);
-      const int first_row = parts_.layout.constraints[constraint].first_row;
+      const auto first_row = static_cast<std::size_t>(parts_.layout.constraints[constraint].first_row);
       place.first_row.push_back(first_row);
-      for (int r = 0; r < shape.rows; ++r) {
+      for (std::size_t r = 0; r < rows; ++r) {
         for (const int coordinate : batch->coordinates().subspan(i * width, width))
-          friction_pattern_.push_back({coordinate, first_row + r});
+          friction_pattern_.push_back({static_cast<std::size_t>(coordinate), first_row + r});
       }
     }
     friction_places_.push_back(std::move(place));

@@ -47,9 +47,8 @@ double ErkStepper::State::error_of_springs(std::span<const double> dq) const {
   for (std::size_t r = 0; r < force_of_spring.size(); ++r) {
     if (force_of_spring[r] == 0.0) continue;
     double stretch = 0.0, gradient = 0.0;
-    for (auto j = static_cast<std::size_t>(system->row_start()[r]);
-         j < static_cast<std::size_t>(system->row_start()[r + 1]); ++j) {
-      stretch += manifold.equations().w[j] * dq[static_cast<std::size_t>(system->w_columns()[j])];
+    for (const std::size_t j : system->row(r)) {
+      stretch += manifold.equations().w[j] * dq[system->w_columns()[j]];
       gradient = std::max(gradient, std::abs(manifold.equations().w[j]));
     }
     const double allowed = system->compliance()[r] * tolerance * force_of_spring[r] + gradient * rounding;

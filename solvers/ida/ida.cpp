@@ -190,7 +190,7 @@ bool IdaStepper::springs(double t, Springs& out) const {
   const auto read = [&](int derivative, std::vector<double>& numbers) {
     check(IDAGetDky(s.ida.get(), t, derivative, s.dense.get()), "IDAGetDky");
     const auto active = s.entries(s.dense.get()).subspan(2 * s.n(), s.m());
-    for (std::size_t r = 0; r < s.m(); ++r) numbers[static_cast<std::size_t>(s.rows.rows[r])] = active[r];
+    for (std::size_t r = 0; r < s.m(); ++r) numbers[s.rows.rows[r]] = active[r];
   };
   int order = 0;
   double h = 0.0;

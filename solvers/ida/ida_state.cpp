@@ -23,7 +23,7 @@ IdaStepper::State::State(const System& s, const Start& start, const Options& opt
                           options.t_end - options.t_start)),
       e(s.evaluation()),
       lambda(start.lambda),
-      impulse_row(static_cast<std::size_t>(start.rows.size())),
+      impulse_row(start.rows.size()),
       compliance_row(impulse_row.size()),
       newton(s, start.rows, start.scales.time),
       t(options.t_start) {
@@ -37,14 +37,13 @@ IdaStepper::State::State(const System& s, const Start& start, const Options& opt
   const auto yp0 = entries(yp.get());
   std::ranges::copy(start.q, y0.begin());
   std::ranges::copy(start.v, y0.subspan(n()).begin());
-  for (std::size_t r = 0; r < m(); ++r)
-    y0[2 * n() + r] = start.lambda[static_cast<std::size_t>(rows.rows[r])];
+  for (std::size_t r = 0; r < m(); ++r) y0[2 * n() + r] = start.lambda[rows.rows[r]];
   std::ranges::copy(start.v, yp0.begin());
   std::ranges::copy(start.a, yp0.subspan(n()).begin());
   std::fill_n(entries(id.get()).begin(), 2 * n(), 1.0);
   system->evaluate(instant(t, y.get()), e);
   for (std::size_t r = 0; r < m(); ++r) {
-    const auto row = static_cast<std::size_t>(rows.rows[r]);
+    const auto row = rows.rows[r];
     if (system->compliance()[row] > 0.0) yp0[2 * n() + r] = -e.psi[row] / system->compliance()[row];
   }
   find_impulses();
@@ -56,7 +55,7 @@ IdaStepper::State::State(const System& s, const Start& start, const Options& opt
 void IdaStepper::State::find_impulses() {
   const auto lever = scales.lever();
   for (std::size_t r = 0; r < m(); ++r) {
-    const auto row = static_cast<std::size_t>(rows.rows[r]);
+    const auto row = rows.rows[r];
     impulse_row[r] = impulse_of_row(*system, e.w, lever, row, scales.speed());
     compliance_row[r] = system->compliance()[row] / gradient_length(*system, e.w, lever, row);
   }
@@ -65,7 +64,7 @@ void IdaStepper::State::find_impulses() {
 /// IDA's multipliers, one per active row, into one per row of the system.
 void IdaStepper::State::spread_multipliers(N_Vector x) {
   const auto active = entries(x).subspan(2 * n(), m());
-  for (std::size_t r = 0; r < m(); ++r) lambda[static_cast<std::size_t>(rows.rows[r])] = active[r];
+  for (std::size_t r = 0; r < m(); ++r) lambda[rows.rows[r]] = active[r];
 }
 
 void IdaStepper::State::residual(double at, N_Vector x, N_Vector xp, N_Vector r) {
@@ -93,11 +92,10 @@ void IdaStepper::State::residual(double at, N_Vector x, N_Vector xp, N_Vector r)
     r2[i] = e.force[i] - masses[i] * vp[i];
   }
   for (std::size_t k = 0; k < m(); ++k) {
-    const auto row = static_cast<std::size_t>(rows.rows[k]);
+    const auto row = rows.rows[k];
     const bool holonomic = k < m_holonomic();
-    for (auto j = static_cast<std::size_t>(system->row_start()[row]);
-         j < static_cast<std::size_t>(system->row_start()[row + 1]); ++j) {
-      const auto i = static_cast<std::size_t>(system->w_columns()[j]);
+    for (const std::size_t j : system->row(row)) {
+      const auto i = system->w_columns()[j];
       r2[i] += e.w[j] * active[k];
       if (holonomic) r1[i] += e.w[j] * mu[k];
     }
@@ -111,9 +109,8 @@ void IdaStepper::State::residual(double at, N_Vector x, N_Vector xp, N_Vector r)
 /// Of a row, the largest |q| that it reads, in units of each coordinate.
 double IdaStepper::State::farthest(std::size_t row, std::span<const double> q) const {
   double far = 0.0;
-  for (auto k = static_cast<std::size_t>(system->row_start()[row]);
-       k < static_cast<std::size_t>(system->row_start()[row + 1]); ++k) {
-    const auto i = static_cast<std::size_t>(system->w_columns()[k]);
+  for (const std::size_t k : system->row(row)) {
+    const auto i = system->w_columns()[k];
     far = std::max(far, std::abs(q[i]) / scales.coordinate[i]);
   }
   return far;
@@ -149,7 +146,7 @@ void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
   const double amplified = eps / std::max(sine() * sine(), eps);
   for (std::size_t r = 0; r < m(); ++r) {
     // In units of the tolerance's own: of the scene's length, and over the step of its speed.
-    const double far = farthest(static_cast<std::size_t>(rows.rows[r]), value.first(n()));
+    const double far = farthest(rows.rows[r], value.first(n()));
     const double noise = amplified * far, noise_of_speed = noise * scales.time / h;
     // Of a multiplier far larger than its own masses explain (a heavy load on a light link) no more
     // digits than the tolerance asks for.

@@ -65,9 +65,9 @@ struct IdaStepper::State {
   double first_correction = 0.0, first_of_motion = 0.0, error_over_correction = unknown_rate;
   std::exception_ptr thrown;  // by a callback, to be thrown again when IDA has returned
 
-  [[nodiscard]] std::size_t n() const { return static_cast<std::size_t>(system->coordinates()); }
-  [[nodiscard]] std::size_t m() const { return static_cast<std::size_t>(rows.size()); }
-  [[nodiscard]] std::size_t m_holonomic() const { return static_cast<std::size_t>(rows.holonomic); }
+  [[nodiscard]] std::size_t n() const { return system->coordinates(); }
+  [[nodiscard]] std::size_t m() const { return rows.size(); }
+  [[nodiscard]] std::size_t m_holonomic() const { return rows.holonomic; }
   [[nodiscard]] std::size_t unknowns() const { return 2 * n() + m() + m_holonomic(); }
   [[nodiscard]] std::span<double> entries(N_Vector x) const { return {N_VGetArrayPointer(x), unknowns()}; }
   [[nodiscard]] Instant instant(double at, N_Vector x) const {

@@ -10,14 +10,14 @@ namespace {
 /// The places of the rows that carry mu: the holonomic ones that are not slack.
 std::vector<std::size_t> carrying_rows(const ActiveRows& all) {
   std::vector<std::size_t> places;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(all.holonomic); ++k) {
+  for (std::size_t k = 0; k < all.holonomic; ++k) {
     if (!std::ranges::binary_search(all.slack, k)) places.push_back(k);
   }
   return places;
 }
 
 ActiveRows those_at(const std::vector<std::size_t>& places, const ActiveRows& all) {
-  ActiveRows rows{{}, static_cast<int>(places.size())};
+  ActiveRows rows{{}, places.size()};
   for (const std::size_t k : places) rows.rows.push_back(all.rows[k]);
   return rows;
 }
@@ -31,30 +31,29 @@ NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows, double 
       rows_(rows),
       time_(time),
       islands_(islands(system)),
-      needs_k1_(static_cast<std::size_t>(islands_.count), 0),
+      needs_k1_(islands_.count, 0),
       stiff_(needs_k1_),
       linear_(system.linearisation()),
       w_(system.w_columns().size()),
       lower_(w_.size()),
-      s_(static_cast<std::size_t>(system.rows())),
+      s_(system.rows()),
       carrying_(carrying_rows(rows)),
       k2_(system, those_at(carrying_, rows)),
-      x1_(static_cast<std::size_t>(system.coordinates() + rows.size())),
-      x2_(static_cast<std::size_t>(k2_.size())),
-      p_(static_cast<std::size_t>(system.coordinates())),
-      dmu_(static_cast<std::size_t>(rows.holonomic)),
+      x1_(system.coordinates() + rows.size()),
+      x2_(k2_.size()),
+      p_(system.coordinates()),
+      dmu_(rows.holonomic),
       yields_(dmu_.size(), 0),
       first_force_entry_(system.stiffness_of_constraints()) {
-  for (const int row : rows.rows) {
-    if (row >= system.holonomic_rows() || system.compliance()[static_cast<std::size_t>(row)] > 0.0)
-      needs_k1_[static_cast<std::size_t>(islands_.of_row(system, row))] = 1;
+  for (const std::size_t row : rows.rows) {
+    if (row >= system.holonomic_rows() || system.compliance()[row] > 0.0)
+      needs_k1_[islands_.of_row(system, row)] = 1;
   }
   for (std::size_t k = 0; k < system.friction_pattern().size(); ++k) {
     const auto [coordinate, row] = system.friction_pattern()[k];
-    needs_k1_[static_cast<std::size_t>(islands_.of_coordinate[static_cast<std::size_t>(coordinate)])] = 1;
+    needs_k1_[islands_.of_coordinate[coordinate]] = 1;
     const auto active = static_cast<std::size_t>(std::ranges::find(rows.rows, row) - rows.rows.begin());
-    if (active < static_cast<std::size_t>(rows.holonomic))
-      friction_.push_back({k, static_cast<std::size_t>(coordinate), active});
+    if (active < rows.holonomic) friction_.push_back({k, coordinate, active});
   }
   // What forces may need is made before the first step: stepping allocates nothing, but for a scene
   // without them whose multipliers become stiff.
@@ -65,31 +64,28 @@ NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows, double 
 /// the constraints'.
 std::vector<char> NewtonMatrix::varying_islands() const {
   auto varying = needs_k1_;
-  for (const auto& entry : system_->stiffness_pattern().subspan(first_force_entry_)) {
-    const int island = islands_.of_coordinate[static_cast<std::size_t>(entry.row)];
-    varying[static_cast<std::size_t>(island)] = 1;
-  }
+  for (const auto& entry : system_->stiffness_pattern().subspan(first_force_entry_))
+    varying[islands_.of_coordinate[entry.row]] = 1;
   return varying;
 }
 
 /// Makes the matrix K1 for these islands.
 void NewtonMatrix::include(const std::vector<char>& which) {
-  std::vector<int> coordinates;
-  for (int i = 0; i < system_->coordinates(); ++i) {
-    const int island = islands_.of_coordinate[static_cast<std::size_t>(i)];
-    if (which[static_cast<std::size_t>(island)]) coordinates.push_back(i);
+  std::vector<std::size_t> coordinates;
+  for (std::size_t i = 0; i < system_->coordinates(); ++i) {
+    if (which[islands_.of_coordinate[i]]) coordinates.push_back(i);
   }
   ActiveRows rows;
   std::vector<std::size_t> active;
   for (std::size_t k = 0; k < rows_.rows.size(); ++k) {
-    if (!which[static_cast<std::size_t>(islands_.of_row(*system_, rows_.rows[k]))]) continue;
+    if (!which[islands_.of_row(*system_, rows_.rows[k])]) continue;
     rows.rows.push_back(rows_.rows[k]);
     active.push_back(k);
-    if (static_cast<int>(k) < rows_.holonomic) ++rows.holonomic;
+    if (k < rows_.holonomic) ++rows.holonomic;
   }
   if (k1_) factorisations_of_earlier_ += k1_->matrix.factorisations();
   KktMatrix matrix(*system_, rows, KktMatrix::Forces::linearised, coordinates);
-  const auto size = static_cast<std::size_t>(matrix.size());
+  const std::size_t size = matrix.size();
   k1_.emplace(
       Stiff{std::move(coordinates), std::move(active), which, std::move(matrix), std::vector<double>(size)});
 }
@@ -99,15 +95,14 @@ void NewtonMatrix::judge(double c) {
   std::ranges::fill(p_, 0.0);
   const double of_constraints = 1.0 / (c * c), of_forces = std::max(1.0 / (c * c), time_ / c);
   for (std::size_t k = 0; k < linear_.stiffness.size(); ++k) {
-    p_[static_cast<std::size_t>(system_->stiffness_pattern()[k].row)] +=
+    p_[system_->stiffness_pattern()[k].row] +=
         (k < first_force_entry_ ? of_constraints : of_forces) * std::abs(linear_.stiffness[k]);
   }
   for (std::size_t k = 0; k < linear_.damping.size(); ++k)
-    p_[static_cast<std::size_t>(system_->damping_pattern()[k].row)] += std::abs(linear_.damping[k]) / c;
+    p_[system_->damping_pattern()[k].row] += std::abs(linear_.damping[k]) / c;
   std::ranges::fill(stiff_, 0);
   for (std::size_t i = 0; i < p_.size(); ++i) {
-    if (p_[i] > still_soft_ * system_->masses()[i])
-      stiff_[static_cast<std::size_t>(islands_.of_coordinate[i])] = 1;
+    if (p_[i] > still_soft_ * system_->masses()[i]) stiff_[islands_.of_coordinate[i]] = 1;
   }
 }
 
@@ -116,12 +111,12 @@ void NewtonMatrix::judge(double c) {
 void NewtonMatrix::find_fastest_vibration() {
   std::ranges::fill(p_, 0.0);
   for (std::size_t k = 0; k < linear_.damping.size(); ++k) {
-    double& most = p_[static_cast<std::size_t>(system_->damping_pattern()[k].row)];
+    double& most = p_[system_->damping_pattern()[k].row];
     most = std::max(most, std::abs(linear_.damping[k]));
   }
   double square = 0.0;
   for (std::size_t k = first_force_entry_; k < linear_.stiffness.size(); ++k) {
-    const auto row = static_cast<std::size_t>(system_->stiffness_pattern()[k].row);
+    const auto row = system_->stiffness_pattern()[k].row;
     const double own = std::abs(linear_.stiffness[k]) / system_->masses()[row];
     const double damped = p_[row] / system_->masses()[row];
     if (damped * damped > 4.0 * own) continue;
@@ -145,10 +140,7 @@ void NewtonMatrix::converged_badly() {
 std::string NewtonMatrix::stiffest_force() const { return system_->force_of_stiffness(stiffest_); }
 
 void NewtonMatrix::leave_out_soft_forces() {
-  const auto soft = [this](const System::Entry& entry) {
-    const int island = islands_.of_coordinate[static_cast<std::size_t>(entry.row)];
-    return !stiff_[static_cast<std::size_t>(island)];
-  };
+  const auto soft = [this](const System::Entry& entry) { return !stiff_[islands_.of_coordinate[entry.row]]; };
   for (std::size_t k = 0; k < linear_.stiffness.size(); ++k)
     if (soft(system_->stiffness_pattern()[k])) linear_.stiffness[k] = 0.0;
   for (std::size_t k = 0; k < linear_.damping.size(); ++k)
@@ -176,10 +168,10 @@ bool NewtonMatrix::factorise(const Instant& at, const System::Evaluation& e, std
 
 bool NewtonMatrix::factorise_stiff(double c) {
   leave_out_soft_forces();
-  const auto first_nonholonomic =
-      static_cast<std::size_t>(system_->row_start()[static_cast<std::size_t>(system_->holonomic_rows())]);
   std::copy(w_.begin(), w_.end(), lower_.begin());
-  for (std::size_t k = first_nonholonomic; k < lower_.size(); ++k) lower_[k] += linear_.psi_q[k] / c;
+  for (std::size_t r = system_->holonomic_rows(); r < system_->rows(); ++r) {
+    for (const std::size_t k : system_->row(r)) lower_[k] += linear_.psi_q[k] / c;
+  }
   for (std::size_t r = 0; r < s_.size(); ++r) s_[r] = c * c * system_->compliance()[r];
   return k1_->matrix.factorise(w_, lower_, linear_, 1.0 / (c * c), 1.0 / c, s_);
 }
@@ -191,31 +183,29 @@ bool NewtonMatrix::refresh(const System::Evaluation& e, double c) {
 
 double NewtonMatrix::along(std::size_t row, std::span<const double> values, std::span<const double> x) const {
   double sum = 0.0;
-  for (auto k = static_cast<std::size_t>(system_->row_start()[row]);
-       k < static_cast<std::size_t>(system_->row_start()[row + 1]); ++k) {
-    sum += values[k] * x[static_cast<std::size_t>(system_->w_columns()[k])];
+  for (const std::size_t k : system_->row(row)) {
+    sum += values[k] * x[system_->w_columns()[k]];
   }
   return sum;
 }
 
 /// x1 += factor w of a row.
 void NewtonMatrix::add_along(std::size_t row, double factor) {
-  for (auto k = static_cast<std::size_t>(system_->row_start()[row]);
-       k < static_cast<std::size_t>(system_->row_start()[row + 1]); ++k) {
-    x1_[static_cast<std::size_t>(system_->w_columns()[k])] += factor * w_[k];
+  for (const std::size_t k : system_->row(row)) {
+    x1_[system_->w_columns()[k]] += factor * w_[k];
   }
 }
 
 /// Of an active row, from what (5) and (6) gave for it.
 double NewtonMatrix::dlambda(std::size_t active, double c) const {
-  const double unknown = x1_[static_cast<std::size_t>(system_->coordinates()) + active];
+  const double unknown = x1_[system_->coordinates() + active];
   const bool with_dmu = active < dmu_.size() && !yields_[active];
   return with_dmu ? unknown - c * dmu_[active] : unknown;
 }
 
 /// The matrix of (5) and (6) where forces are soft: of x1_, what belongs to islands without slack rows.
 void NewtonMatrix::solve_by_k2() {
-  const auto n = static_cast<std::size_t>(system_->coordinates());
+  const auto n = system_->coordinates();
   std::copy_n(x1_.begin(), n, x2_.begin());
   for (std::size_t j = 0; j < carrying_.size(); ++j) x2_[n + j] = x1_[n + carrying_[j]];
   k2_.solve(x2_);
@@ -225,9 +215,9 @@ void NewtonMatrix::solve_by_k2() {
 
 /// (5) to (7), given p and dmu as far as they are known; leaves x, dnu in x1_, dv in x2_, and dmu.
 void NewtonMatrix::eliminate(double c, std::span<const double> b) {
-  const auto n = static_cast<std::size_t>(system_->coordinates());
-  const auto m = static_cast<std::size_t>(rows_.size());
-  const auto m_holonomic = static_cast<std::size_t>(rows_.holonomic);
+  const auto n = system_->coordinates();
+  const auto m = rows_.size();
+  const auto m_holonomic = rows_.holonomic;
   const auto b1 = b.subspan(0, n);
   const auto b2 = b.subspan(n, n);
   const auto b3 = b.subspan(2 * n, m);
@@ -239,14 +229,14 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
   if (k1_in_use_) {
     for (std::size_t k = 0; k < linear_.damping.size(); ++k) {
       const auto [row, column] = system_->damping_pattern()[k];
-      x1_[static_cast<std::size_t>(row)] += linear_.damping[k] * p_[static_cast<std::size_t>(column)];
+      x1_[row] += linear_.damping[k] * p_[column];
     }
   }
   for (const Friction& f : friction_) {
     if (!yields_[f.active]) x1_[f.coordinate] -= c * linear_.friction[f.entry] * dmu_[f.active];
   }
   for (std::size_t r = 0; r < m; ++r) {
-    const auto row = static_cast<std::size_t>(rows_.rows[r]);
+    const auto row = rows_.rows[r];
     if (r >= m_holonomic) {
       x1_[n + r] = c * (b3[r] - along(row, w_, p_));
     } else if (yields_[r]) {
@@ -258,14 +248,14 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
   }
   if (k1_in_use_) {
     std::size_t next = 0;
-    for (const int i : k1_->coordinates) k1_->x[next++] = x1_[static_cast<std::size_t>(i)];
+    for (const std::size_t i : k1_->coordinates) k1_->x[next++] = x1_[i];
     for (const std::size_t r : k1_->active) k1_->x[next++] = x1_[n + r];
     k1_->matrix.solve(k1_->x);
   }
   if (!k1_in_use_ || k1_->coordinates.size() < n) solve_by_k2();
   if (k1_in_use_) {
     std::size_t next = 0;
-    for (const int i : k1_->coordinates) x1_[static_cast<std::size_t>(i)] = k1_->x[next++];
+    for (const std::size_t i : k1_->coordinates) x1_[i] = k1_->x[next++];
     for (const std::size_t r : k1_->active) x1_[n + r] = k1_->x[next++];
   }
 
@@ -277,7 +267,7 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
   }
   for (std::size_t j = 0; j < carrying_.size(); ++j) {
     const std::size_t r = carrying_[j];
-    const auto row = static_cast<std::size_t>(rows_.rows[r]);
+    const auto row = rows_.rows[r];
     x2_[n + j] = b3[r] - along(row, linear_.psi_q, x1_) - c * C[row] * dlambda(r, c);
   }
   k2_.solve(x2_);
@@ -294,13 +284,13 @@ int NewtonMatrix::repetitions() const {
 }
 
 void NewtonMatrix::solve(double c, std::span<double> b) {
-  const auto n = static_cast<std::size_t>(system_->coordinates());
-  const auto m = static_cast<std::size_t>(rows_.size());
-  const auto m_holonomic = static_cast<std::size_t>(rows_.holonomic);
+  const auto n = system_->coordinates();
+  const auto m = rows_.size();
+  const auto m_holonomic = rows_.holonomic;
   for (std::size_t i = 0; i < n; ++i) p_[i] = b[i] / system_->masses()[i];
   std::ranges::fill(dmu_, 0.0);
   for (std::size_t r = 0; r < m_holonomic && system_->compliant(); ++r) {
-    const auto row = static_cast<std::size_t>(rows_.rows[r]);
+    const auto row = rows_.rows[r];
     yields_[r] = c * c * system_->compliance()[row] > mobility(*system_, w_, row);
   }
   eliminate(c, b);

@@ -97,7 +97,7 @@ class NewtonMatrix {
  private:
   /// The matrix of (5) and (6) for some of the islands.
   struct Stiff {
-    std::vector<int> coordinates;
+    std::vector<std::size_t> coordinates;
     std::vector<std::size_t> active;  // its rows, by their place among all active ones
     std::vector<char> islands;
     KktMatrix matrix;

@@ -1,14 +1,17 @@
 #include "dalembert/solvers/linear/kkt.h"
 
+#include <limits>
 #include <numeric>
 
 namespace dalembert {
 
 namespace {
 
-std::vector<int> all_coordinates(const System& system) {
-  std::vector<int> all(static_cast<std::size_t>(system.coordinates()));
-  std::iota(all.begin(), all.end(), 0);
+constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+std::vector<std::size_t> all_coordinates(const System& system) {
+  std::vector<std::size_t> all(system.coordinates());
+  std::iota(all.begin(), all.end(), std::size_t{0});
   return all;
 }
 
@@ -17,28 +20,27 @@ std::vector<int> all_coordinates(const System& system) {
 /// Entries in the order in which `assemble` adds: masses, then for each row the entries of -W^T and L
 /// and, if it is compliant, s; then dF/dlambda and the linearised forces.
 struct KktMatrix::Plan {
-  std::vector<int> coordinates;
+  std::vector<std::size_t> coordinates;
   std::vector<std::size_t> friction, stiffness, damping;
   std::vector<SparseLU::Entry> entries;
   std::size_t first_force_entry;
 };
 
 KktMatrix::Plan KktMatrix::plan(const System& system, const ActiveRows& rows, Forces forces,
-                                std::vector<int> coordinates) {
+                                std::vector<std::size_t> coordinates) {
   Plan plan{std::move(coordinates), {}, {}, {}, {}, 0};
-  std::vector<int> place(static_cast<std::size_t>(system.coordinates()), -1);
-  int next = 0;
-  for (const int i : plan.coordinates) {
-    place[static_cast<std::size_t>(i)] = next;
+  std::vector<std::size_t> place(system.coordinates(), none);
+  std::size_t next = 0;
+  for (const std::size_t i : plan.coordinates) {
+    place[i] = next;
     plan.entries.push_back({next, next});
     ++next;
   }
-  std::vector<int> place_of_row(static_cast<std::size_t>(system.rows()), -1);
-  for (const int row : rows.rows) {
-    const auto r = static_cast<std::size_t>(row);
+  std::vector<std::size_t> place_of_row(system.rows(), none);
+  for (const std::size_t r : rows.rows) {
     place_of_row[r] = next;
-    for (int k = system.row_start()[r]; k < system.row_start()[r + 1]; ++k) {
-      const int own = place[static_cast<std::size_t>(system.w_columns()[static_cast<std::size_t>(k)])];
+    for (const std::size_t k : system.row(r)) {
+      const std::size_t own = place[system.w_columns()[k]];
       plan.entries.push_back({own, next});
       plan.entries.push_back({next, own});
     }
@@ -49,18 +51,17 @@ KktMatrix::Plan KktMatrix::plan(const System& system, const ActiveRows& rows, Fo
   if (forces == Forces::none) return plan;
   for (std::size_t k = 0; k < system.friction_pattern().size(); ++k) {
     const auto [coordinate, row] = system.friction_pattern()[k];
-    const int own = place[static_cast<std::size_t>(coordinate)];
-    const int column = place_of_row[static_cast<std::size_t>(row)];
-    if (own < 0 || column < 0) continue;
+    const std::size_t own = place[coordinate], column = place_of_row[row];
+    if (own == none || column == none) continue;
     plan.entries.push_back({own, column});
     plan.friction.push_back(k);
   }
   if (forces == Forces::friction) return plan;
   const auto add = [&](std::span<const System::Entry> pattern, std::vector<std::size_t>& used) {
     for (std::size_t k = 0; k < pattern.size(); ++k) {
-      const int row = place[static_cast<std::size_t>(pattern[k].row)];
-      if (row < 0) continue;
-      plan.entries.push_back({row, place[static_cast<std::size_t>(pattern[k].column)]});
+      const std::size_t row = place[pattern[k].row];
+      if (row == none) continue;
+      plan.entries.push_back({row, place[pattern[k].column]});
       used.push_back(k);
     }
   };
@@ -73,7 +74,7 @@ KktMatrix::KktMatrix(const System& system, const ActiveRows& rows, Forces forces
     : KktMatrix(system, rows, forces, all_coordinates(system)) {}
 
 KktMatrix::KktMatrix(const System& system, const ActiveRows& rows, Forces forces,
-                     std::vector<int> coordinates)
+                     std::vector<std::size_t> coordinates)
     : KktMatrix(system, rows, plan(system, rows, forces, std::move(coordinates))) {}
 
 KktMatrix::KktMatrix(const System& system, const ActiveRows& rows, Plan plan)
@@ -83,19 +84,18 @@ KktMatrix::KktMatrix(const System& system, const ActiveRows& rows, Plan plan)
       friction_(std::move(plan.friction)),
       stiffness_(std::move(plan.stiffness)),
       damping_(std::move(plan.damping)),
-      lu_(static_cast<int>(coordinates_.size() + rows_.size()), plan.entries),
+      lu_(coordinates_.size() + rows_.size(), plan.entries),
       first_force_entry_(plan.first_force_entry) {}
 
 void KktMatrix::assemble(std::span<const double> w, std::span<const double> lower,
                          std::span<const double> s) {
   lu_.set_zero();
   std::size_t entry = 0;
-  for (const int i : coordinates_) lu_.add(entry++, system_->masses()[static_cast<std::size_t>(i)]);
-  for (const int row : rows_) {
-    const auto r = static_cast<std::size_t>(row);
-    for (auto k = system_->row_start()[r]; k < system_->row_start()[r + 1]; ++k) {
-      lu_.add(entry++, -w[static_cast<std::size_t>(k)]);
-      lu_.add(entry++, lower[static_cast<std::size_t>(k)]);
+  for (const std::size_t i : coordinates_) lu_.add(entry++, system_->masses()[i]);
+  for (const std::size_t r : rows_) {
+    for (const std::size_t k : system_->row(r)) {
+      lu_.add(entry++, -w[k]);
+      lu_.add(entry++, lower[k]);
     }
     if (system_->compliance()[r] > 0.0) lu_.add(entry++, s.empty() ? 0.0 : s[r]);
   }

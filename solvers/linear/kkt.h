@@ -24,7 +24,8 @@ class KktMatrix {
 
   KktMatrix(const System& system, const ActiveRows& rows, Forces forces);
   /// Of some of the coordinates only, with the rows that read them and no others.
-  KktMatrix(const System& system, const ActiveRows& rows, Forces forces, std::vector<int> coordinates);
+  KktMatrix(const System& system, const ActiveRows& rows, Forces forces,
+            std::vector<std::size_t> coordinates);
 
   /// [M -W^T; W s]; `w` in the pattern of the system's W, `s` one number per row of the system, or none for
   /// 0. False if singular.
@@ -39,7 +40,7 @@ class KktMatrix {
   /// In place: (a, b) becomes (x, y), one number per coordinate and then one per row of the matrix.
   void solve(std::span<double> x) { lu_.solve(x); }
 
-  [[nodiscard]] int size() const { return lu_.size(); }
+  [[nodiscard]] std::size_t size() const { return lu_.size(); }
   [[nodiscard]] long factorisations() const { return lu_.factorisations(); }
   /// Of the last factorisation; without friction and linearised forces it is 1 if no row depends on others.
   [[nodiscard]] int sign_of_determinant() { return lu_.sign_of_determinant(); }
@@ -48,12 +49,12 @@ class KktMatrix {
   struct Plan;
   KktMatrix(const System& system, const ActiveRows& rows, Plan plan);
   [[nodiscard]] static Plan plan(const System& system, const ActiveRows& rows, Forces forces,
-                                 std::vector<int> coordinates);
+                                 std::vector<std::size_t> coordinates);
   void add_friction(std::span<const double> friction);
   void assemble(std::span<const double> w, std::span<const double> lower, std::span<const double> s);
 
   const System* system_;
-  std::vector<int> rows_, coordinates_;
+  std::vector<std::size_t> rows_, coordinates_;
   std::vector<std::size_t> friction_, stiffness_, damping_;  // entries of the system's patterns in the matrix
   SparseLU lu_;
   std::size_t first_force_entry_;

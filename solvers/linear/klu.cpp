@@ -28,7 +28,7 @@ struct SparseLU::State {
   int size = 0;
   std::vector<int> column_start, row;  // compressed columns
   std::vector<double> value;
-  std::vector<int> place;  // of the k-th entry of the list
+  std::vector<std::size_t> place;  // of the k-th entry of the list
   std::unique_ptr<klu_symbolic, FreeSymbolic> symbolic{nullptr, {&common}};
   std::unique_ptr<klu_numeric, FreeNumeric> numeric{nullptr, {&common}};
   double condition_when_pivoted = 0.0;
@@ -40,12 +40,13 @@ struct SparseLU::State {
   bool pivot();
 };
 
-SparseLU::SparseLU(int size, std::span<const Entry> entries) : state_(std::make_unique<State>()) {
+SparseLU::SparseLU(std::size_t size, std::span<const Entry> entries) : state_(std::make_unique<State>()) {
   klu_defaults(&state_->common);
-  state_->size = size;
-  state_->seen.resize(static_cast<std::size_t>(size));
+  state_->size = static_cast<int>(size);
+  state_->seen.resize(size);
   state_->compress(entries);
-  state_->symbolic.reset(klu_analyze(size, state_->column_start.data(), state_->row.data(), &state_->common));
+  state_->symbolic.reset(
+      klu_analyze(state_->size, state_->column_start.data(), state_->row.data(), &state_->common));
 }
 SparseLU::SparseLU(SparseLU&&) noexcept = default;
 SparseLU::~SparseLU() = default;
@@ -57,26 +58,24 @@ void SparseLU::State::compress(std::span<const Entry> entries) {
     return std::pair(entries[a].column, entries[a].row) < std::pair(entries[b].column, entries[b].row);
   };
   std::ranges::sort(order, before);
-  column_start.assign(static_cast<std::size_t>(size) + 1, 0);
+  column_start.assign(seen.size() + 1, 0);
   place.resize(entries.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (i == 0 || before(order[i - 1], order[i])) {
-      row.push_back(entries[order[i]].row);
-      ++column_start[static_cast<std::size_t>(entries[order[i]].column) + 1];
+      row.push_back(static_cast<int>(entries[order[i]].row));
+      ++column_start[entries[order[i]].column + 1];
     }
-    place[order[i]] = static_cast<int>(row.size()) - 1;
+    place[order[i]] = row.size() - 1;
   }
   std::partial_sum(column_start.begin(), column_start.end(), column_start.begin());
   value.assign(row.size(), 0.0);
 }
 
-int SparseLU::size() const { return state_->size; }
+std::size_t SparseLU::size() const { return state_->seen.size(); }
 
 void SparseLU::set_zero() { std::ranges::fill(state_->value, 0.0); }
 
-void SparseLU::add(std::size_t k, double value) {
-  state_->value[static_cast<std::size_t>(state_->place[k])] += value;
-}
+void SparseLU::add(std::size_t k, double value) { state_->value[state_->place[k]] += value; }
 
 bool SparseLU::State::pivot() {
   numeric.reset(klu_factor(column_start.data(), row.data(), value.data(), symbolic.get(), &common));
@@ -100,7 +99,7 @@ bool SparseLU::factorise() {
 }
 
 void SparseLU::solve(std::span<double> x) {
-  assert(state_->numeric && x.size() == static_cast<std::size_t>(state_->size));
+  assert(state_->numeric && x.size() == size());
   klu_solve(state_->symbolic.get(), state_->numeric.get(), state_->size, 1, x.data(), &state_->common);
 }
 

@@ -17,14 +17,14 @@ namespace DALEMBERT_HIDDEN dalembert {
 class SparseLU {
  public:
   struct Entry {
-    int row, column;
+    std::size_t row, column;
   };
 
-  SparseLU(int size, std::span<const Entry> entries);
+  SparseLU(std::size_t size, std::span<const Entry> entries);
   SparseLU(SparseLU&&) noexcept;
   ~SparseLU();
 
-  [[nodiscard]] int size() const;
+  [[nodiscard]] std::size_t size() const;
   void set_zero();
   /// Adds to the k-th entry of the list.
   void add(std::size_t k, double value);

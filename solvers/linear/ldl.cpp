@@ -23,9 +23,9 @@ struct SparseLdl::State {
   int size = 0;
   std::vector<int> column_start, row;  // upper triangle in compressed columns, in the order of elimination
   std::vector<double> value;
-  std::vector<int> place;     // of the k-th entry of the list
-  std::vector<int> position;  // of each row in the order of elimination; empty if it is the given one
-  std::vector<int> diagonal;  // place of each diagonal entry
+  std::vector<std::size_t> place;     // of the k-th entry of the list
+  std::vector<std::size_t> position;  // of each row in the order of elimination; empty if it is the given one
+  std::vector<std::size_t> diagonal;  // place of each diagonal entry
   std::vector<int> parent, l_start, l_count, l_row, flag, pattern;
   std::vector<double> l_value, pivot, work;
   double smallest_pivot = 0.0;
@@ -33,15 +33,12 @@ struct SparseLdl::State {
   void compress(std::span<const Entry> entries);
   int analyse();
   [[nodiscard]] int order_by_amd(std::vector<int>& order) const;
-  [[nodiscard]] std::size_t position_of(int r) const {
-    return static_cast<std::size_t>(position.empty() ? r : position[static_cast<std::size_t>(r)]);
-  }
+  [[nodiscard]] std::size_t position_of(std::size_t r) const { return position.empty() ? r : position[r]; }
 };
 
-SparseLdl::SparseLdl(int size, std::span<const Entry> entries) : state_(std::make_unique<State>()) {
+SparseLdl::SparseLdl(std::size_t n, std::span<const Entry> entries) : state_(std::make_unique<State>()) {
   State& s = *state_;
-  const auto n = static_cast<std::size_t>(size);
-  s.size = size;
+  s.size = static_cast<int>(n);
   s.parent.resize(n);
   s.l_start.resize(n + 1);
   s.l_count.resize(n);
@@ -53,9 +50,9 @@ SparseLdl::SparseLdl(int size, std::span<const Entry> entries) : state_(std::mak
   s.compress(entries);
   int fill = s.analyse();
   std::vector<int> order(n);
-  if (fill > size && s.order_by_amd(order) < fill) {
+  if (fill > s.size && s.order_by_amd(order) < fill) {
     s.position.resize(n);
-    for (std::size_t i = 0; i < n; ++i) s.position[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+    for (std::size_t i = 0; i < n; ++i) s.position[static_cast<std::size_t>(order[i])] = i;
     s.compress(entries);
     fill = s.analyse();
   }
@@ -79,16 +76,16 @@ void SparseLdl::State::compress(std::span<const Entry> entries) {
   std::ranges::sort(sorted, [](const Placed& a, const Placed& b) {
     return a.column != b.column ? a.column < b.column : a.row < b.row;
   });
-  column_start.assign(static_cast<std::size_t>(size) + 1, 0);
+  column_start.assign(pivot.size() + 1, 0);
   row.clear();
   place.resize(entries.size());
-  diagonal.assign(static_cast<std::size_t>(size), 0);
+  diagonal.assign(pivot.size(), 0);
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     if (i == 0 || !sorted[i].shares_place(sorted[i - 1])) {
       row.push_back(static_cast<int>(sorted[i].row));
       ++column_start[sorted[i].column + 1];
     }
-    place[sorted[i].entry] = static_cast<int>(row.size()) - 1;
+    place[sorted[i].entry] = row.size() - 1;
     if (sorted[i].row == sorted[i].column) diagonal[sorted[i].row] = place[sorted[i].entry];
   }
   std::partial_sum(column_start.begin(), column_start.end(), column_start.begin());
@@ -109,8 +106,8 @@ int SparseLdl::State::order_by_amd(std::vector<int>& order) const {
   return good ? static_cast<int>(info[AMD_LNZ]) : std::numeric_limits<int>::max();
 }
 
-int SparseLdl::size() const { return state_->size; }
-int SparseLdl::place(std::size_t k) const { return state_->place[k]; }
+std::size_t SparseLdl::size() const { return state_->pivot.size(); }
+std::size_t SparseLdl::place(std::size_t k) const { return state_->place[k]; }
 std::span<double> SparseLdl::values() { return state_->value; }
 double SparseLdl::smallest_pivot() const { return state_->smallest_pivot; }
 std::size_t SparseLdl::fill() const { return state_->l_row.size(); }
@@ -133,7 +130,7 @@ bool SparseLdl::factorise() {
   }
   double smallest = 1.0;
   for (std::size_t i = 0; i < s.pivot.size(); ++i) {
-    const double ratio = s.pivot[i] / s.value[static_cast<std::size_t>(s.diagonal[i])];
+    const double ratio = s.pivot[i] / s.value[s.diagonal[i]];
     if (!(ratio >= smallest)) smallest = ratio;
   }
   s.smallest_pivot = smallest;
@@ -147,12 +144,12 @@ void SparseLdl::solve(std::span<double> x) {
     return;
   }
   const std::span<double> y = s.position.empty() ? x : std::span(s.work);
-  for (std::size_t i = 0; i < s.position.size(); ++i) y[static_cast<std::size_t>(s.position[i])] = x[i];
+  for (std::size_t i = 0; i < s.position.size(); ++i) y[s.position[i]] = x[i];
   ldl_lsolve(s.size, y.data(), s.l_start.data(), s.l_row.data(), s.l_value.data());
   ldl_dsolve(s.size, y.data(), s.pivot.data());
   ldl_ltsolve(s.size, y.data(), s.l_start.data(), s.l_row.data(), s.l_value.data());
   if (s.position.empty()) return;
-  for (std::size_t i = 0; i < s.position.size(); ++i) x[i] = y[static_cast<std::size_t>(s.position[i])];
+  for (std::size_t i = 0; i < s.position.size(); ++i) x[i] = y[s.position[i]];
   std::ranges::fill(y, 0.0);
 }
 

@@ -14,17 +14,17 @@ namespace DALEMBERT_HIDDEN dalembert {
 class SparseLdl {
  public:
   struct Entry {
-    int row, column;
+    std::size_t row, column;
   };
 
   /// The pattern as a list of entries of either triangle; several may share a place.
-  SparseLdl(int size, std::span<const Entry> entries);
+  SparseLdl(std::size_t size, std::span<const Entry> entries);
   SparseLdl(SparseLdl&&) noexcept;
   ~SparseLdl();
 
-  [[nodiscard]] int size() const;
+  [[nodiscard]] std::size_t size() const;
   /// Where in `values` the k-th entry of the list stands.
-  [[nodiscard]] int place(std::size_t k) const;
+  [[nodiscard]] std::size_t place(std::size_t k) const;
   [[nodiscard]] std::span<double> values();
 
   /// False if the matrix is not positive definite to working precision.

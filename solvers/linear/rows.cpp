@@ -6,9 +6,8 @@ namespace dalembert {
 
 double mobility(const System& system, std::span<const double> w, std::size_t row) {
   double sum = 0.0;
-  for (auto k = static_cast<std::size_t>(system.row_start()[row]);
-       k < static_cast<std::size_t>(system.row_start()[row + 1]); ++k) {
-    sum += w[k] * w[k] / system.masses()[static_cast<std::size_t>(system.w_columns()[k])];
+  for (const std::size_t k : system.row(row)) {
+    sum += w[k] * w[k] / system.masses()[system.w_columns()[k]];
   }
   return sum;
 }
@@ -16,9 +15,8 @@ double mobility(const System& system, std::span<const double> w, std::size_t row
 double gradient_length(const System& system, std::span<const double> w, std::span<const double> lever,
                        std::size_t row) {
   double square = 0.0;
-  for (auto k = static_cast<std::size_t>(system.row_start()[row]);
-       k < static_cast<std::size_t>(system.row_start()[row + 1]); ++k) {
-    const double slope = w[k] / lever[static_cast<std::size_t>(system.w_columns()[k])];
+  for (const std::size_t k : system.row(row)) {
+    const double slope = w[k] / lever[system.w_columns()[k]];
     square += slope * slope;
   }
   return std::sqrt(square);

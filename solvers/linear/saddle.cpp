@@ -17,10 +17,7 @@ constexpr std::size_t most_products = 16;
 
 bool SaddleMatrix::complement_suits(const System& system, const ActiveRows& rows) {
   std::size_t entries = 0;
-  for (const int row : rows.rows) {
-    const auto r = static_cast<std::size_t>(row);
-    entries += static_cast<std::size_t>(system.row_start()[r + 1] - system.row_start()[r]);
-  }
+  for (const std::size_t r : rows.rows) entries += system.row(r).size();
   return SchurComplement::products(system, rows.rows) <= most_products * entries;
 }
 

@@ -35,7 +35,7 @@ class SaddleMatrix {
   /// metric of the masses; 1 if the complement, which tells it, does not suit the scene.
   [[nodiscard]] double sine() const;
 
-  [[nodiscard]] int size() const { return system_->coordinates() + rows_.size(); }
+  [[nodiscard]] std::size_t size() const { return system_->coordinates() + rows_.size(); }
   [[nodiscard]] long factorisations() const { return factorisations_; }
   /// "LDL" or "KLU".
   [[nodiscard]] const char* method() const { return schur_ ? "LDL" : "KLU"; }

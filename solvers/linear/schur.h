@@ -27,11 +27,11 @@ namespace DALEMBERT_HIDDEN dalembert {
 class SchurComplement {
  public:
   /// `rows` are the rows of the system's W to use.
-  SchurComplement(const System& system, std::span<const int> rows);
+  SchurComplement(const System& system, std::span<const std::size_t> rows);
 
   /// Number of products that make up S: the sum over all coordinates of the square of how many
   /// entries of W they have. Large where many constraints share a particle.
-  [[nodiscard]] static std::size_t products(const System& system, std::span<const int> rows);
+  [[nodiscard]] static std::size_t products(const System& system, std::span<const std::size_t> rows);
 
   /// `w` in the pattern of the system's W, `s` one number per row of the system, or none for 0. False if S is
   /// singular to working precision.
@@ -48,12 +48,11 @@ class SchurComplement {
   };
   /// A sum of products of consecutive entries of W and V; goes to one place in S.
   struct Product {
-    int place, a, b, count;
+    std::size_t place, a, b, count;
   };
   /// Where a compliant row of the system stands on the diagonal of S.
   struct Diagonal {
-    std::size_t row;
-    int place;
+    std::size_t row, place;
   };
   struct Plan {
     std::vector<Row> rows;
@@ -61,12 +60,12 @@ class SchurComplement {
     std::vector<SparseLdl::Entry> entries;  // one per product
     std::vector<Product> products;
   };
-  [[nodiscard]] static Plan plan(const System& system, std::span<const int> rows);
+  [[nodiscard]] static Plan plan(const System& system, std::span<const std::size_t> rows);
   SchurComplement(const System& system, Plan plan);
 
   std::vector<double> inverse_mass_;
   std::vector<Row> rows_;
-  std::vector<int> column_;
+  std::vector<std::size_t> column_;
   std::vector<double> w_, v_;
   std::vector<Product> products_;
   std::vector<Diagonal> compliant_;

@@ -32,17 +32,17 @@ FrictionSolver::FrictionSolver(const System& system, const ActiveRows& rows)
     : system_(&system),
       rows_(rows),
       matrix_(system, rows, KktMatrix::Forces::friction),
-      given_(static_cast<std::size_t>(matrix_.size())),
-      lambda_(static_cast<std::size_t>(system.rows())),
+      given_(matrix_.size()),
+      lambda_(system.rows()),
       slope_(system.friction_pattern().size()),
       slope_mirrored_(slope_.size()),
-      force_(static_cast<std::size_t>(system.coordinates())),
+      force_(system.coordinates()),
       predicted_(force_.size()) {}
 
 void FrictionSolver::add_slope(double factor, std::span<const double> x, std::span<double> y) const {
   for (std::size_t k = 0; k < slope_.size(); ++k) {
     const auto [coordinate, row] = system_->friction_pattern()[k];
-    y[static_cast<std::size_t>(coordinate)] += factor * slope_[k] * x[static_cast<std::size_t>(row)];
+    y[coordinate] += factor * slope_[k] * x[row];
   }
 }
 
@@ -64,8 +64,7 @@ bool FrictionSolver::begin(std::span<const double> w, std::span<const double> s)
 }
 
 void FrictionSolver::spread(std::span<const double> x) {
-  for (std::size_t r = 0; r < rows_.rows.size(); ++r)
-    lambda_[static_cast<std::size_t>(rows_.rows[r])] = x[force_.size() + r];
+  for (std::size_t r = 0; r < rows_.rows.size(); ++r) lambda_[rows_.rows[r]] = x[force_.size() + r];
 }
 
 FrictionSolver::Outcome FrictionSolver::iterate(const Instant& at, std::span<const double> w,
@@ -160,8 +159,8 @@ void FrictionSolver::require_determined(const Instant& at, std::span<const char>
   if (std::ranges::find(determined, 0) == determined.end()) return;
   if (reads_.empty()) find_what_is_read(at);
   for (std::size_t k = 0; k < slope_.size(); ++k) {
-    const int row = system_->friction_pattern()[k].column;
-    if (determined[static_cast<std::size_t>(row)] || (!reads_[k] && slope_[k] == 0.0)) continue;
+    const std::size_t row = system_->friction_pattern()[k].column;
+    if (determined[row] || (!reads_[k] && slope_[k] == 0.0)) continue;
     throw InconsistentStart(system_->force_of_friction(k) + " reads the multiplier of " +
                             system_->row_label(row) +
                             ", which the motion does not determine: other constraints repeat that one; "

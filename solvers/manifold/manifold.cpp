@@ -16,7 +16,7 @@ Violation largest(const System& system, std::span<const double> residual, std::s
   for (std::size_t r = 0; r < residual.size(); ++r) {
     if (residual[r] == 0.0) continue;
     const double size = std::abs(residual[r]) / gradient_length(system, w, lever, r);
-    if (!(size <= worst.size)) worst = {size, static_cast<int>(r)};
+    if (!(size <= worst.size)) worst = {size, r};
   }
   return worst;
 }
@@ -38,16 +38,16 @@ Manifold::Manifold(const System& system, const ActiveRows& rows, std::vector<dou
       rows_(rows),
       lever_(std::move(lever)),
       e_(system.evaluation()),
-      gamma_(static_cast<std::size_t>(system.rows())),
+      gamma_(system.rows()),
       kkt_(system, rows),
       minimum_norm_(system, rows, lever_),
       weakest_(system) {
-  x_.resize(static_cast<std::size_t>(kkt_.size()));
-  q_before_.resize(static_cast<std::size_t>(system.coordinates()));
+  x_.resize(kkt_.size());
+  q_before_.resize(system.coordinates());
   if (system.frictional()) friction_.emplace(system, rows);
   if (!system.compliant()) return;
   for (auto* numbers : {&springs_.lambda, &springs_.rate, &springs_.second, &s_})
-    numbers->resize(static_cast<std::size_t>(system.rows()), 0.0);
+    numbers->resize(system.rows(), 0.0);
   springs_before_ = springs_;
 }
 
@@ -89,12 +89,9 @@ double Manifold::weakest_direction(std::span<const double> lever, std::span<doub
   for (std::size_t i = 0; i < n.size(); ++i)
     largest = std::max(largest, std::abs(weakest_.n()[i]) * lever[i]);
   for (std::size_t i = 0; i < n.size(); ++i) n[i] = weakest_.n()[i] / largest;
-  for (const int row : rows_.rows) {
-    const auto r = static_cast<std::size_t>(row);
+  for (const std::size_t r : rows_.rows) {
     double change = 0.0;
-    for (auto k = static_cast<std::size_t>(system_->row_start()[r]);
-         k < static_cast<std::size_t>(system_->row_start()[r + 1]); ++k)
-      change += e_.w[k] * n[static_cast<std::size_t>(system_->w_columns()[k])];
+    for (const std::size_t k : system_->row(r)) change += e_.w[k] * n[system_->w_columns()[k]];
     response = std::max(response, std::abs(change) / gradient_length(*system_, e_.w, lever_, r));
   }
   return response;
@@ -122,8 +119,7 @@ void Manifold::evaluate(const Instant& at) {
 void Manifold::solve_for_position_step(std::size_t n) {
   std::fill_n(x_.begin(), n, 0.0);
   for (std::size_t r = 0; r < rows_.rows.size(); ++r) {
-    const bool holonomic = static_cast<int>(r) < rows_.holonomic;
-    x_[n + r] = holonomic ? -e_.g[static_cast<std::size_t>(rows_.rows[r])] : 0.0;
+    x_[n + r] = r < rows_.holonomic ? -e_.g[rows_.rows[r]] : 0.0;
   }
   kkt_.solve(x_);
 }
@@ -165,7 +161,7 @@ Violation Manifold::project_positions(double t, std::span<double> q, std::span<c
 void Manifold::add_to_springs(const std::vector<double>& from, double fraction, std::vector<double>& to) {
   const std::size_t n = x_.size() - rows_.rows.size();
   for (std::size_t k = 0; k < rows_.rows.size(); ++k) {
-    const auto r = static_cast<std::size_t>(rows_.rows[k]);
+    const auto r = rows_.rows[k];
     if (system_->compliance()[r] > 0.0) to[r] = from[r] + fraction * springs_.c * springs_.c * x_[n + k];
   }
 }
@@ -175,8 +171,7 @@ void Manifold::add_to_springs(const std::vector<double>& from, double fraction, 
 void Manifold::correct_velocities(std::span<double> v) {
   const std::size_t n = v.size();
   std::fill_n(x_.begin(), n, 0.0);
-  for (std::size_t r = 0; r < rows_.rows.size(); ++r)
-    x_[n + r] = -e_.psi[static_cast<std::size_t>(rows_.rows[r])];
+  for (std::size_t r = 0; r < rows_.rows.size(); ++r) x_[n + r] = -e_.psi[rows_.rows[r]];
   kkt_.solve(x_);
   for (std::size_t k = 0; k < n; ++k) v[k] += x_[k];
   if (following_) add_to_springs(springs_.rate, 1.0, springs_.rate);
@@ -188,7 +183,7 @@ bool Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
   hear([&] { system_->bias(at, gamma_); });
   std::ranges::copy(e_.force, x_.begin());
   for (std::size_t k = 0; k < rows_.rows.size(); ++k) {
-    const auto r = static_cast<std::size_t>(rows_.rows[k]);
+    const auto r = rows_.rows[k];
     x_[n + k] = -gamma_[r];
     if (system_->compliance()[r] > 0.0)
       x_[n + k] += s_[r] * springs_.lambda[r] - system_->compliance()[r] * springs_.second[r];
@@ -205,8 +200,7 @@ bool Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
 void Manifold::multipliers(std::span<double> lambda) const {
   const std::size_t n = x_.size() - rows_.rows.size();
   std::ranges::fill(lambda, 0.0);
-  for (std::size_t r = 0; r < rows_.rows.size(); ++r)
-    lambda[static_cast<std::size_t>(rows_.rows[r])] = x_[n + r];
+  for (std::size_t r = 0; r < rows_.rows.size(); ++r) lambda[rows_.rows[r]] = x_[n + r];
 }
 
 bool Manifold::accelerate(const Instant& at, std::span<double> a) {

@@ -18,7 +18,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// speed. `lever` turns each coordinate into a length: 1, or the scene's length for an angle.
 struct Violation {
   double size = 0.0;
-  int row = -1;
+  std::size_t row = 0;  // says nothing if there is none
 };
 [[nodiscard]] Violation position_violation(const System& system, const System::Evaluation& e,
                                            std::span<const double> lever);

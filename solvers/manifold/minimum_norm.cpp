@@ -14,10 +14,10 @@ constexpr double round_off = std::numeric_limits<double>::epsilon();
 /// The worst change of the positions is some times worse than the one that is tried.
 constexpr double margin = 10.0;
 
-std::vector<int> others(const System& system, const ActiveRows& active) {
-  std::vector<int> dropped;
-  for (int r = 0; r < system.rows(); ++r) {
-    if (!std::ranges::binary_search(active.rows, r)) dropped.push_back(r);
+std::vector<Eigen::Index> others(const System& system, const ActiveRows& active) {
+  std::vector<Eigen::Index> dropped;
+  for (std::size_t r = 0; r < system.rows(); ++r) {
+    if (!std::ranges::binary_search(active.rows, r)) dropped.push_back(static_cast<Eigen::Index>(r));
   }
   return dropped;
 }
@@ -51,9 +51,9 @@ double rounding(const System& system, const Instant& at, const System::Evaluatio
 MinimumNorm::MinimumNorm(const System& system, const ActiveRows& active, std::vector<double> lever)
     : system_(&system),
       lever_(std::move(lever)),
-      active_(active.rows),
+      active_(active.rows.begin(), active.rows.end()),
       dropped_(others(system, active)),
-      unique_(static_cast<std::size_t>(system.rows()), 1) {
+      unique_(system.rows(), 1) {
   if (!dropped_.empty()) place(system);
 }
 
@@ -69,19 +69,20 @@ void MinimumNorm::place(const System& system) {
     }
     first += static_cast<Eigen::Index>(c->rows) * c->inputs;
   }
-  for (const int r : dropped_) unique_[static_cast<std::size_t>(r)] = 0;
+  for (const Eigen::Index r : dropped_) unique_[static_cast<std::size_t>(r)] = 0;
   const auto d = static_cast<Eigen::Index>(dropped_.size());
-  x_.resize(static_cast<std::size_t>(system.coordinates()) + active_.size());
+  const auto m = static_cast<Eigen::Index>(system.rows());
+  x_.resize(system.coordinates() + active_.size());
   U_.resize(static_cast<std::size_t>(first));
   nudge_ = irregular(lever_.size());
   q_nearby_.resize(lever_.size());
   nearby_ = system.evaluation();
-  size_.resize(system.rows());
-  N_.resize(system.rows(), d);
+  size_.resize(m);
+  N_.resize(m, d);
   DN_.resize(forces, d);
   zero_.resize(d);
   scale_.resize(d);
-  lambda_.resize(system.rows(), 1);
+  lambda_.resize(m, 1);
   right_.resize(forces, 1);
 }
 
@@ -119,8 +120,7 @@ void MinimumNorm::find_null_space(const Solve& solve, std::span<const double> w)
   const auto y = std::span(x_).subspan(lever_.size());
   N_.setZero();
   for (Eigen::Index j = 0; j < N_.cols(); ++j) {
-    const int own = dropped_[static_cast<std::size_t>(j)];
-    N_(own, j) = 1.0;
+    N_(dropped_[static_cast<std::size_t>(j)], j) = 1.0;
     for (int k = 0; k < solves; ++k) {
       solve_for_correction(solve, w, j);
       for (std::size_t r = 0; r < y.size(); ++r) N_(active_[r], j) += y[r];
@@ -139,15 +139,13 @@ void MinimumNorm::solve_for_correction(const Solve& solve, std::span<const doubl
     const double factor = N_(r, j);
     if (factor == 0.0) continue;
     const auto row = static_cast<std::size_t>(r);
-    for (auto k = static_cast<std::size_t>(system_->row_start()[row]);
-         k < static_cast<std::size_t>(system_->row_start()[row + 1]); ++k)
-      x_[static_cast<std::size_t>(system_->w_columns()[k])] += w[k] * factor;
+    for (const std::size_t k : system_->row(row)) x_[system_->w_columns()[k]] += w[k] * factor;
   }
   solve(x_);
 }
 
 void MinimumNorm::mark_unique() {
-  for (const int r : active_) {
+  for (const Eigen::Index r : active_) {
     char& unique = unique_[static_cast<std::size_t>(r)];
     unique = 1;
     for (Eigen::Index j = 0; j < N_.cols(); ++j) {

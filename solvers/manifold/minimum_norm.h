@@ -59,7 +59,7 @@ class MinimumNorm {
 
   const System* system_;
   std::vector<double> lever_;
-  std::vector<int> active_, dropped_;
+  std::vector<Eigen::Index> active_, dropped_;
   std::vector<Stated> stated_;
   std::vector<char> unique_;
   std::vector<double> x_, U_, nudge_, q_nearby_;

@@ -50,13 +50,11 @@ void evaluate_relaxed(const System& system, const Instant& at, System::Evaluatio
 }
 
 void require_gradients(const System& system, const System::Evaluation& e, double t) {
-  for (std::size_t r = 0; r + 1 < system.row_start().size(); ++r) {
-    const auto first = static_cast<std::size_t>(system.row_start()[r]);
-    const auto count = static_cast<std::size_t>(system.row_start()[r + 1]) - first;
-    if (largest_entry(std::span(e.w).subspan(first, count)) > 0.0) continue;
+  for (std::size_t r = 0; r < system.rows(); ++r) {
+    const auto own = std::span(e.w).subspan(system.row(r).front(), system.row(r).size());
+    if (largest_entry(own) > 0.0) continue;
     std::ostringstream what;
-    what << system.row_label(static_cast<int>(r))
-         << " has no gradient: " << system.singular_hint(static_cast<int>(r)) << " (t = " << t << ')';
+    what << system.row_label(r) << " has no gradient: " << system.singular_hint(r) << " (t = " << t << ')';
     throw InconsistentStart(what.str());
   }
 }
@@ -71,11 +69,11 @@ std::vector<double> lengths_only(const System& system) {
 /// Smallest radius of curvature of the holonomic constraints, from their second derivatives at
 /// unit gradient; infinite if all are flat. It needs no knowledge of what they are.
 double smallest_radius(const System& system, const Instant& at, const System::Evaluation& e) {
-  std::vector<double> unit(static_cast<std::size_t>(system.rows()), 0.0);
-  for (std::size_t r = 0; r < static_cast<std::size_t>(system.holonomic_rows()); ++r) {
+  std::vector<double> unit(system.rows(), 0.0);
+  for (std::size_t r = 0; r < system.holonomic_rows(); ++r) {
     double square = 0.0;
-    for (int k = system.row_start()[r]; k < system.row_start()[r + 1]; ++k) {
-      square += e.w[static_cast<std::size_t>(k)] * e.w[static_cast<std::size_t>(k)];
+    for (const std::size_t k : system.row(r)) {
+      square += e.w[k] * e.w[k];
     }
     unit[r] = 1.0 / std::sqrt(square);
   }
@@ -85,8 +83,7 @@ double smallest_radius(const System& system, const Instant& at, const System::Ev
   const auto length = lengths_only(system);
   for (std::size_t k = 0; k < system.stiffness_of_constraints(); ++k) {
     const auto [row, column] = system.stiffness_pattern()[k];
-    if (length[static_cast<std::size_t>(row)] == 0.0 || length[static_cast<std::size_t>(column)] == 0.0)
-      continue;
+    if (length[row] == 0.0 || length[column] == 0.0) continue;
     curvature = std::max(curvature, std::abs(bent.stiffness[k]));
   }
   return 1.0 / curvature;
@@ -154,7 +151,7 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
   const auto& unit = start.scales.coordinate;
   const double speed = std::max(largest_scaled(given, unit), largest_scaled(start.v, unit));
   const double rounding = std::numeric_limits<double>::epsilon() * speed * speed * start.scales.length;
-  std::vector<double> residual(static_cast<std::size_t>(system.rows()));
+  std::vector<double> residual(system.rows());
   system.bias({t, start.q, start.v}, residual);
   const auto& w = manifold.equations().w;
   const auto forced = forced_acceleration(system, manifold.equations());
@@ -163,9 +160,8 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
   for (std::size_t r = 0; r < residual.size(); ++r) {
     const double gradient = gradient_length(system, w, lever, r);
     residual[r] /= gradient;
-    for (auto k = static_cast<std::size_t>(system.row_start()[r]);
-         k < static_cast<std::size_t>(system.row_start()[r + 1]); ++k) {
-      const auto i = static_cast<std::size_t>(system.w_columns()[k]);
+    for (const std::size_t k : system.row(r)) {
+      const auto i = system.w_columns()[k];
       const double term = w[k] * start.a[i] / gradient;
       scale = std::max({scale, std::abs(term), std::abs(residual[r]), std::abs(w[k] * forced[i]) / gradient});
       residual[r] += term;
@@ -174,7 +170,7 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
   for (std::size_t r = 0; r < residual.size(); ++r) {
     if (system.compliance()[r] > 0.0 || std::abs(residual[r]) <= 1e-6 * scale + rounding) continue;
     throw InconsistentStart(
-        system.row_label(static_cast<int>(r)) +
+        system.row_label(r) +
         " contradicts the other constraints: no accelerations satisfy all of them; remove or "
         "correct one of those that act on the same particles");
   }
@@ -245,7 +241,7 @@ Start consistent_start(const System& system, std::span<const double> q, std::spa
   Start start{{q.begin(), q.end()},
               {v.begin(), v.end()},
               std::vector<double>(q.size()),
-              std::vector<double>(static_cast<std::size_t>(system.rows())),
+              std::vector<double>(system.rows()),
               {},
               {}};
   try {

@@ -11,8 +11,8 @@ double WeakestDirection::find(SaddleMatrix& matrix, const ActiveRows& rows, std:
   // Where the smallest value matters it is far below the others, and two iterations give it to a few per
   // cent.
   constexpr int iterations = 3;
-  const auto n = static_cast<std::size_t>(system_->coordinates());
-  const auto m = static_cast<std::size_t>(rows.size());
+  const auto n = system_->coordinates();
+  const auto m = rows.size();
   x_.assign(n + m, 0.0);
   u_.resize(m);
   for (std::size_t k = 0; k < m; ++k)
@@ -23,12 +23,12 @@ double WeakestDirection::find(SaddleMatrix& matrix, const ActiveRows& rows, std:
     std::fill_n(x_.begin(), n, 0.0);
     for (std::size_t k = 0; k < m; ++k) {
       u_[k] /= length;
-      x_[n + k] = u_[k] * std::sqrt(mobility(*system_, w, static_cast<std::size_t>(rows.rows[k])));
+      x_[n + k] = u_[k] * std::sqrt(mobility(*system_, w, rows.rows[k]));
     }
     matrix.solve(x_);
     double projection = 0.0;
     for (std::size_t k = 0; k < m; ++k) {
-      const double y = x_[n + k] * std::sqrt(mobility(*system_, w, static_cast<std::size_t>(rows.rows[k])));
+      const double y = x_[n + k] * std::sqrt(mobility(*system_, w, rows.rows[k]));
       projection += y * u_[k];
       u_[k] = y;
     }

@@ -19,9 +19,7 @@ class WeakestDirection {
   /// With the factors that `matrix` has at W; returns the singular value.
   double find(SaddleMatrix& matrix, const ActiveRows& rows, std::span<const double> w);
   /// n, not normalised, of the last `find`.
-  [[nodiscard]] std::span<const double> n() const {
-    return std::span(x_).first(static_cast<std::size_t>(system_->coordinates()));
-  }
+  [[nodiscard]] std::span<const double> n() const { return std::span(x_).first(system_->coordinates()); }
 
  private:
   const System* system_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace dalembert {
@@ -20,19 +21,18 @@ std::string outgrown_constraint(const System& system, const Scales& scales, std:
                                 std::span<const double> lambda, std::span<const double> lambda_at_start) {
   const auto lever = scales.lever();
   double most = unexplained;
-  int row = -1;
+  std::optional<std::size_t> row;
   for (std::size_t r = 0; r < lambda.size(); ++r) {
     const double unit = impulse_of_row(system, w, lever, r, scales.speed()) / scales.time;
     const double size = std::abs(lambda[r]) / std::max(unit, std::abs(lambda_at_start[r]));
     if (!(size > most)) continue;
     most = size;
-    row = static_cast<int>(r);
+    row = r;
   }
-  if (row < 0) return {};
+  if (!row) return {};
   std::ostringstream what;
-  what << "the multiplier of " << system.row_label(row) << " has grown to "
-       << lambda[static_cast<std::size_t>(row)];
-  if (const auto hint = system.singular_hint(row); !hint.empty()) what << " (singular if " << hint << ')';
+  what << "the multiplier of " << system.row_label(*row) << " has grown to " << lambda[*row];
+  if (const auto hint = system.singular_hint(*row); !hint.empty()) what << " (singular if " << hint << ')';
   return what.str();
 }
 

@@ -60,12 +60,12 @@ System system_of(const Add<D>& add, const Placement<D>& at = {}) {
 /// A state in general position: nothing vanishes, nothing is a unit vector, no constraint holds. Two
 /// particles, and rotors if the system has more coordinates.
 template <int D>
-State general_state(int n = 2 * D) {
+State general_state(Eigen::Index n = 2 * D) {
   return {0.6, (Eigen::VectorXd(8) << 0.8, -0.5, 1.3, 0.4, 0.9, -0.7, 0.3, -1.6).finished().head(n),
           (Eigen::VectorXd(8) << -0.3, 1.2, 0.7, 0.9, -1.1, 0.5, 1.4, 0.2).finished().head(n)};
 }
 
-inline Eigen::VectorXd general_multipliers(int rows) {
+inline Eigen::VectorXd general_multipliers(Eigen::Index rows) {
   return Eigen::Vector4d(1.7, -0.9, 0.6, 2.1).head(rows);
 }
 
@@ -73,7 +73,8 @@ inline Eigen::VectorXd general_multipliers(int rows) {
 template <int D>
 void differentiates_its_equation(const Add<D>& add) {
   const System system = system_of<D>(add);
-  expect_consistent(system, general_state<D>(system.coordinates()), general_multipliers(system.rows()));
+  expect_consistent(system, general_state<D>(index(system.coordinates())),
+                    general_multipliers(index(system.rows())));
 }
 
 /// A second evaluation, and a second system, give the same bits.
@@ -81,9 +82,9 @@ template <int D>
 void gives_the_same_bits_twice(const Add<D>& add) {
   const System one = system_of<D>(add);
   const System two = system_of<D>(add);
-  const State s = general_state<D>(one.coordinates());
+  const State s = general_state<D>(index(one.coordinates()));
   const Values first = values(one, s);
-  const Eigen::VectorXd lambda = general_multipliers(one.rows());
+  const Eigen::VectorXd lambda = general_multipliers(index(one.rows()));
   const Derivatives d = derivatives(one, s, lambda);
   for (const System* system : {&one, &two}) {
     const Values again = values(*system, s);

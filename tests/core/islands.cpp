@@ -17,7 +17,7 @@ TEST(Islands, AreWhatNoRodAndNoForceConnects) {
   const System system = scene.system();
   const Islands found = islands(system);
   EXPECT_EQ(found.count, 4);  // {0, 3}, {1, 4} and the coordinates of 2, that nothing connects
-  EXPECT_EQ(found.of_coordinate, (std::vector<int>{0, 0, 1, 1, 2, 3, 0, 0, 1, 1}));
+  EXPECT_EQ(found.of_coordinate, (std::vector<std::size_t>{0, 0, 1, 1, 2, 3, 0, 0, 1, 1}));
   EXPECT_EQ(found.of_row(system, 0), 0);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace dalembert::fuzz {
 
@@ -44,9 +45,9 @@ struct Check {
   FlatSample sample;
   double length, speed;
   System::Evaluation e = system.evaluation();
-  std::vector<double> gamma = std::vector<double>(static_cast<std::size_t>(system.rows()));
+  std::vector<double> gamma = std::vector<double>(system.rows());
 
-  [[nodiscard]] std::string worst(const char* what, double size, double bound, int row,
+  [[nodiscard]] std::string worst(const char* what, double size, double bound, std::optional<std::size_t> row,
                                   std::string& detail) const;
   [[nodiscard]] std::string run(double accuracy, std::string& detail);
   [[nodiscard]] std::string residuals(double share, std::string& detail);
@@ -54,10 +55,11 @@ struct Check {
   [[nodiscard]] std::string principle(std::string& detail) const;
 };
 
-std::string Check::worst(const char* what, double size, double bound, int row, std::string& detail) const {
+std::string Check::worst(const char* what, double size, double bound, std::optional<std::size_t> row,
+                         std::string& detail) const {
   std::ostringstream text;
   text << what << " at t = " << sample.time << " is " << size << ", bound " << bound;
-  if (row >= 0) text << ", " << system.row_label(row);
+  if (row) text << ", " << system.row_label(*row);
   if (size > 0.01 * bound) detail += text.str() + '\n';
   return size <= bound ? "" : text.str();
 }
@@ -70,23 +72,21 @@ std::string Check::residuals(double share, std::string& detail) {
   for (std::size_t i = 0; i < scale.size(); ++i)
     farthest = std::max(farthest, std::abs(sample.q[i]) * length / scale[i]);
   double worst_g = 0.0, worst_psi = 0.0;
-  int row_g = -1, row_psi = -1;
-  for (int r = 0; r < system.rows(); ++r) {
-    const auto row = static_cast<std::size_t>(r);
+  std::optional<std::size_t> row_g, row_psi;
+  for (std::size_t row = 0; row < system.rows(); ++row) {
     double gradient = 0.0, rounding = 0.0, motion = 0.0;
-    for (auto k = static_cast<std::size_t>(system.row_start()[row]);
-         k < static_cast<std::size_t>(system.row_start()[row + 1]); ++k) {
-      const auto i = static_cast<std::size_t>(system.w_columns()[k]);
+    for (const std::size_t k : system.row(row)) {
+      const auto i = system.w_columns()[k];
       gradient = std::hypot(gradient, e.w[k] * scale[i] / length);
       rounding += std::abs(e.w[k] * sample.q[i]);
       motion += std::abs(e.w[k] * sample.v[i]);
     }
-    if (r < system.holonomic_rows()) {
+    if (row < system.holonomic_rows()) {
       const double g = (std::abs(e.g[row]) - 100.0 * epsilon * rounding) / gradient;
-      if (!(g <= worst_g)) worst_g = g, row_g = r;
+      if (!(g <= worst_g)) worst_g = g, row_g = row;
     }
     const double psi = (std::abs(e.psi[row]) - 100.0 * epsilon * motion) / gradient;
-    if (!(psi <= worst_psi)) worst_psi = psi, row_psi = r;
+    if (!(psi <= worst_psi)) worst_psi = psi, row_psi = row;
   }
   const std::string g =
       worst("position residual", worst_g, share * length + 10.0 * epsilon * farthest, row_g, detail);
@@ -104,14 +104,13 @@ std::string Check::accelerations(std::string& detail) {
     size[static_cast<std::size_t>(layout.slot_coordinate[s])] += std::abs(sample.forces[s]);
   }
   double most = 0.0, worst_relative = 0.0;
-  int worst_row = -1;
+  std::optional<std::size_t> worst_row;
   std::vector<double> residual(gamma), terms(gamma.size());
   for (std::size_t r = 0; r < gamma.size(); ++r) {
     terms[r] = std::abs(gamma[r]);
     double gradient = 0.0;
-    for (auto k = static_cast<std::size_t>(system.row_start()[r]);
-         k < static_cast<std::size_t>(system.row_start()[r + 1]); ++k) {
-      const auto i = static_cast<std::size_t>(system.w_columns()[k]);
+    for (const std::size_t k : system.row(r)) {
+      const auto i = system.w_columns()[k];
       residual[r] += e.w[k] * a[i] / system.masses()[i];
       terms[r] += std::abs(e.w[k]) * size[i] / system.masses()[i];
       gradient = std::hypot(gradient, e.w[k]);
@@ -123,8 +122,7 @@ std::string Check::accelerations(std::string& detail) {
   const double scale = most + held / agree * speed * speed / length;
   for (std::size_t r = 0; r < gamma.size(); ++r) {
     const double relative = std::abs(residual[r]) / scale;
-    if (std::isfinite(most) && !(relative <= worst_relative))
-      worst_relative = relative, worst_row = static_cast<int>(r);
+    if (std::isfinite(most) && !(relative <= worst_relative)) worst_relative = relative, worst_row = r;
   }
   return worst("acceleration residual", worst_relative, agree, worst_row, detail);
 }
@@ -133,7 +131,7 @@ std::string Check::principle(std::string& detail) const {
   const Audit found = audit(system, sample);
   const auto n = static_cast<double>(system.coordinates());
   return worst("virtual work", found.virtual_work,
-               (audit_threshold + 1000.0 * n * epsilon) * found.largest_force * n, -1, detail);
+               (audit_threshold + 1000.0 * n * epsilon) * found.largest_force * n, {}, detail);
 }
 
 /// Where forces are not determined there is nothing to audit, and the state is the stepper's own, right to

@@ -83,11 +83,8 @@ Eigen::MatrixXd constraint_rows(const System& system, const Sample<3>& sample) {
   auto e = system.evaluation();
   system.evaluate({flat.time, flat.q, flat.v}, e);
   Eigen::MatrixXd W = Eigen::MatrixXd::Zero(system.rows(), system.coordinates());
-  for (int row = 0; row < system.rows(); ++row) {
-    const auto r = static_cast<std::size_t>(row);
-    for (auto k = static_cast<std::size_t>(system.row_start()[r]);
-         k < static_cast<std::size_t>(system.row_start()[r + 1]); ++k)
-      W(row, system.w_columns()[k]) += e.w[k];
+  for (std::size_t r = 0; r < system.rows(); ++r) {
+    for (const std::size_t k : system.row(r)) W(r, system.w_columns()[k]) += e.w[k];
   }
   return W;
 }
@@ -105,8 +102,8 @@ TEST(Bricard, ForcesAreMarkedWhereTheyAreNotUnique) {
     // The other singular values are above 0.1: the null vector is exact to some 10 roundings.
     constexpr double round_off = 1e-14;
     ASSERT_LT(svd.singularValues()[system.rows() - 1], round_off);
-    for (int r = 0; r < system.rows(); ++r) {
-      const bool unique = flat.unique[static_cast<std::size_t>(r)] != 0;
+    for (std::size_t r = 0; r < system.rows(); ++r) {
+      const bool unique = flat.unique[r] != 0;
       EXPECT_EQ(unique, std::abs(null[r]) < 1e6 * round_off) << system.row_label(r) << " at " << flat.time;
     }
   }

@@ -14,8 +14,8 @@ namespace dalembert {
 namespace {
 
 ActiveRows all_rows(const System& system) {
-  ActiveRows rows{std::vector<int>(static_cast<std::size_t>(system.rows())), system.holonomic_rows()};
-  std::iota(rows.rows.begin(), rows.rows.end(), 0);
+  ActiveRows rows{std::vector<std::size_t>(system.rows()), system.holonomic_rows()};
+  std::iota(rows.rows.begin(), rows.rows.end(), std::size_t{0});
   return rows;
 }
 
@@ -184,7 +184,7 @@ TEST_F(NewtonMatrixTest, ConvergesToTheFullSystemWithFrictionAndAnyMu) {
 TEST_F(NewtonMatrixTest, NeglectsWhatMultipliesMuAndNothingElse) {
   add_damping_and_nonholonomic_rows();
   const System system = scene.system();
-  const auto m = static_cast<std::size_t>(system.rows());
+  const auto m = system.rows();
   const Eigen::VectorXd lambda = Eigen::VectorXd::Ones(system.rows());
   Eigen::VectorXd x = correction(system);
   Eigen::VectorXd found = full_jacobian(system, state, lambda, rate) * x;

@@ -19,19 +19,16 @@ using namespace dalembert;
 namespace {
 
 ActiveRows all_rows(const System& system) {
-  ActiveRows rows{std::vector<int>(static_cast<std::size_t>(system.rows())), system.holonomic_rows()};
-  std::iota(rows.rows.begin(), rows.rows.end(), 0);
+  ActiveRows rows{std::vector<std::size_t>(system.rows()), system.holonomic_rows()};
+  std::iota(rows.rows.begin(), rows.rows.end(), std::size_t{0});
   return rows;
 }
 
 /// W as a dense matrix, from its pattern.
 Eigen::MatrixXd dense_w(const System& system, std::span<const double> w) {
   Eigen::MatrixXd W = Eigen::MatrixXd::Zero(system.rows(), system.coordinates());
-  for (int r = 0; r < system.rows(); ++r) {
-    for (int k = system.row_start()[static_cast<std::size_t>(r)];
-         k < system.row_start()[static_cast<std::size_t>(r) + 1]; ++k) {
-      W(r, system.w_columns()[static_cast<std::size_t>(k)]) += w[static_cast<std::size_t>(k)];
-    }
+  for (std::size_t r = 0; r < system.rows(); ++r) {
+    for (const std::size_t k : system.row(r)) W(r, system.w_columns()[k]) += w[k];
   }
   return W;
 }
@@ -78,8 +75,7 @@ std::vector<double> random_numbers(int count) {
 /// Against a dense solve of [M -W^T; W 0]. Either solution is good to round-off times condition.
 template <class Matrix>
 void expect_solves(Matrix& matrix, const Prepared& p) {
-  const int n = p.system.coordinates();
-  const int m = p.system.rows();
+  const auto n = static_cast<int>(p.system.coordinates()), m = static_cast<int>(p.system.rows());
   const Eigen::MatrixXd W = dense_w(p.system, p.e.w);
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n + m, n + m);
   for (int i = 0; i < n; ++i) K(i, i) = p.system.masses()[static_cast<std::size_t>(i)];
@@ -114,10 +110,10 @@ TEST(SchurComplement, SolvesForALoneConstraint) {
 
 TEST(SchurComplement, WorksWithSomeOfTheRowsOnly) {
   const Prepared p(truss(3));
-  const std::vector<int> rows{1, 3, 4};
+  const std::vector<std::size_t> rows{1, 3, 4};
   SchurComplement schur(p.system, rows);
   ASSERT_TRUE(schur.factorise(p.e.w));
-  const int n = p.system.coordinates();
+  const auto n = static_cast<int>(p.system.coordinates());
   std::vector<double> x = random_numbers(n + 3);
   const std::vector<double> b = x;
   schur.solve(x);
@@ -185,10 +181,9 @@ TEST(SaddleMatrix, TakesTheWholeMatrixWhereTheComplementIsFull) {
 TEST(NewtonMatrix, SolvesItsEquationsWithoutSoftForces) {
   const Scene<2> scene = truss(5);
   Prepared p(scene);
-  std::vector<double> v = random_numbers(p.system.coordinates());
+  std::vector<double> v = random_numbers(static_cast<int>(p.system.coordinates()));
   p.system.evaluate({0.0, scene.initial_positions(), v}, p.e);
-  const auto n = p.system.coordinates();
-  const auto m = p.system.rows();
+  const auto n = static_cast<int>(p.system.coordinates()), m = static_cast<int>(p.system.rows());
   const std::vector<double> lambda(static_cast<std::size_t>(m), 0.0);  // so that H = 0
   const double c = 50.0;
   NewtonMatrix newton(p.system, p.rows, 1.0);

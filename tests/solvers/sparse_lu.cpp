@@ -13,10 +13,10 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 using Entry = SparseLU::Entry;
 
 /// All entries of a full matrix, row by row.
-std::vector<Entry> full(int size) {
+std::vector<Entry> full(std::size_t size) {
   std::vector<Entry> entries;
-  for (int i = 0; i < size; ++i) {
-    for (int j = 0; j < size; ++j) entries.push_back({i, j});
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t j = 0; j < size; ++j) entries.push_back({i, j});
   }
   return entries;
 }
