@@ -64,9 +64,11 @@ struct Constants {
   double first_implicit_step = 0.1;
   /// Of double precision, that Newton's iteration is not asked to better; see State::weigh.
   double roundings_of_newton = 5.0;
-  /// Forces whose stiffness is below this part of M/h^2 are left out of Newton's matrix, until it fails, more
-  /// than once, in more than so many of the steps.
-  double soft = 0.1, tolerated_failures = 0.05;
+  /// Of Newton's corrections so many at most, and so many with the gradients of the predictor: the rest get
+  /// fresh ones each. IDA's 4 in all are too few where links are short against what a step moves them.
+  double most_corrections = 8.0, corrections_of_one_matrix = 3.0;
+  /// Forces whose stiffness is below this part of M/h^2 are left out of Newton's matrix, until it fails.
+  double soft = 0.1;
   /// Order 5 resolves a vibration that matters with steps h rho below the first (0.2 to 0.4 at tolerances
   /// 1e-4 to 1e-8); beyond the second no order is unstable. See OrderGuard.
   double resolved = 0.45, passed_over = 9.4;

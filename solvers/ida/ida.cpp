@@ -132,14 +132,11 @@ void IdaStepper::State::change_order() {
   check(IDASetMaxOrd(ida.get(), guard.order()), "IDASetMaxOrd");
 }
 
-/// Newton's iteration that fails often with forces left out of its matrix is to have them. The larger matrix
-/// makes every step dearer, so a few failures are better borne.
+/// Newton's iteration that failed with forces left out of its matrix is to have them.
 void IdaStepper::State::watch_convergence() {
   long failures = 0;
   check(IDAGetNumStepSolveFails(ida.get(), &failures), "IDAGetNumStepSolveFails");
-  if (failures == std::exchange(solve_failures, failures)) return;
-  if (static_cast<double>(failures - 1) > constants.tolerated_failures * static_cast<double>(steps))
-    newton.converged_badly();
+  if (failures > std::exchange(solve_failures, failures)) newton.converged_badly();
 }
 
 /// Adds IDA's own counts since it began.

@@ -1,15 +1,7 @@
+#include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/ida/ida_state.h>
 
 namespace dalembert {
-
-namespace {
-
-/// Three corrections with the gradients of the predictor are what most steps need, and less than fresh ones.
-/// Where a step is long against what the constraints are made of (a chain of many short links) the rest gets
-/// fresh ones each. (2 or 4 in place of 3 take the same steps.)
-constexpr int corrections_of_one_matrix = 3;
-
-}  // namespace
 
 /// A direct solver for IDA's interface whose matrix is NewtonMatrix; IDA's own is empty.
 void IdaStepper::State::make_linear_solver() {
@@ -49,7 +41,7 @@ void IdaStepper::State::make_linear_solver() {
       // IDA keeps a matrix as long as Newton converges; fresh factors cost less than that saves.
       const bool stale = s.evaluated_at != s.factored_at;
       s.corrections = stale ? 1 : s.corrections + 1;
-      if (stale || s.corrections > corrections_of_one_matrix) {
+      if (stale || s.corrections > constants.corrections_of_one_matrix) {
         s.factored_at = s.evaluated_at;
         if (!s.newton.refresh(s.e, c)) return 1;
       }

@@ -1,3 +1,4 @@
+#include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/ida/ida_state.h>
 
 #include <sunnonlinsol/sunnonlinsol_newton.h>
@@ -8,11 +9,10 @@ namespace dalembert {
 
 namespace {
 
-/// As in IDA: a slower iteration has failed.
+// As in IDA, see its user guide:
+/// an iteration that converges more slowly has failed;
 constexpr double slowest_rate = 0.9;
-/// IDA's 4 are too few where the last of them get fresh gradients; 6 to 12 take the same steps.
-constexpr int most_corrections = 8;
-/// Of what is asked for: a first correction so small needs no second.
+/// a first correction below this part of what is asked for needs no second.
 constexpr double negligible = 1e-8;
 
 double rate_of(double correction, double first, int iteration) {
@@ -35,7 +35,8 @@ void IdaStepper::State::make_newton() {
     (void)SUNNonlinSolGetCurIter(newton, &iteration);  // cannot fail
     return s.test_convergence(iteration, correction, weight, tolerance);
   };
-  check(IDASetMaxNonlinIters(ida.get(), most_corrections), "IDASetMaxNonlinIters");
+  check(IDASetMaxNonlinIters(ida.get(), static_cast<int>(constants.most_corrections)),
+        "IDASetMaxNonlinIters");
   check(SUNNonlinSolSetConvTestFn(nonlinear.get(), test, this), "SUNNonlinSolSetConvTestFn");
 }
 

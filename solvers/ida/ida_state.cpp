@@ -119,7 +119,7 @@ double IdaStepper::State::farthest(std::size_t row, std::span<const double> q) c
 /// Weighs by what is asked for, but never asks for more than double precision gives to Newton's corrections:
 /// with q good to eps |q|, the v of BDF's (v - q') is good to eps |q|/h, M v' and with it lambda to
 /// M eps |q|/h^2, mu to M eps |q|/h; of rows that make an angle with others, to 1/sin^2 times that. Newton's
-/// iteration stops at a part of the weights, so they hold that many roundings.
+/// iteration stops at a part of the weights, so these hold some roundings.
 ///
 /// The multiplier of a compliant row is felt besides in psi + C lambda', as C lambda/h: in steps that
 /// follow the vibration of its spring it is that which limits its error.
