@@ -94,6 +94,26 @@ Case long_chain() {
           [=](const Run& run) { return added_up(run, tolerance, t_end(run.parameter) * std::sqrt(9.81)); }};
 }
 
+/// A step moves the beads by more of a link the more of them there are in 1 m: Newton's iteration is not to
+/// fail for that, in more than one step of twenty.
+Case short_links() {
+  return {.name = "short-links",
+          .parameter = "tolerance, a chain of 3,000 beads: steps that Newton's iteration fails, of all",
+          .sweep = {1e-4, 1e-5, 1e-6},
+          .brief = {1e-4},
+          .run =
+              [](double tolerance, Stepper stepper) {
+                const auto run = simulate(models::Chain{.beads = 3000}.model().scene().scene,
+                                          {.t_end = 0.02, .tolerance = tolerance, .stepper = stepper});
+                const auto& s = run.statistics();
+                return Result{
+                    .error = static_cast<double>(s.convergence_failures) / static_cast<double>(s.steps),
+                    .statistics = s};
+              },
+          .limit = [](const Run&) { return 0.05; },
+          .steppers = {Stepper::ida}};
+}
+
 /// Bytes that this process has allocated.
 double allocated() {
   const struct mallinfo2 info = mallinfo2();
@@ -156,7 +176,7 @@ Case kept_samples() {
 }  // namespace
 
 std::vector<Case> length() {
-  return {energy_drift(), phase_drift(), long_chain(), streamed_samples(), kept_samples()};
+  return {energy_drift(), phase_drift(), long_chain(), short_links(), streamed_samples(), kept_samples()};
 }
 
 }  // namespace dalembert::extremes
