@@ -98,6 +98,22 @@ TEST_F(TwinRods, ThatContradictEachOtherInAccelerationAreRefusedByName) {
                   AllOf(AnyOf(HasSubstr("\"one\""), HasSubstr("\"two\"")), HasSubstr("accelerations"))));
 }
 
+// The same with one of the equations in other units.
+TEST_F(TwinRods, ThatContradictEachOtherAreRefusedWhateverTheScaleOfAnEquation) {
+  for (const double scale : {1e-8, 1e8}) {
+    Scene<2> scaled;
+    scaled.add(UniformGravity<2>{{0.0, -10.0}});
+    const auto end = scaled.add_particle({.mass = 1.0, .position = {0.0, -1.0}});
+    scaled.add(Distance{Fixed<2>{}, end, 1.0}, "one");
+    scaled.add(holonomic(points(driven([](auto t) { return vec(0.0, 0.5 * t * t); }), end),
+                         [scale](auto pivot, auto r) { return scale * ((r - pivot).norm() - 1.0); }),
+               "two");
+    EXPECT_THAT([&] { (void)simulate(scaled, {.t_end = 1.0}); },
+                ThrowsMessage<InconsistentStart>(HasSubstr("accelerations")))
+        << scale;
+  }
+}
+
 // Alike up to t = 0.5 including all derivatives that matter, apart later: found in mid-run.
 TEST_F(TwinRods, ThatBeginToContradictEachOtherStopTheRunByName) {
   scene.add(Distance{Fixed<2>{}, bob, 1.0}, "one");
