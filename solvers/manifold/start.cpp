@@ -221,19 +221,6 @@ void start_velocities(const System& system, const Start& start, const System::Ev
 
 }  // namespace
 
-double Scales::rounding(std::span<const double> q) const {
-  double farthest = 0.0;
-  for (std::size_t i = 0; i < q.size(); ++i)
-    farthest = std::max(farthest, std::abs(q[i]) * length / coordinate[i]);
-  return 10.0 * std::numeric_limits<double>::epsilon() * farthest;
-}
-
-std::vector<double> Scales::lever() const {
-  auto lever = coordinate;
-  for (double& s : lever) s = length / s;
-  return lever;
-}
-
 Start consistent_start(const System& system, std::span<const double> q, std::span<const double> v,
                        const Options& options) {
   const double t = options.t_start;

@@ -1,10 +1,24 @@
+#include "dalembert/solvers/manifold/scales.h"
+
 #include <dalembert/solvers/base/constants.h>
-#include <dalembert/solvers/manifold/start.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace dalembert {
+
+double Scales::rounding(std::span<const double> q) const {
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < q.size(); ++i)
+    farthest = std::max(farthest, std::abs(q[i]) * length / coordinate[i]);
+  return 10.0 * std::numeric_limits<double>::epsilon() * farthest;
+}
+
+std::vector<double> Scales::lever() const {
+  auto lever = coordinate;
+  for (double& s : lever) s = length / s;
+  return lever;
+}
 
 /// Relative to the way, errors are the same whatever the units and wherever t_end lies: a step from rest at
 /// constant acceleration a covers a h^2/2, and the first term of its error is smaller by a power of h over

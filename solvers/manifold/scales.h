@@ -1,0 +1,60 @@
+#pragma once
+
+#include <dalembert/solvers/base/hidden.h>
+
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// How far a scene without a length of its own has come so far, and how fast it has been.
+struct Way {
+  double length = 0.0;  ///< largest distance of a coordinate from its start
+  double speed = 0.0;   ///< largest speed of one that is a length,
+  double rate = 0.0;    ///< or an angle
+  double step = 0.0;    ///< the last one
+};
+
+/// The scene's own length and time, from which absolute tolerances and the first step follow, so
+/// that a scene runs alike in any units.
+struct Scales {
+  /// Where nothing moves any length will do; of this one the square, its inverse and both over the smallest
+  /// tolerance are numbers.
+  static constexpr double least = 1e-140;
+
+  double length;
+  double time;
+  std::vector<double> coordinate;  ///< of each coordinate: `length`, or 1 for an angle
+  std::vector<double> origin;      ///< the coordinates at the start
+
+  /// A lone particle far from anything has no length but that of its path: what it has covered so far. Its
+  /// start tells nothing: at the cusp of a cycloid it rests, and what moves it a little later has not begun
+  /// to turn it. So errors are relative to `way`, which only grows, and with it `length` and `time` do.
+  bool of_path = false;
+  Way way{};
+  std::vector<double> is_angle;  ///< of each coordinate: 1 or 0
+  double forced = 0.0;           ///< the acceleration that its forces alone give it at the start
+
+  [[nodiscard]] double speed() const { return length / time; }
+  /// The error allowed to coordinate i at q: relative to the scene, or to how far the coordinate has
+  /// come, wherever the origin lies; and never below round-off.
+  [[nodiscard]] double position_error(std::size_t i, double q, double tolerance) const {
+    return tolerance * (coordinate[i] + std::abs(q - origin[i])) +
+           std::numeric_limits<double>::epsilon() * std::abs(q);
+  }
+  /// The error allowed to velocity i: relative to `length` in `time`, or the top speed of a path, and to
+  /// itself.
+  [[nodiscard]] double velocity_error(std::size_t i, double v, double tolerance) const;
+  /// The way when the next step, of h, is at (q, v).
+  [[nodiscard]] Way further(std::span<const double> q, std::span<const double> v, double h,
+                            double tolerance) const;
+  void take(const Way& next);
+  /// How far from its constraints round-off alone may leave a state.
+  [[nodiscard]] double rounding(std::span<const double> q) const;
+  /// What turns each coordinate into a length: 1, or `length` for an angle.
+  [[nodiscard]] std::vector<double> lever() const;
+};
+
+}  // namespace dalembert
