@@ -15,7 +15,7 @@ Entry refused(const Error& why, const Statistics& so_far) {
 template <int D>
 Entry measure_rival(const Contest<D>& contest, Contender contender, const Options& options,
                     std::span<const models::Observation<D>> reference) {
-  const RivalRun<D> gave = run(contest.rivals, contender, options);
+  const MethodRun<D> gave = run(contest.methods, contender, options);
   models::Measurement measured = models::compare<D>(contest.model, gave.seen, reference);
   measured.statistics = gave.statistics;
   return {measured};

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <dalembert/bench/method.h>
 #include <dalembert/bench/outcome.h>
-#include <dalembert/bench/rival.h>
 #include <dalembert/models/error.h>
 
 namespace dalembert::bench {
@@ -16,10 +16,10 @@ struct Entry {
 template <int D>
 struct Contest {
   models::Model<D> model;
-  Rivals<D> rivals = {};
+  Methods<D> methods = {};
 
   [[nodiscard]] bool admits(Contender contender) const {
-    return stepper(contender) || rivals.contains(contender);
+    return stepper(contender) || methods.contains(contender);
   }
   /// Runs one of them, whatever stepper the options name, and compares with `reference`, the observations
   /// of the model at sample_times(options).

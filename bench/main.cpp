@@ -63,7 +63,7 @@ void add_work_precision(CLI::App& app) {
   const auto options = std::make_shared<bench::WorkPrecision>();
   CLI::App* command = app.add_subcommand(
       "work-precision",
-      "Errors of motion and of forces of constraint against run time, over a ladder of tolerances");
+      "Errors of motion and of forces of constraint against run time, over falling tolerances");
   command->add_option("--model", options->models, "all, or names as in `list`")
       ->delimiter(',')
       ->capture_default_str();

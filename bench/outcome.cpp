@@ -1,6 +1,6 @@
 #include "dalembert/bench/outcome.h"
 
-#include <dalembert/bench/rival.h>
+#include <dalembert/bench/method.h>
 
 #include <iostream>
 
@@ -11,7 +11,7 @@ Outcome refused_by(const Error& error) {
   if (dynamic_cast<const IntegrationFailure*>(&error) != nullptr) return {"IntegrationFailure", said};
   if (dynamic_cast<const InconsistentStart*>(&error) != nullptr) return {"InconsistentStart", said};
   if (dynamic_cast<const InvalidScene*>(&error) != nullptr) return {"InvalidScene", said};
-  if (dynamic_cast<const RivalFailure*>(&error) != nullptr) return {"RivalFailure", said};
+  if (dynamic_cast<const MethodFailure*>(&error) != nullptr) return {"MethodFailure", said};
   return {"Error", said};
 }
 

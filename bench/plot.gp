@@ -5,7 +5,7 @@ steppers = system(sprintf("awk -F, '$1 == \"%s\" && !seen[$2]++ { print $2 }' '%
 colours = "#0072B2 #D55E00 #009E73 #CC79A7 #E69F00 #56B4E9" # Okabe and Ito: told apart by colour-blind readers
 colour(i) = word(colours, (i - 1) % words(colours) + 1)
 
-# A refused rung has no error and no point; the key counts them. gnuplot refuses to plot nothing, so that
+# A refused run has no error and no point; the key counts them. gnuplot refuses to plot nothing, so that
 # lines without any point (and a model without any) are left out.
 count(stepper, condition) = int(system(sprintf("awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) c[$i] = i } NR > 1 && $1 == \"%s\" && $2 == \"%s\" && %s { ++n } END { print n + 0 }' '%s'", model, stepper, condition, csv)))
 refused(stepper) = count(stepper, "$c[\"outcome\"] != \"ok\"")

@@ -1,8 +1,8 @@
 #include "dalembert/bench/ratios.h"
 
-#include <dalembert/bench/ladder.h>
+#include <dalembert/bench/methods.h>
 #include <dalembert/bench/progress.h>
-#include <dalembert/bench/rivals.h>
+#include <dalembert/bench/work_precision_curve.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ const std::vector<std::string> columns = {"scene",         "error",         "ste
 
 Contest<2> chain(int beads, double t_end) {
   const models::Chain system{.beads = beads};
-  Contest<2> contest{system.model(), rivals(system)};
+  Contest<2> contest{system.model(), methods(system)};
   contest.model.name = "chain-" + std::to_string(beads);
   contest.model.t_end = t_end;
   // To round-off this would take minutes; so it is a hundredth of the least error asked for.
@@ -34,13 +34,13 @@ Contest<2> chain(int beads, double t_end) {
 
 /// A peer would take many minutes.
 Contest<2> without_peers(Contest<2> contest) {
-  std::erase_if(contest.rivals, [](const auto& rival) { return rival.first != Contender::hand; });
+  std::erase_if(contest.methods, [](const auto& method) { return method.first != Contender::hand; });
   return contest;
 }
 
 template <class System>
 AnyContest of(const System& system) {
-  return Contest{system.model(), rivals(system)};
+  return Contest{system.model(), methods(system)};
 }
 
 std::vector<std::pair<std::string, std::function<AnyContest()>>> scenes() {
@@ -53,29 +53,30 @@ std::vector<std::pair<std::string, std::function<AnyContest()>>> scenes() {
 }
 
 template <int D>
-double run_time(const std::vector<Ladder<D>>& ladders, Contender contender, double error) {
-  for (const Ladder<D>& ladder : ladders) {
-    if (ladder.contender() == contender) return ladder.crossing(error).run_time;
+double run_time(const std::vector<WorkPrecisionCurve<D>>& curves, Contender contender, double error) {
+  for (const WorkPrecisionCurve<D>& curve : curves) {
+    if (curve.contender() == contender) return curve.crossing(error).run_time;
   }
   return std::numeric_limits<double>::quiet_NaN();
 }
 
 template <int D>
-std::vector<Ladder<D>> climbed(const Contest<D>& contest, std::span<const models::Observation<D>> reference,
-                               const Ratios& options, Progress& progress) {
-  std::vector<Ladder<D>> ladders;
+std::vector<WorkPrecisionCurve<D>> reaching(const Contest<D>& contest,
+                                            std::span<const models::Observation<D>> reference,
+                                            const Ratios& options, Progress& progress) {
+  std::vector<WorkPrecisionCurve<D>> curves;
   for (const Contender contender : options.steppers) {
-    if (contest.admits(contender)) ladders.emplace_back(contest, contender, reference, options.limit);
+    if (contest.admits(contender)) curves.emplace_back(contest, contender, reference, options.limit);
   }
-  for (Ladder<D>& ladder : ladders) {
-    progress.next(contest.model.name + ", " + name(ladder.contender()));
-    for (const double error : options.errors) ladder.climb(error);
+  for (WorkPrecisionCurve<D>& curve : curves) {
+    progress.next(contest.model.name + ", " + name(curve.contender()));
+    for (const double error : options.errors) curve.reach(error);
   }
   progress.next(contest.model.name + ", all in turn");
   for (int i = 0; i < options.repeats; ++i) {
-    for (Ladder<D>& ladder : ladders) ladder.repeat();
+    for (WorkPrecisionCurve<D>& curve : curves) curve.repeat();
   }
-  return ladders;
+  return curves;
 }
 
 /// Whether an error was reached, missed at every tolerance, or no tolerance ran at all.
@@ -88,14 +89,14 @@ template <int D>
 void race(const Contest<D>& contest, const Ratios& options, Progress& progress, Table& table) {
   const auto reference =
       contest.model.observations(sample_times({.t_end = contest.model.t_end, .samples = 2}));
-  const auto ladders = climbed<D>(contest, reference, options, progress);
+  const auto curves = reaching<D>(contest, reference, options, progress);
   for (const double error : options.errors) {
-    for (const Ladder<D>& ladder : ladders) {
-      const auto at = ladder.crossing(error);
-      table.rows.push_back({contest.model.name, shortest_power(error), name(ladder.contender()),
+    for (const WorkPrecisionCurve<D>& curve : curves) {
+      const auto at = curve.crossing(error);
+      table.rows.push_back({contest.model.name, shortest_power(error), name(curve.contender()),
                             scientific(at.tolerance, 2), scientific(at.error, 2), scientific(at.run_time),
-                            scientific(at.run_time / run_time(ladders, Contender::hand, error), 3),
-                            scientific(at.run_time / run_time(ladders, Contender::simbody_rod, error), 3),
+                            scientific(at.run_time / run_time(curves, Contender::hand, error), 3),
+                            scientific(at.run_time / run_time(curves, Contender::simbody_rod, error), 3),
                             outcome(at, error)});
     }
   }

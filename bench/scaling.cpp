@@ -1,8 +1,8 @@
 #include "dalembert/bench/scaling.h"
 
+#include <dalembert/bench/methods.h>
 #include <dalembert/bench/outcome.h>
 #include <dalembert/bench/progress.h>
-#include <dalembert/bench/rivals.h>
 #include <dalembert/models/error.h>
 
 #include <sys/resource.h>
@@ -54,7 +54,7 @@ models::Observation<2> run_library(const models::Chain& chain, const Options& op
 
 models::Observation<2> run_rival(const models::Chain& chain, Contender contender, const Options& options,
                                  Scaled& scaled) {
-  RivalRun<2> gave = bench::run(rivals(chain), contender, options);
+  MethodRun<2> gave = bench::run(methods(chain), contender, options);
   scaled.statistics = gave.statistics;
   scaled.memory = peak_memory_mib();
   return std::move(gave.seen.back());

@@ -2,8 +2,8 @@
 
 #include <dalembert/bench/contest.h>
 #include <dalembert/bench/median.h>
+#include <dalembert/bench/methods.h>
 #include <dalembert/bench/progress.h>
-#include <dalembert/bench/rivals.h>
 #include <dalembert/models/catalogue.h>
 
 #include <algorithm>
@@ -53,54 +53,54 @@ std::vector<std::string> row(const std::string& model, Contender stepper, double
           entry.outcome.name};
 }
 
-/// One tolerance of a ladder.
-struct Rung {
+/// One tolerance of a curve.
+struct Tried {
   Entry entry;
   std::vector<double> run_times = {};
 };
 
-/// The ladders of one model, added to the table; the reference is computed once.
-class Ladders {
+/// The curves of one model, added to the table; the reference is computed once.
+class Curves {
  public:
-  Ladders(const WorkPrecision& options, Table& table, Progress& progress)
+  Curves(const WorkPrecision& options, Table& table, Progress& progress)
       : options_(options), table_(table), progress_(progress) {}
 
   template <int D>
   void operator()(const Model<D>& model) {
-    const Contest<D> contest{model, rivals(model)};
+    const Contest<D> contest{model, methods(model)};
     const Options run{.t_end = model.t_end, .samples = options_.samples};
     const auto reference = model.observations(sample_times(run));
     for (const Contender stepper : options_.steppers) {
-      if (contest.admits(stepper)) climb<D>(contest, stepper, run, reference);
+      if (contest.admits(stepper)) add<D>(contest, stepper, run, reference);
     }
   }
 
  private:
   template <int D>
-  void climb(const Contest<D>& contest, Contender stepper, Options run,
-             std::span<const models::Observation<D>> reference) {
+  void add(const Contest<D>& contest, Contender stepper, Options run,
+           std::span<const models::Observation<D>> reference) {
     const std::string& model = contest.model.name;
-    std::vector<Rung> rungs(options_.tolerances.size());
-    // The whole ladder again and again, so that what disturbs the machine for a while hits each
-    // rung once and not one rung always.
+    std::vector<Tried> runs(options_.tolerances.size());
+    // The whole curve again and again, so that what disturbs the machine for a while hits each
+    // tolerance once and not one always.
     for (int i = 1; i <= options_.repeats; ++i) {
       progress_.next(model + ", " + name(stepper) + ", run " + std::to_string(i));
-      for (std::size_t k = 0; k < rungs.size(); ++k) {
-        if (!rungs[k].entry.outcome.ok()) continue;
+      for (std::size_t k = 0; k < runs.size(); ++k) {
+        if (!runs[k].entry.outcome.ok()) continue;
         run.tolerance = options_.tolerances[k];
-        rungs[k].entry = contest.measure(stepper, run, reference);
-        rungs[k].run_times.push_back(rungs[k].entry.measured.statistics.run_time);
+        runs[k].entry = contest.measure(stepper, run, reference);
+        runs[k].run_times.push_back(runs[k].entry.measured.statistics.run_time);
       }
     }
-    for (std::size_t k = 0; k < rungs.size(); ++k) add_row(model, stepper, options_.tolerances[k], rungs[k]);
+    for (std::size_t k = 0; k < runs.size(); ++k) add_row(model, stepper, options_.tolerances[k], runs[k]);
   }
-  void add_row(const std::string& model, Contender stepper, double tolerance, Rung& rung) {
-    if (rung.entry.outcome.ok()) {
-      rung.entry.measured.statistics.run_time = median(rung.run_times);
+  void add_row(const std::string& model, Contender stepper, double tolerance, Tried& run) {
+    if (run.entry.outcome.ok()) {
+      run.entry.measured.statistics.run_time = median(run.run_times);
     } else {
-      tell(model + ", " + name(stepper) + " at tolerance " + shortest_power(tolerance), rung.entry.outcome);
+      tell(model + ", " + name(stepper) + " at tolerance " + shortest_power(tolerance), run.entry.outcome);
     }
-    table_.rows.push_back(row(model, stepper, tolerance, rung.entry));
+    table_.rows.push_back(row(model, stepper, tolerance, run.entry));
   }
 
   const WorkPrecision& options_;
@@ -108,14 +108,14 @@ class Ladders {
   Progress& progress_;
 };
 
-/// Times that a ladder will be climbed.
-std::size_t climbs(const std::vector<AnyModel>& models, const WorkPrecision& options) {
+/// How many curves there will be.
+std::size_t number_of_curves(const std::vector<AnyModel>& models, const WorkPrecision& options) {
   std::size_t count = 0;
   for (const Contender stepper : options.steppers) {
     for (const AnyModel& any : models)
       count += std::visit(
           [&](const auto& m) {
-            return Contest{m, rivals(m)}.admits(stepper) ? 1U : 0U;
+            return Contest{m, methods(m)}.admits(stepper) ? 1U : 0U;
           },
           any);
   }
@@ -147,9 +147,9 @@ void work_precision(const WorkPrecision& options) {
 
   Table table{.columns = columns, .rows = {}};
   {
-    Progress progress(climbs(selected, options));
-    Ladders ladders(options, table, progress);
-    for (const AnyModel& model : selected) std::visit(ladders, model);
+    Progress progress(number_of_curves(selected, options));
+    Curves curves(options, table, progress);
+    for (const AnyModel& model : selected) std::visit(curves, model);
   }
   report("Error against run time: largest errors of " + std::to_string(options.samples) +
              " samples, run time the median of " + std::to_string(options.repeats) + remark(options.steppers),

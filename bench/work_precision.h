@@ -18,8 +18,8 @@ struct WorkPrecision {
   ReportOptions report;
 };
 
-/// How much run time does an error cost? Runs models over a ladder of tolerances and compares each
-/// with its hand derivation. A rung that was refused has its outcome in the table, and nan for errors.
+/// How much run time does an error cost? Runs models over falling tolerances and compares each
+/// with its hand derivation. A run that was refused has its outcome in the table, and nan for errors.
 /// Throws Error for a name or a tolerance that makes no sense, before anything is run.
 void work_precision(const WorkPrecision& options);
 

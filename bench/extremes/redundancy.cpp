@@ -14,7 +14,7 @@ namespace {
 /// of round-off.
 double as_good(const Run& run) { return std::max(100.0 * run.parameter, 1e-12); }
 
-const std::vector<double> ladder = {1e-3, 1e-4, 1e-6, 1e-8, 1e-10};
+const std::vector<double> tolerances = {1e-3, 1e-4, 1e-6, 1e-8, 1e-10};
 
 /// A rod of 1 m and a pin that carries its end around, (cos t, sin t): each implies the other, and at every
 /// quarter of a turn others of their three equations are independent. With g the force on 1 kg is
@@ -22,7 +22,7 @@ const std::vector<double> ladder = {1e-3, 1e-4, 1e-6, 1e-8, 1e-10};
 Case redundant_pin() {
   return {.name = "redundant-pin",
           .parameter = "tolerance, a rod and a driven pin that imply each other, 2 turns",
-          .sweep = ladder,
+          .sweep = tolerances,
           .brief = {1e-4, 1e-6, 1e-10},
           .run =
               [](double tolerance, Stepper stepper) {
@@ -134,7 +134,7 @@ constexpr double largest_force_of_door = 26.0;
 Case redundant_hinge(int balls) {
   return {.name = "redundant-hinge-" + std::to_string(balls),
           .parameter = "tolerance, a door on " + std::to_string(balls) + " balls, a turn of its axis",
-          .sweep = ladder,
+          .sweep = tolerances,
           .brief = {1e-6, 1e-8},
           .run =
               [balls](double tolerance, Stepper stepper) {
@@ -201,7 +201,7 @@ Mechanism ring(bool balls) {
 Case bricard_balls() {
   return {.name = "bricard-balls",
           .parameter = "tolerance, Bricard's ring on two balls a hinge, 5 s",
-          .sweep = ladder,
+          .sweep = tolerances,
           .brief = {1e-6},
           .run =
               [](double tolerance, Stepper stepper) {

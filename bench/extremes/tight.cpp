@@ -72,7 +72,7 @@ Case sample_at_singular() {
           .limit = [](const Run& run) { return added_up(run, run.statistics.accuracy, 0.7 / 0.2); }};
 }
 
-/// How far the errors of a model rise above the best so far, over a ladder of tolerances down to what double
+/// How far the errors of a model rise above the best so far, over falling tolerances down to what double
 /// precision holds.
 template <int D>
 Result rise(const models::Model<D>& model, Stepper stepper) {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <dalembert/bench/method.h>
 #include <dalembert/bench/processor_time.h>
-#include <dalembert/bench/rival.h>
 
 #include <boost/numeric/odeint.hpp>
 
@@ -12,14 +12,14 @@ namespace dalembert::bench {
 /// Integrates equations of motion derived by hand with Boost.odeint's controlled Runge-Kutta-Fehlberg 7(8).
 /// `Equations` has `start()`, the state at times.front(); `operator()(y, y_rate)`; and `observation(y)`.
 template <int D, class Equations>
-[[nodiscard]] RivalRun<D> integrate_by_hand(Equations equations, std::span<const double> times,
-                                            double tolerance) {
+[[nodiscard]] MethodRun<D> integrate_by_hand(Equations equations, std::span<const double> times,
+                                             double tolerance) {
   namespace odeint = boost::numeric::odeint;
   using State = decltype(equations.start());
   constexpr double first_step = 0.01;  // shrinks or grows up to fivefold a step: soon right
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-  RivalRun<D> run;
+  MethodRun<D> run;
   run.seen.reserve(times.size());
   long evaluations = 0;
   const auto rate = [&](const State& y, State& y_rate, double) {

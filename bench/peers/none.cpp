@@ -3,6 +3,6 @@
 namespace dalembert::bench {
 
 std::vector<Contender> peers() { return {}; }
-Rivals<2> peers(double, const std::vector<models::RodAndBead>&) { return {}; }
+Methods<2> peers(double, const std::vector<models::RodAndBead>&) { return {}; }
 
 }  // namespace dalembert::bench

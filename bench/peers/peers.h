@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/bench/rival.h>
+#include <dalembert/bench/method.h>
 #include <dalembert/models/hanging_rods.h>
 
 #include <vector>
@@ -11,6 +11,6 @@ namespace dalembert::bench {
 [[nodiscard]] std::vector<Contender> peers();
 
 /// Rods hung one below the other, in plane gravity along -y, as each peer integrates them.
-[[nodiscard]] Rivals<2> peers(double gravity, const std::vector<models::RodAndBead>& rods);
+[[nodiscard]] Methods<2> peers(double gravity, const std::vector<models::RodAndBead>& rods);
 
 }  // namespace dalembert::bench

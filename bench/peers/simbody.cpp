@@ -7,8 +7,8 @@ namespace dalembert::bench {
 
 namespace {
 
-RivalRun<2> converted(const simbody::Run& run) {
-  RivalRun<2> result;
+MethodRun<2> converted(const simbody::Run& run) {
+  MethodRun<2> result;
   for (const simbody::Sample& sample : run.samples) {
     models::Observation<2> seen{.positions = {}, .forces = sample.tensions};
     for (const auto& [x, y] : sample.positions) seen.positions.emplace_back(x, y);
@@ -26,16 +26,16 @@ RivalRun<2> converted(const simbody::Run& run) {
 
 std::vector<Contender> peers() { return {Contender::simbody_pin, Contender::simbody_rod}; }
 
-Rivals<2> peers(double gravity, const std::vector<models::RodAndBead>& given) {
+Methods<2> peers(double gravity, const std::vector<models::RodAndBead>& given) {
   std::vector<simbody::Rod> rods;
   for (const models::RodAndBead& rod : given) rods.push_back({rod.mass, rod.length, rod.angle});
-  const auto rival = [&](simbody::Coordinates coordinates) {
+  const auto method = [&](simbody::Coordinates coordinates) {
     return [=](std::span<const double> times, double tolerance) {
       return converted(simbody::run(rods, gravity, coordinates, {times.begin(), times.end()}, tolerance));
     };
   };
-  return {{Contender::simbody_pin, rival(simbody::Coordinates::minimal)},
-          {Contender::simbody_rod, rival(simbody::Coordinates::cartesian)}};
+  return {{Contender::simbody_pin, method(simbody::Coordinates::minimal)},
+          {Contender::simbody_rod, method(simbody::Coordinates::cartesian)}};
 }
 
 }  // namespace dalembert::bench

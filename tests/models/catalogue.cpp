@@ -17,7 +17,7 @@ namespace {
 using namespace dalembert;
 using namespace dalembert::models;
 
-constexpr std::array ladder{1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
+constexpr std::array tolerances{1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
 
 template <int D>
 Measurement measured(const Model<D>& model, double tolerance) {
@@ -60,12 +60,12 @@ TEST(Catalogue, ConeAndDoublePendulumAreAsAccurateAsRequired) {
   EXPECT_LE(pendulum.error_force, 1e-3);
 }
 
-/// A ladder of tolerances for every model. A tighter tolerance may be worse than a looser one by `slack`.
+/// Falling tolerances for every model. A tighter tolerance may be worse than a looser one by `slack`.
 void expect_errors_fall(const AnyModel& any, double slack) {
   std::visit(
       [&](const auto& model) {
         double best_position = INFINITY, best_force = INFINITY;
-        for (const double tolerance : ladder) {
+        for (const double tolerance : tolerances) {
           const Measurement m = measured(model, tolerance);
           EXPECT_LE(m.error_position, slack * best_position) << model.name << " at " << tolerance;
           EXPECT_LE(m.error_force, slack * best_force) << model.name << " at " << tolerance;

@@ -1,4 +1,4 @@
-#include "dalembert/bench/rivals.h"
+#include "dalembert/bench/methods.h"
 
 #include <dalembert/bench/hand/chain.h>
 #include <dalembert/bench/hand/integrate.h>
@@ -16,48 +16,48 @@ namespace {
 using models::RodAndBead;
 
 template <int D, class Equations>
-Rival<D> by_hand(Equations equations) {
+Method<D> by_hand(Equations equations) {
   return [equations = std::move(equations)](std::span<const double> times, double tolerance) {
     return integrate_by_hand<D>(equations, times, tolerance);
   };
 }
 
-Rivals<2> with_peers(Rival<2> hand, double gravity, const std::vector<RodAndBead>& rods) {
-  Rivals<2> all = peers(gravity, rods);
+Methods<2> with_peers(Method<2> hand, double gravity, const std::vector<RodAndBead>& rods) {
+  Methods<2> all = peers(gravity, rods);
   all[Contender::hand] = std::move(hand);
   return all;
 }
 
 }  // namespace
 
-Rivals<2> rivals(const models::PlanePendulum& p) {
+Methods<2> methods(const models::PlanePendulum& p) {
   return with_peers(by_hand<2>(PlanePendulumEquation(p)), p.gravity, {{p.mass, p.length, p.amplitude}});
 }
 
-Rivals<2> rivals(const models::DoublePendulum& p) {
+Methods<2> methods(const models::DoublePendulum& p) {
   return with_peers(by_hand<2>(models::DoublePendulumEquations<double>(p)), p.gravity,
                     {{p.mass1, p.length1, p.angle1}, {p.mass2, p.length2, p.angle2}});
 }
 
-Rivals<2> rivals(const models::Chain& c) {
+Methods<2> methods(const models::Chain& c) {
   const RodAndBead link{c.mass / c.beads, c.length / c.beads, std::numbers::pi / 2};
   return with_peers(by_hand<2>(CartesianChain(c)), c.gravity,
                     std::vector(static_cast<std::size_t>(c.beads), link));
 }
 
-Rivals<3> rivals(const models::ConeSlide& cone) {
+Methods<3> methods(const models::ConeSlide& cone) {
   return {{Contender::hand, by_hand<3>(models::ConeEquations<double>(cone))}};
 }
 
-Rivals<2> rivals(const models::Model<2>& model) {
-  if (model.name == "plane-pendulum") return rivals(models::PlanePendulum{});
-  if (model.name == "double-pendulum") return rivals(models::DoublePendulum{});
-  if (model.name == "chain") return rivals(models::Chain{});
+Methods<2> methods(const models::Model<2>& model) {
+  if (model.name == "plane-pendulum") return methods(models::PlanePendulum{});
+  if (model.name == "double-pendulum") return methods(models::DoublePendulum{});
+  if (model.name == "chain") return methods(models::Chain{});
   return {};
 }
 
-Rivals<3> rivals(const models::Model<3>& model) {
-  if (model.name == "cone") return rivals(models::ConeSlide{});
+Methods<3> methods(const models::Model<3>& model) {
+  if (model.name == "cone") return methods(models::ConeSlide{});
   return {};
 }
 
