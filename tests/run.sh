@@ -4,7 +4,9 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=${1:-release}
 
-cmake/dependencies.sh
+compiler=()
+[[ $preset == release ]] || compiler=(clang libclang-rt-dev)
+cmake/dependencies.sh "${compiler[@]}"
 cmake --preset "$preset"
 cmake --build --preset "$preset"
 ctest --preset "$preset" --parallel "$(nproc)"

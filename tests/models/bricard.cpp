@@ -1,5 +1,6 @@
 #include "dalembert/models/bricard.h"
 
+#include "../equations.h"
 #include <dalembert/tests/models/newton.h>
 
 #include <Eigen/SVD>
@@ -82,11 +83,7 @@ Eigen::MatrixXd constraint_rows(const System& system, const Sample<3>& sample) {
   const FlatSample& flat = sample.flat();
   auto e = system.evaluation();
   system.evaluate({flat.time, flat.q, flat.v}, e);
-  Eigen::MatrixXd W = Eigen::MatrixXd::Zero(system.rows(), system.coordinates());
-  for (std::size_t r = 0; r < system.rows(); ++r) {
-    for (const std::size_t k : system.row(r)) W(r, system.w_columns()[k]) += e.w[k];
-  }
-  return W;
+  return by_rows(system, e.w);
 }
 
 // One combination of the rows is zero; a multiplier is determined if its row has no part in it.
@@ -98,13 +95,14 @@ TEST(Bricard, ForcesAreMarkedWhereTheyAreNotUnique) {
     const FlatSample flat = run.sample(i).flat();
     const Eigen::MatrixXd W = constraint_rows(system, run.sample(i));
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(W.rowwise().normalized(), Eigen::ComputeFullU);
-    const Eigen::VectorXd null = svd.matrixU().col(system.rows() - 1);
+    const Eigen::VectorXd null = svd.matrixU().rightCols<1>();
     // The other singular values are above 0.1: the null vector is exact to some 10 roundings.
     constexpr double round_off = 1e-14;
-    ASSERT_LT(svd.singularValues()[system.rows() - 1], round_off);
+    ASSERT_LT(svd.singularValues().tail<1>()[0], round_off);
     for (std::size_t r = 0; r < system.rows(); ++r) {
       const bool unique = flat.unique[r] != 0;
-      EXPECT_EQ(unique, std::abs(null[r]) < 1e6 * round_off) << system.row_label(r) << " at " << flat.time;
+      EXPECT_EQ(unique, std::abs(null[index(r)]) < 1e6 * round_off)
+          << system.row_label(r) << " at " << flat.time;
     }
   }
 }

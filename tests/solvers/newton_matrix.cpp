@@ -24,7 +24,8 @@ ActiveRows all_rows(const System& system) {
 /// tests compare with finite differences.
 Eigen::MatrixXd full_jacobian(const System& system, const State& at, const Eigen::VectorXd& lambda,
                               double c) {
-  const Eigen::Index n = system.coordinates(), m = system.rows(), h = system.holonomic_rows();
+  const Eigen::Index n = index(system.coordinates()), m = index(system.rows()),
+                     h = index(system.holonomic_rows());
   const Values now = values(system, at);
   const Derivatives d = derivatives(system, at, lambda);
   const Eigen::MatrixXd G = now.W.topRows(h);
@@ -92,7 +93,8 @@ class NewtonMatrixTest : public testing::Test {
 
   /// Corrections of the sizes that Newton's iteration has: c dq ~ dv, and dlambda ~ c dv.
   [[nodiscard]] Eigen::VectorXd correction(const System& system) const {
-    const Eigen::Index n = system.coordinates(), m = system.rows(), h = system.holonomic_rows();
+    const Eigen::Index n = index(system.coordinates()), m = index(system.rows()),
+                       h = index(system.holonomic_rows());
     Eigen::VectorXd x(2 * n + m + h);
     for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = std::sin(1.0 + 3.7 * static_cast<double>(i));
     x.head(n) /= rate;
@@ -104,7 +106,8 @@ class NewtonMatrixTest : public testing::Test {
   /// times the number of unknowns times the condition of J, rows and columns scaled to what they measure.
   void expect_solves(bool with_mu) {
     const System system = scene.system();
-    const Eigen::Index n = system.coordinates(), m = system.rows(), h = system.holonomic_rows();
+    const Eigen::Index n = index(system.coordinates()), m = index(system.rows()),
+                       h = index(system.holonomic_rows());
     const Eigen::VectorXd lambda = 10.0 * correction(system).segment(0, m);
     const Eigen::MatrixXd J = full_jacobian(system, state, lambda, rate);
     Eigen::VectorXd x = correction(system);
@@ -184,13 +187,12 @@ TEST_F(NewtonMatrixTest, ConvergesToTheFullSystemWithFrictionAndAnyMu) {
 TEST_F(NewtonMatrixTest, NeglectsWhatMultipliesMuAndNothingElse) {
   add_damping_and_nonholonomic_rows();
   const System system = scene.system();
-  const auto m = system.rows();
-  const Eigen::VectorXd lambda = Eigen::VectorXd::Ones(system.rows());
+  const Eigen::VectorXd lambda = Eigen::VectorXd::Ones(index(system.rows()));
   Eigen::VectorXd x = correction(system);
   Eigen::VectorXd found = full_jacobian(system, state, lambda, rate) * x;
   NewtonMatrix newton(system, all_rows(system), 1.0);
-  ASSERT_TRUE(
-      newton.factorise(state.instant(), equations(system, state.instant()), {lambda.data(), m}, rate));
+  ASSERT_TRUE(newton.factorise(state.instant(), equations(system, state.instant()),
+                               {lambda.data(), system.rows()}, rate));
   newton.solve(rate, {found.data(), static_cast<std::size_t>(found.size())});
   EXPECT_GT((found - x).norm(), 1e-3 * x.norm());
 }

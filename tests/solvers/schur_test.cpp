@@ -1,5 +1,6 @@
 #include "dalembert/solvers/linear/schur.h"
 
+#include "../equations.h"
 #include <dalembert/constraints/distance.h>
 #include <dalembert/core/scene/scene.h>
 #include <dalembert/solvers/ida/newton_matrix.h>
@@ -22,15 +23,6 @@ ActiveRows all_rows(const System& system) {
   ActiveRows rows{std::vector<std::size_t>(system.rows()), system.holonomic_rows()};
   std::iota(rows.rows.begin(), rows.rows.end(), std::size_t{0});
   return rows;
-}
-
-/// W as a dense matrix, from its pattern.
-Eigen::MatrixXd dense_w(const System& system, std::span<const double> w) {
-  Eigen::MatrixXd W = Eigen::MatrixXd::Zero(system.rows(), system.coordinates());
-  for (std::size_t r = 0; r < system.rows(); ++r) {
-    for (const std::size_t k : system.row(r)) W(r, system.w_columns()[k]) += w[k];
-  }
-  return W;
 }
 
 /// A truss of rods in a row of triangles, masses from 0.1 to 10: S has fill and no natural order.
@@ -76,7 +68,7 @@ std::vector<double> random_numbers(int count) {
 template <class Matrix>
 void expect_solves(Matrix& matrix, const Prepared& p) {
   const auto n = static_cast<int>(p.system.coordinates()), m = static_cast<int>(p.system.rows());
-  const Eigen::MatrixXd W = dense_w(p.system, p.e.w);
+  const Eigen::MatrixXd W = by_rows(p.system, p.e.w);
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n + m, n + m);
   for (int i = 0; i < n; ++i) K(i, i) = p.system.masses()[static_cast<std::size_t>(i)];
   K.topRightCorner(n, m) = -W.transpose();
@@ -117,10 +109,10 @@ TEST(SchurComplement, WorksWithSomeOfTheRowsOnly) {
   std::vector<double> x = random_numbers(n + 3);
   const std::vector<double> b = x;
   schur.solve(x);
-  const Eigen::MatrixXd W = dense_w(p.system, p.e.w);
+  const Eigen::MatrixXd W = by_rows(p.system, p.e.w);
   for (int r = 0; r < 3; ++r) {
     const double reached =
-        W.row(rows[static_cast<std::size_t>(r)]).dot(Eigen::Map<Eigen::VectorXd>(x.data(), n));
+        W.row(index(rows[static_cast<std::size_t>(r)])).dot(Eigen::Map<Eigen::VectorXd>(x.data(), n));
     EXPECT_NEAR(reached, b[static_cast<std::size_t>(n + r)], 1e-13);  // round-off, 4 terms of size 10
   }
 }
@@ -152,7 +144,7 @@ TEST(SaddleMatrix, TakesTheWholeMatrixWhereRowsNearlyCoincide) {
   ASSERT_TRUE(saddle.factorise(p.e.w));
   std::vector<double> x{0.0, 0.0, 0.3, 0.7};
   saddle.solve(x);
-  const Eigen::MatrixXd W = dense_w(p.system, p.e.w);
+  const Eigen::MatrixXd W = by_rows(p.system, p.e.w);
   const Eigen::Vector2d dq(x[0], x[1]);
   // |dq| = 4e5: a residual of a few units of its round-off. Through S alone it would be 1e-4.
   EXPECT_NEAR(W.row(0).dot(dq), 0.3, 1e-9);
@@ -195,8 +187,8 @@ TEST(NewtonMatrix, SolvesItsEquationsWithoutSoftForces) {
 
   auto linear = p.system.linearisation();
   p.system.linearise({0.0, scene.initial_positions(), v}, lambda, linear);
-  const Eigen::MatrixXd W = dense_w(p.system, p.e.w);
-  const Eigen::MatrixXd psi_q = dense_w(p.system, linear.psi_q);
+  const Eigen::MatrixXd W = by_rows(p.system, p.e.w);
+  const Eigen::MatrixXd psi_q = by_rows(p.system, linear.psi_q);
   const Eigen::Map<Eigen::VectorXd> dq(x.data(), n), dv(x.data() + n, n), dlambda(x.data() + 2 * n, m),
       dmu(x.data() + 2 * n + m, m);
   const Eigen::Map<const Eigen::VectorXd> b1(b.data(), n), b2(b.data() + n, n), b3(b.data() + 2 * n, m),
