@@ -75,7 +75,7 @@ std::string System::describe(double t, std::span<const double> q) const {
   for (const Integrability& set : integrability(*this, t, q)) {
     std::string labels;
     for (const auto& label : set.constraints) labels += (labels.empty() ? "" : ", ") + label;
-    out << labels << ": " << (set.holonomic ? "holonomic in disguise" : "not integrable") << '\n';
+    out << labels << ": " << (set.holonomic ? "integrable" : "not integrable") << '\n';
     for (const auto& label : set.holonomic_alone) out << "  but " << label << " by itself is holonomic\n";
   }
   return out.str();

@@ -10,7 +10,7 @@ namespace dalembert {
 /// What can be said of velocity constraints that share coordinates.
 struct Integrability {
   std::vector<std::string> constraints;  ///< labels, one per equation of the set
-  /// The whole set is holonomic in disguise: together with the scene's holonomic constraints it is
+  /// The whole set is integrable: together with the scene's holonomic constraints it is
   /// equivalent to equations between coordinates and time.
   bool holonomic = false;
   /// If the set is not: those of its equations that are holonomic each by itself.

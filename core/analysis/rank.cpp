@@ -117,18 +117,18 @@ std::vector<std::size_t> independent(const System& system, const Columns& column
 }
 
 /// Compliant rows among `active` that depend on others, rigid ones first of all.
-std::vector<std::size_t> slack_rows(const System& system, const Columns& columns,
-                                    std::span<const std::size_t> active, double threshold) {
+std::vector<std::size_t> parallel_rows(const System& system, const Columns& columns,
+                                       std::span<const std::size_t> active, double threshold) {
   if (!system.compliant() || clearly_independent(columns)) return {};
   std::vector<char> is_compliant;
   for (const double C : system.compliance()) is_compliant.push_back(C > 0.0);
   const auto carrying = independent_among(columns, is_compliant, {threshold});
-  std::vector<std::size_t> slack;
+  std::vector<std::size_t> parallel;
   for (std::size_t k = 0; k < active.size(); ++k) {
     const bool carries = std::ranges::binary_search(carrying, active[k]);
-    if (is_compliant[active[k]] && !carries) slack.push_back(k);
+    if (is_compliant[active[k]] && !carries) parallel.push_back(k);
   }
-  return slack;
+  return parallel;
 }
 
 ActiveRows choose(const System& system, std::span<const double> w, double threshold, const ActiveRows* like) {
@@ -139,8 +139,8 @@ ActiveRows choose(const System& system, std::span<const double> w, double thresh
   auto rows = all ? all_rows(system) : independent(system, extended, threshold, like);
   const auto holonomic =
       std::ranges::count_if(rows, [&](std::size_t r) { return r < system.holonomic_rows(); });
-  auto slack = slack_rows(system, columns, rows, threshold);
-  return {std::move(rows), number(holonomic), std::move(slack)};
+  auto parallel = parallel_rows(system, columns, rows, threshold);
+  return {std::move(rows), number(holonomic), std::move(parallel)};
 }
 
 }  // namespace

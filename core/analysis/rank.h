@@ -16,7 +16,7 @@ struct ActiveRows {
   std::size_t holonomic = 0;
   /// Places in `rows` of compliant rows whose gradients depend on those of others: springs side by side. The
   /// others put positions and velocities onto the constraints; g + C lambda = 0 gives these their forces.
-  std::vector<std::size_t> slack{};
+  std::vector<std::size_t> parallel{};
 
   [[nodiscard]] std::size_t size() const { return rows.size(); }
 };

@@ -67,7 +67,7 @@ class ConstraintBatch {
   virtual void evaluate(const Instant& at, const ConstraintValues& out) const = 0;
   /// Per constraint `rows x inputs` numbers U, one row after the other, out of its part of w: lambda has
   /// the size |U^T lambda|, that of the force at one of its points. See ForcesAtPoints.
-  virtual void forces_at_points(std::span<const double> w, std::span<const double> lever,
+  virtual void forces_at_points(std::span<const double> w, std::span<const double> lengths,
                                 std::span<double> out) const = 0;
   /// The compliance of each row [length / force, at unit gradient]: 0 if it is rigid.
   virtual void compliance(std::span<double> out) const = 0;
@@ -165,13 +165,13 @@ class Elements {
   }
   /// `rows` rows of w and of `out` per element; see ForcesAtPoints.
   template <int rows>
-  void forces_at_points(std::span<const double> w, std::span<const double> lever,
+  void forces_at_points(std::span<const double> w, std::span<const double> lengths,
                         std::span<double> out) const {
     using Force = ForcesAtPoints<Element, rows>;
     for (std::size_t i = 0; i < all_.size(); ++i) {
       const typename Force::Given own(w.data() + i * rows * width);
       Eigen::Map<typename Force::Matrix>(out.data() + i * Force::Matrix::SizeAtCompileTime) =
-          Force::of(all_[i], own, coordinates(i), lever);
+          Force::of(all_[i], own, coordinates(i), lengths);
     }
   }
   [[nodiscard]] const std::vector<Element>& all() const { return all_; }

@@ -15,7 +15,7 @@ namespace dalembert {
 ///
 ///   u = w L^T (L L^T)^-1        for every point, and u_p^T lambda is the force at point p.       (1)
 ///
-/// A rotor is a point with a torque; divided by its lever, the scene's length, that is a force. Two points
+/// A rotor is a point with a torque; divided by its length, the scene's length, that is a force. Two points
 /// that a rod pulls feel one force, which should count once: the rows u, together U, are shrunk,
 ///
 ///   U <- U max_p |u_p| / |U|        (Frobenius norms)                                            (2)
@@ -31,14 +31,14 @@ struct ForcesAtPoints {
       Eigen::Map<const Eigen::Matrix<double, rows, width, width == 1 ? Eigen::ColMajor : Eigen::RowMajor>>;
 
   [[nodiscard]] static Matrix of(const Element& element, const Given& w, std::span<const int> coordinates,
-                                 std::span<const double> lever) {
+                                 std::span<const double> lengths) {
     Matrix U;
     double largest = 0.0;
     int input = 0, column = 0;
     for_each_moving_point(element, [&]<class P>(const P& point) {
       auto own = U.template middleCols<P::inputs>(input);
       own = at_point(point, w.template middleCols<P::coordinates>(column));
-      own /= lever[static_cast<std::size_t>(coordinates[static_cast<std::size_t>(column)])];
+      own /= lengths[static_cast<std::size_t>(coordinates[static_cast<std::size_t>(column)])];
       largest = std::max(largest, own.norm());
       input += P::inputs;
       column += P::coordinates;

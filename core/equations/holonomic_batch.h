@@ -55,9 +55,9 @@ class HolonomicBatch final : public ConstraintBatch {
     });
   }
 
-  void forces_at_points(std::span<const double> w, std::span<const double> lever,
+  void forces_at_points(std::span<const double> w, std::span<const double> lengths,
                         std::span<double> out) const override {
-    elements_.template forces_at_points<rows>(w, lever, out);
+    elements_.template forces_at_points<rows>(w, lengths, out);
   }
 
   void compliance(std::span<double> out) const override {

@@ -189,14 +189,14 @@ void System::linearise_forces(const Instant& at, std::span<const double> lambda,
   if (frictional()) linearise_frictions(at, lambda, out);
 }
 
-void System::forces_at_points(std::span<const double> w, std::span<const double> lever,
+void System::forces_at_points(std::span<const double> w, std::span<const double> lengths,
                               std::span<double> out) const {
   std::size_t first_out = 0;
   for (std::size_t b = 0; b < parts_.constraints.size(); ++b) {
     const Offsets& first = constraint_offsets_[b];
     const std::size_t count =
         first.row_count * static_cast<std::size_t>(parts_.constraints[b]->shape().inputs);
-    parts_.constraints[b]->forces_at_points(w.subspan(first.w, first.w_count), lever,
+    parts_.constraints[b]->forces_at_points(w.subspan(first.w, first.w_count), lengths,
                                             out.subspan(first_out, count));
     first_out += count;
   }

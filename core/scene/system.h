@@ -131,9 +131,9 @@ class System {
   void friction_slope(const Instant& at, std::span<const double> lambda, std::span<double> out) const;
 
   /// What multipliers exert at the points the constraints were stated for, out of W: for every row as many
-  /// numbers as its constraint has inputs, in the order of rows; see ForcesAtPoints. `lever` has one number
+  /// numbers as its constraint has inputs, in the order of rows; see ForcesAtPoints. `lengths` has one number
   /// per coordinate.
-  void forces_at_points(std::span<const double> w, std::span<const double> lever,
+  void forces_at_points(std::span<const double> w, std::span<const double> lengths,
                         std::span<double> out) const;
   [[nodiscard]] std::size_t size_of_forces_at_points() const;
 
@@ -166,7 +166,7 @@ class System {
   /// it needs it.
   [[nodiscard]] std::string describe() const;
   /// The same with what only a state can tell: how many constraint equations are independent there,
-  /// and which velocity constraints are holonomic in disguise.
+  /// and which velocity constraints are integrable.
   [[nodiscard]] std::string describe(double t, std::span<const double> q) const;
 
  private:

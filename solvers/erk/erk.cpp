@@ -11,8 +11,6 @@ namespace dalembert {
 
 ErkStepper::ErkStepper(const System& system, const Start& start, const Options& options)
     : state_(std::make_unique<State>(system, start, options)) {}
-ErkStepper::ErkStepper(ErkStepper&&) noexcept = default;
-ErkStepper& ErkStepper::operator=(ErkStepper&&) noexcept = default;
 ErkStepper::~ErkStepper() = default;
 
 /// What round-off alone moves a state by when it is put onto the constraints, over the tolerance: velocities
@@ -34,7 +32,7 @@ double ErkStepper::State::attempt(double step) {
         error(step) * (step < constants.far_too_short * usual && over == 0.0 ? constants.unreliable : 1.0);
     if (e > 1.0) return e;
     if (steps % stability_check_interval == 0) watch_stability(step);
-    const double correction = land();
+    const double correction = project();
     next.sine = manifold.sine();
     return std::max({e, correction / (constants.most_correction + round_off_of_projection()),
                      disagreement(step) / constants.most_disagreement, error_of_switch(step)});

@@ -1,12 +1,9 @@
 #pragma once
 
-#include <dalembert/core/results/statistics.h>
-#include <dalembert/solvers/base/hidden.h>
-#include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/manifold/start.h>
+#include <dalembert/solvers/run/time_stepper.h>
 
 #include <memory>
-#include <span>
 
 namespace DALEMBERT_HIDDEN dalembert {
 
@@ -16,7 +13,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///
 ///   (1)  q' = v,  v' = a,  [ M  -W^T ] [ a      ]   [    F   ]
 ///                          [ W   0   ] [ lambda ] = [ -gamma ]
-///   (2)  land: one mass-weighted Newton step of q, one of v.
+///   (2)  projection: one mass-weighted Newton step of q, one of v.
 ///
 /// The projection moves a step by no more than its local error, so the order stays 8 and nothing
 /// drifts. No Jacobian, no nonlinear solve: for scenes that are not stiff a small part of the cost
@@ -31,26 +28,20 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// Why not ARKODE: on scenes of a few coordinates its own work per stage, 0.2 us, is more than
 /// twice that of the equations of motion here, and its Hermite interpolation (order 5) is less
 /// accurate than the steps.
-class ErkStepper {
+class ErkStepper final : public TimeStepper {
  public:
   /// The system must outlive the stepper.
   ErkStepper(const System& system, const Start& start, const Options& options);
-  ErkStepper(ErkStepper&&) noexcept;
-  ErkStepper& operator=(ErkStepper&&) noexcept;
-  ~ErkStepper();
+  ~ErkStepper() override;
 
-  /// One accepted step, not beyond t_end; `wanted` is the next time of output. It may take the place of the
-  /// last one and end earlier than that. Throws StepFailure.
-  void step(double wanted);
-  [[nodiscard]] double time() const;
+  /// The step may take the place of the last one and end earlier than that.
+  void step(double wanted) override;
+  [[nodiscard]] double time() const override;
   [[nodiscard]] const Scales& scales() const;
-  /// See Manifold::sine; where the last step ended.
-  [[nodiscard]] double sine() const;
-  /// The state at a time inside the last step (or at the start, before the first). Throws
-  /// EquationFault.
-  void interpolate(double t, std::span<double> q, std::span<double> v);
-  /// Adds its counts.
-  void count(Statistics& statistics) const;
+  [[nodiscard]] double sine() const override;
+  void interpolate(double t, std::span<double> q, std::span<double> v) override;
+  [[nodiscard]] bool springs(double /*t*/, Springs& /*out*/) const override { return false; }
+  void count(Statistics& statistics) const override;
 
  private:
   struct State;

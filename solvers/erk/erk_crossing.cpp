@@ -113,11 +113,11 @@ double ErkStepper::State::find_singular(double& t) {
 bool ErkStepper::State::worth_taking(double error) {
   if (error < best_passage) {
     best_passage = error;
-    landing = next;
+    best_passed = next;
     return error <= std::min(1.0, to.sine);
   }
   if (best_passage * tolerance > std::sqrt(tolerance)) return false;
-  next = landing;
+  next = best_passed;
   return true;
 }
 
@@ -135,7 +135,7 @@ bool ErkStepper::State::pass(double singular) {
   }
   if (!worth_taking(size())) return false;
   if (next.t < t_end) {
-    (void)land();
+    (void)project();
     next.sine = manifold.sine();
   }
   largest_passage_error = std::max(largest_passage_error, std::exchange(best_passage, none_yet));

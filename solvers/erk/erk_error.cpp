@@ -58,14 +58,14 @@ double ErkStepper::State::error_of_springs(std::span<const double> dq) const {
 }
 
 /// Puts `next` onto the constraints. The correction over the tolerance.
-double ErkStepper::State::land() {
+double ErkStepper::State::project() {
   const auto [dq, dv] = halves(difference);
   const auto [v, v_dot] = halves(next.va);
   for (std::size_t i = 0; i < n; ++i) {
     dq[i] = -next.q[i];
     dv[i] = -v[i];
   }
-  require(manifold.land(next.t, next.q, v, v_dot));
+  require(manifold.project(next.t, next.q, v, v_dot));
   for (std::size_t i = 0; i < n; ++i) {
     dq[i] += next.q[i];
     dv[i] += v[i];

@@ -30,7 +30,7 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
       scales(start.scales),
       tolerance(options.tolerance),
       t_end(options.t_end),
-      manifold(s, start.rows, start.scales.lever()),
+      manifold(s, start.rows, start.scales.lengths()),
       a(pair.a.begin(), pair.a.end()),
       last_difference(difference_of_last_rows()),
       stage_q(start.q.size()),
@@ -66,10 +66,10 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
   if (!system->compliant()) return;
   auto e = system->evaluation();
   system->evaluate({options.t_start, start.q, start.v}, e);
-  const auto lever = scales.lever();
+  const auto lengths = scales.lengths();
   for (std::size_t r = 0; r < start.lambda.size(); ++r) {
     const bool spring = system->compliance()[r] > 0.0;
-    const double impulse = spring ? impulse_of_row(*system, e.w, lever, r, scales.speed()) : 0.0;
+    const double impulse = spring ? impulse_of_row(*system, e.w, lengths, r, scales.speed()) : 0.0;
     force_of_spring.push_back(impulse / scales.time);
   }
 }
@@ -94,7 +94,7 @@ void ErkStepper::State::run_stages(const Node& start, double step, std::size_t l
     a[i].move(step, k, start.q.data(), stage_q.data(), start.va.data(), stage[i].data(), n);
     const auto [v, v_dot] = halves(stage[i]);
     const double t = start.t + pair.c[i] * step;
-    require(project ? manifold.land(t, stage_q, v, v_dot) : manifold.accelerate({t, stage_q, v}, v_dot));
+    require(project ? manifold.project(t, stage_q, v, v_dot) : manifold.accelerate({t, stage_q, v}, v_dot));
     angles[i] = {t, manifold.sine()};
     if (angles[i].sine < least.sine) least = angles[i];
     if (&start == &to) look(i, t);

@@ -52,7 +52,7 @@ struct ErkStepper::State {
   [[nodiscard]] double size() const;
   [[nodiscard]] double error(double step);
   [[nodiscard]] double error_of_springs(std::span<const double> dq) const;
-  [[nodiscard]] double land();
+  [[nodiscard]] double project();
   [[nodiscard]] double disagreement(double step);
   void watch_stability(double step);
 
@@ -119,7 +119,7 @@ struct ErkStepper::State {
   bool only_close = false;             // the constraints, not dependent, where the angle falls now
   double next_passage = none_yet;      // the distance from which it is worth another attempt
   double best_passage = none_yet;      // error over the tolerance, of
-  Node landing;                        // a passage that was not taken yet
+  Node best_passed;                    // a passage that was not taken yet
   double largest_passage_error = 0.0;  // of those taken
   int singular_positions = 0;
   double worn = none_yet;  // sine below which other rows may take over; infinite if all are in use

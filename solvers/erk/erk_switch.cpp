@@ -68,7 +68,7 @@ double ErkStepper::State::effect_of_switch(const Node& a, const Node& b, double 
   return size();
 }
 
-/// After a landing: what a switch that was passed may have done to the step, over the tolerance. That is
+/// After a projection: what a switch that was passed may have done to the step, over the tolerance. That is
 /// known if all behind it lies on the side on which the step ends.
 double ErkStepper::State::error_of_switch(double step) {
   if (!switches.any()) return 0.0;
@@ -130,7 +130,7 @@ StepFailure ErkStepper::State::why_not_over(Node& before) {
     if (!manifold.accelerate({next.t, next.q, v}, v_dot)) break;
     find_side(next);
   } while (ahead < usual && switches.same(before.side, next.side));
-  const Violation jump = velocity_violation(*system, manifold.equations(), scales.lever());
+  const Violation jump = velocity_violation(*system, manifold.equations(), scales.lengths());
   if (jump.size > constants.most_correction * tolerance * scales.speed())
     return {
         system->row_label(jump.row) +

@@ -69,8 +69,6 @@ IdaStepper::IdaStepper(const System& system, const Start& start, const Options& 
   check(IDASetMaxNumSteps(ida, -1), "IDASetMaxNumSteps");
 }
 
-IdaStepper::IdaStepper(IdaStepper&&) noexcept = default;
-IdaStepper& IdaStepper::operator=(IdaStepper&&) noexcept = default;
 IdaStepper::~IdaStepper() = default;
 
 std::string IdaStepper::State::explain(int code) const {
@@ -169,7 +167,7 @@ void IdaStepper::step(double /*wanted*/) {
 double IdaStepper::time() const { return state_->t; }
 double IdaStepper::sine() const { return state_->newton.sine(); }
 
-void IdaStepper::interpolate(double t, std::span<double> q, std::span<double> v) const {
+void IdaStepper::interpolate(double t, std::span<double> q, std::span<double> v) {
   const State& s = *state_;
   if (s.steps == 0) {
     std::ranges::copy(s.instant(t, s.y.get()).q, q.begin());

@@ -1,14 +1,9 @@
 #pragma once
 
-#include <dalembert/core/results/statistics.h>
-#include <dalembert/core/scene/system.h>
-#include <dalembert/solvers/base/hidden.h>
-#include <dalembert/solvers/base/step_failure.h>
-#include <dalembert/solvers/manifold/springs.h>
 #include <dalembert/solvers/manifold/start.h>
+#include <dalembert/solvers/run/time_stepper.h>
 
 #include <memory>
-#include <span>
 
 namespace DALEMBERT_HIDDEN dalembert {
 
@@ -23,27 +18,21 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// and is made tight, so that they do not limit the step. Forces of constraint are not read off
 /// here but recovered from (q, v) by Manifold. (Those of compliant constraints are part of the state;
 /// from them, too, Manifold recovers.)
-class IdaStepper {
+class IdaStepper final : public TimeStepper {
  public:
   /// The system must outlive the stepper.
   IdaStepper(const System& system, const Start& start, const Options& options);
-  IdaStepper(IdaStepper&&) noexcept;
-  IdaStepper& operator=(IdaStepper&&) noexcept;
-  ~IdaStepper();
+  ~IdaStepper() override;
 
-  /// One accepted step, not beyond t_end. Throws StepFailure. (Where output is wanted makes no
-  /// difference: the BDF polynomial is as accurate between steps as at them.)
-  void step(double wanted);
-  [[nodiscard]] double time() const;
-  /// See Manifold::sine; of the holonomic constraints, where Newton's matrix was factored last.
-  [[nodiscard]] double sine() const;
-  /// The state at a time inside the last step (or at the start, before the first).
-  void interpolate(double t, std::span<double> q, std::span<double> v) const;
-  /// The multipliers of compliant rows at such a time. False if the positions say all: before the first
-  /// step.
-  [[nodiscard]] bool springs(double t, Springs& out) const;
-  /// Adds its counts.
-  void count(Statistics& statistics) const;
+  /// Where output is wanted makes no difference: the BDF polynomial is as accurate between steps as at them.
+  void step(double wanted) override;
+  [[nodiscard]] double time() const override;
+  /// Of the holonomic constraints, where Newton's matrix was factored last.
+  [[nodiscard]] double sine() const override;
+  void interpolate(double t, std::span<double> q, std::span<double> v) override;
+  /// False before the first step.
+  [[nodiscard]] bool springs(double t, Springs& out) const override;
+  void count(Statistics& statistics) const override;
 
  private:
   struct State;

@@ -53,11 +53,11 @@ IdaStepper::State::State(const System& s, const Start& start, const Options& opt
 }
 
 void IdaStepper::State::find_impulses() {
-  const auto lever = scales.lever();
+  const auto lengths = scales.lengths();
   for (std::size_t r = 0; r < m(); ++r) {
     const auto row = rows.rows[r];
-    impulse_row[r] = impulse_of_row(*system, e.w, lever, row, scales.speed());
-    compliance_row[r] = system->compliance()[row] / gradient_length(*system, e.w, lever, row);
+    impulse_row[r] = impulse_of_row(*system, e.w, lengths, row, scales.speed());
+    compliance_row[r] = system->compliance()[row] / gradient_length(*system, e.w, lengths, row);
   }
 }
 
@@ -103,7 +103,7 @@ void IdaStepper::State::residual(double at, N_Vector x, N_Vector xp, N_Vector r)
     r3[k] = e.psi[row] + C * rates[k];
     if (holonomic) r4[k] = e.g[row] + C * active[k];
   }
-  for (const std::size_t k : rows.slack) r3[k] = mu[k];
+  for (const std::size_t k : rows.parallel) r3[k] = mu[k];
 }
 
 /// Of a row, the largest |q| that it reads, in units of each coordinate.

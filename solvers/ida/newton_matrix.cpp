@@ -7,11 +7,11 @@ namespace dalembert {
 
 namespace {
 
-/// The places of the rows that carry mu: the holonomic ones that are not slack.
+/// The places of the rows that carry mu: the holonomic ones that are not parallel.
 std::vector<std::size_t> carrying_rows(const ActiveRows& all) {
   std::vector<std::size_t> places;
   for (std::size_t k = 0; k < all.holonomic; ++k) {
-    if (!std::ranges::binary_search(all.slack, k)) places.push_back(k);
+    if (!std::ranges::binary_search(all.parallel, k)) places.push_back(k);
   }
   return places;
 }
@@ -128,7 +128,7 @@ void NewtonMatrix::find_fastest_vibration() {
   square = 0.0;
   for (std::size_t r = 0; r < s_.size(); ++r) {
     if (system_->compliance()[r] > 0.0)
-      square = std::max(square, mobility(*system_, w_, r) / system_->compliance()[r]);
+      square = std::max(square, inverse_effective_mass(*system_, w_, r) / system_->compliance()[r]);
   }
   rho_compliant_ = std::sqrt(square);
 }
@@ -203,7 +203,7 @@ double NewtonMatrix::dlambda(std::size_t active, double c) const {
   return with_dmu ? unknown - c * dmu_[active] : unknown;
 }
 
-/// The matrix of (5) and (6) where forces are soft: of x1_, what belongs to islands without slack rows.
+/// The matrix of (5) and (6) where forces are soft: of x1_, what belongs to islands without parallel rows.
 void NewtonMatrix::solve_by_k2() {
   const auto n = system_->coordinates();
   std::copy_n(x1_.begin(), n, x2_.begin());
@@ -291,7 +291,7 @@ void NewtonMatrix::solve(double c, std::span<double> b) {
   std::ranges::fill(dmu_, 0.0);
   for (std::size_t r = 0; r < m_holonomic && system_->compliant(); ++r) {
     const auto row = rows_.rows[r];
-    yields_[r] = c * c * system_->compliance()[row] > mobility(*system_, w_, row);
+    yields_[r] = c * c * system_->compliance()[row] > inverse_effective_mass(*system_, w_, row);
   }
   eliminate(c, b);
   for (int more = repetitions(); more > 0; --more) {

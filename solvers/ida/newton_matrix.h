@@ -39,7 +39,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///
 /// Two systems of n + m instead of one of 2n + m + m_holonomic.
 ///
-/// Slack rows (see ActiveRows) take part in (5) and (6) only; in place of (3) they have mu = 0.
+/// Parallel rows (see ActiveRows) take part in (5) and (6) only; in place of (3) they have mu = 0.
 ///
 /// At first dmu is neglected in (5) and (6). A predictor leaves the manifold by c b4 - b3, dmu is as
 /// large, and neglecting it does harm where it is multiplied by much: in D p where damping is strong, in

@@ -4,7 +4,7 @@
 
 namespace dalembert {
 
-double mobility(const System& system, std::span<const double> w, std::size_t row) {
+double inverse_effective_mass(const System& system, std::span<const double> w, std::size_t row) {
   double sum = 0.0;
   for (const std::size_t k : system.row(row)) {
     sum += w[k] * w[k] / system.masses()[system.w_columns()[k]];
@@ -12,19 +12,19 @@ double mobility(const System& system, std::span<const double> w, std::size_t row
   return sum;
 }
 
-double gradient_length(const System& system, std::span<const double> w, std::span<const double> lever,
+double gradient_length(const System& system, std::span<const double> w, std::span<const double> lengths,
                        std::size_t row) {
   double square = 0.0;
   for (const std::size_t k : system.row(row)) {
-    const double slope = w[k] / lever[system.w_columns()[k]];
+    const double slope = w[k] / lengths[system.w_columns()[k]];
     square += slope * slope;
   }
   return std::sqrt(square);
 }
 
-double impulse_of_row(const System& system, std::span<const double> w, std::span<const double> lever,
+double impulse_of_row(const System& system, std::span<const double> w, std::span<const double> lengths,
                       std::size_t row, double speed) {
-  return speed * gradient_length(system, w, lever, row) / mobility(system, w, row);
+  return speed * gradient_length(system, w, lengths, row) / inverse_effective_mass(system, w, row);
 }
 
 }  // namespace dalembert

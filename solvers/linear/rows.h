@@ -8,13 +8,13 @@
 namespace DALEMBERT_HIDDEN dalembert {
 
 /// w M^-1 w^T of a row: the inverse of the mass that its multiplier moves.
-[[nodiscard]] double mobility(const System& system, std::span<const double> w, std::size_t row);
-/// |w| of a row; `lever` turns each coordinate into a length: 1, or the scene's length for an angle.
+[[nodiscard]] double inverse_effective_mass(const System& system, std::span<const double> w, std::size_t row);
+/// |w| of a row; `lengths` turns each coordinate into a length: 1, or the scene's length for an angle.
 [[nodiscard]] double gradient_length(const System& system, std::span<const double> w,
-                                     std::span<const double> lever, std::size_t row);
+                                     std::span<const double> lengths, std::size_t row);
 /// The impulse by which a row gives the masses it moves a speed, speed |w| / (w M^-1 w^T), whatever the
 /// scale of the user's equation.
 [[nodiscard]] double impulse_of_row(const System& system, std::span<const double> w,
-                                    std::span<const double> lever, std::size_t row, double speed);
+                                    std::span<const double> lengths, std::size_t row, double speed);
 
 }  // namespace dalembert

@@ -7,15 +7,15 @@ namespace dalembert {
 
 namespace {
 
-/// s over the mobility w M^-1 w of a row whose multiplier is given: beyond round-off.
-constexpr double unyielding = 1e20;
+/// s over the inverse_effective_mass w M^-1 w of a row whose multiplier is given: beyond round-off.
+constexpr double rigid = 1e20;
 
 Violation largest(const System& system, std::span<const double> residual, std::span<const double> w,
-                  std::span<const double> lever) {
+                  std::span<const double> lengths) {
   Violation worst;
   for (std::size_t r = 0; r < residual.size(); ++r) {
     if (residual[r] == 0.0) continue;
-    const double size = std::abs(residual[r]) / gradient_length(system, w, lever, r);
+    const double size = std::abs(residual[r]) / gradient_length(system, w, lengths, r);
     if (!(size <= worst.size)) worst = {size, r};
   }
   return worst;
@@ -24,23 +24,23 @@ Violation largest(const System& system, std::span<const double> residual, std::s
 }  // namespace
 
 Violation position_violation(const System& system, const System::Evaluation& e,
-                             std::span<const double> lever) {
-  return largest(system, e.g, e.w, lever);
+                             std::span<const double> lengths) {
+  return largest(system, e.g, e.w, lengths);
 }
 
 Violation velocity_violation(const System& system, const System::Evaluation& e,
-                             std::span<const double> lever) {
-  return largest(system, e.psi, e.w, lever);
+                             std::span<const double> lengths) {
+  return largest(system, e.psi, e.w, lengths);
 }
 
-Manifold::Manifold(const System& system, const ActiveRows& rows, std::vector<double> lever)
+Manifold::Manifold(const System& system, const ActiveRows& rows, std::vector<double> lengths)
     : system_(&system),
       rows_(rows),
-      lever_(std::move(lever)),
+      lengths_(std::move(lengths)),
       e_(system.evaluation()),
       gamma_(system.rows()),
       kkt_(system, rows),
-      minimum_norm_(system, rows, lever_),
+      minimum_norm_(system, rows, lengths_),
       weakest_(system) {
   x_.resize(kkt_.size());
   q_before_.resize(system.coordinates());
@@ -74,7 +74,7 @@ void Manifold::weigh_springs() {
   for (std::size_t r = 0; r < s_.size(); ++r) {
     if (system_->compliance()[r] > 0.0)
       s_[r] = following_ ? springs_.c * springs_.c * system_->compliance()[r]
-                         : unyielding * mobility(*system_, e_.w, r);
+                         : rigid * inverse_effective_mass(*system_, e_.w, r);
   }
 }
 
@@ -83,16 +83,16 @@ double Manifold::sine(const Instant& at) {
   return factorise() ? sine() : 0.0;
 }
 
-double Manifold::weakest_direction(std::span<const double> lever, std::span<double> n) {
+double Manifold::weakest_direction(std::span<const double> lengths, std::span<double> n) {
   (void)weakest_.find(kkt_, rows_, e_.w);
   double largest = 0.0, response = 0.0;
   for (std::size_t i = 0; i < n.size(); ++i)
-    largest = std::max(largest, std::abs(weakest_.n()[i]) * lever[i]);
+    largest = std::max(largest, std::abs(weakest_.n()[i]) * lengths[i]);
   for (std::size_t i = 0; i < n.size(); ++i) n[i] = weakest_.n()[i] / largest;
   for (const std::size_t r : rows_.rows) {
     double change = 0.0;
     for (const std::size_t k : system_->row(r)) change += e_.w[k] * n[system_->w_columns()[k]];
-    response = std::max(response, std::abs(change) / gradient_length(*system_, e_.w, lever_, r));
+    response = std::max(response, std::abs(change) / gradient_length(*system_, e_.w, lengths_, r));
   }
   return response;
 }
@@ -129,7 +129,7 @@ Violation Manifold::project_positions(double t, std::span<double> q, std::span<c
   constexpr int most_iterations = 100;
   constexpr int most_halvings = 30;
   evaluate({t, q, v});
-  Violation left = position_violation(*system_, e_, lever_);
+  Violation left = position_violation(*system_, e_, lengths_);
   bool matrix_serves = false;
   for (int i = 0; i < most_iterations && left.size > tolerance; ++i) {
     if (!matrix_serves && !factorise()) break;
@@ -142,7 +142,7 @@ Violation Manifold::project_positions(double t, std::span<double> q, std::span<c
       for (std::size_t k = 0; k < q.size(); ++k) q[k] = q_before_[k] + fraction * x_[k];
       if (following_) add_to_springs(springs_before_.lambda, fraction, springs_.lambda);
       evaluate({t, q, v});
-      left = position_violation(*system_, e_, lever_);
+      left = position_violation(*system_, e_, lengths_);
       if (left.size < before.size) break;
     }
     if (!(left.size < before.size)) {
@@ -213,7 +213,7 @@ bool Manifold::accelerate(const Instant& at, std::span<double> a) {
   return solve_for_accelerations(at, a);
 }
 
-bool Manifold::land(double t, std::span<double> q, std::span<double> v, std::span<double> a) {
+bool Manifold::project(double t, std::span<double> q, std::span<double> v, std::span<double> a) {
   evaluate({t, q, v});
   if (rows_.holonomic > 0) {
     if (!factorise()) return false;

@@ -15,15 +15,15 @@ namespace DALEMBERT_HIDDEN dalembert {
 
 /// The largest violation of the constraints at a state, and which row has it. A row's residual is
 /// divided by the length of its gradient: |g|/|G| is the distance to the constraint, |psi|/|W| a
-/// speed. `lever` turns each coordinate into a length: 1, or the scene's length for an angle.
+/// speed. `lengths` turns each coordinate into a length: 1, or the scene's length for an angle.
 struct Violation {
   double size = 0.0;
   std::size_t row = 0;  // says nothing if there is none
 };
 [[nodiscard]] Violation position_violation(const System& system, const System::Evaluation& e,
-                                           std::span<const double> lever);
+                                           std::span<const double> lengths);
 [[nodiscard]] Violation velocity_violation(const System& system, const System::Evaluation& e,
-                                           std::span<const double> lever);
+                                           std::span<const double> lengths);
 
 /// The set of states that obey the constraints: puts a state onto it, and finds the accelerations
 /// and multipliers there.
@@ -48,7 +48,7 @@ struct Violation {
 /// -g/C, the limit of large s.
 class Manifold {
  public:
-  Manifold(const System& system, const ActiveRows& rows, std::vector<double> lever);
+  Manifold(const System& system, const ActiveRows& rows, std::vector<double> lengths);
 
   /// From here on the multipliers of compliant rows are these, and projected with the state.
   void follow(const Springs& springs);
@@ -66,20 +66,20 @@ class Manifold {
   [[nodiscard]] bool accelerate(const Instant& at, std::span<double> a);
   /// After a step: one step of (1), then (2) and (3) with the matrix of the new positions. What one
   /// step of (1) leaves is the square of what it found. False if singular.
-  [[nodiscard]] bool land(double t, std::span<double> q, std::span<double> v, std::span<double> a);
+  [[nodiscard]] bool project(double t, std::span<double> q, std::span<double> v, std::span<double> a);
 
   /// The sine of the smallest angle that a row makes with others, in the metric of the masses: at a state,
   /// and where the matrix was factored last. 0 where rows depend on each other.
   [[nodiscard]] double sine(const Instant& at);
   [[nodiscard]] double sine() const { return kkt_.sine(); }
   /// Where the matrix was factored last, the direction of the coordinates that the constraints hold least,
-  /// with the largest entry 1 (lengths, by `lever`). Returns the largest violation, as a length, of a unit of
-  /// it.
-  double weakest_direction(std::span<const double> lever, std::span<double> n);
+  /// with the largest entry 1 (as lengths). Returns the largest violation, as a length, of a unit
+  /// of it.
+  double weakest_direction(std::span<const double> lengths, std::span<double> n);
 
   /// From here on comparisons that the constraints make are heard.
   void listen() { listening_ = true; }
-  /// Those of the last `accelerate` or `land`.
+  /// Those of the last `accelerate` or `project`.
   [[nodiscard]] const Branches::Outcomes& heard() const { return heard_; }
 
   /// The multipliers last found, one per row of the system; 0 in rows that are not in use.
@@ -110,7 +110,7 @@ class Manifold {
 
   const System* system_;
   ActiveRows rows_;
-  std::vector<double> lever_;
+  std::vector<double> lengths_;
   System::Evaluation e_;
   std::vector<double> gamma_, x_, q_before_;
   Springs springs_, springs_before_;

@@ -34,23 +34,23 @@ std::vector<double> irregular(std::size_t count) {
 /// How exactly positions are known: to some roundings of the farthest, and to what is left of the
 /// constraints.
 double rounding(const System& system, const Instant& at, const System::Evaluation& e,
-                std::span<const double> lever) {
+                std::span<const double> lengths) {
   constexpr double roundings = 4.0;
   double size = 0.0;
-  for (std::size_t i = 0; i < lever.size(); ++i)
-    size = std::max(size, roundings * round_off * std::abs(at.q[i]) * lever[i]);
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    size = std::max(size, roundings * round_off * std::abs(at.q[i]) * lengths[i]);
   for (std::size_t r = 0; r < e.g.size(); ++r) {
     if (system.compliance()[r] == 0.0 && e.g[r] != 0.0)
-      size = std::max(size, std::abs(e.g[r]) / gradient_length(system, e.w, lever, r));
+      size = std::max(size, std::abs(e.g[r]) / gradient_length(system, e.w, lengths, r));
   }
   return size;
 }
 
 }  // namespace
 
-MinimumNorm::MinimumNorm(const System& system, const ActiveRows& active, std::vector<double> lever)
+MinimumNorm::MinimumNorm(const System& system, const ActiveRows& active, std::vector<double> lengths)
     : system_(&system),
-      lever_(std::move(lever)),
+      lengths_(std::move(lengths)),
       active_(active.rows.begin(), active.rows.end()),
       dropped_(others(system, active)),
       unique_(system.rows(), 1) {
@@ -74,8 +74,8 @@ void MinimumNorm::place(const System& system) {
   const auto m = static_cast<Eigen::Index>(system.rows());
   x_.resize(system.coordinates() + active_.size());
   U_.resize(static_cast<std::size_t>(first));
-  nudge_ = irregular(lever_.size());
-  q_nearby_.resize(lever_.size());
+  nudge_ = irregular(lengths_.size());
+  q_nearby_.resize(lengths_.size());
   nearby_ = system.evaluation();
   size_.resize(m);
   N_.resize(m, d);
@@ -100,7 +100,7 @@ void MinimumNorm::spread(const Solve& solve, const Instant& at, const System::Ev
 
 /// The rods inside bodies are of unit gradient: their multipliers are forces.
 void MinimumNorm::measure(std::span<const double> w) {
-  system_->forces_at_points(w, lever_, U_);
+  system_->forces_at_points(w, lengths_, U_);
   size_.setOnes();
   for (const Stated& c : stated_) {
     for (Eigen::Index k = 0; k < c.rows; ++k)
@@ -110,14 +110,14 @@ void MinimumNorm::measure(std::span<const double> w) {
 }
 
 void MinimumNorm::evaluate_nearby(const Instant& at, const System::Evaluation& e) {
-  const double size = rounding(*system_, at, e, lever_);
-  for (std::size_t i = 0; i < lever_.size(); ++i) q_nearby_[i] = at.q[i] + nudge_[i] * size / lever_[i];
+  const double size = rounding(*system_, at, e, lengths_);
+  for (std::size_t i = 0; i < lengths_.size(); ++i) q_nearby_[i] = at.q[i] + nudge_[i] * size / lengths_[i];
   system_->evaluate({at.t, q_nearby_, at.v}, nearby_);
 }
 
 void MinimumNorm::find_null_space(const Solve& solve, std::span<const double> w) {
   constexpr int solves = 2;  // the first may have lost half of the digits, see SaddleMatrix
-  const auto y = std::span(x_).subspan(lever_.size());
+  const auto y = std::span(x_).subspan(lengths_.size());
   N_.setZero();
   for (Eigen::Index j = 0; j < N_.cols(); ++j) {
     N_(dropped_[static_cast<std::size_t>(j)], j) = 1.0;

@@ -30,8 +30,8 @@ class MinimumNorm {
  public:
   using Solve = std::function<void(std::span<double>)>;
 
-  /// `active` are the independent rows; `lever` as in Violation.
-  MinimumNorm(const System& system, const ActiveRows& active, std::vector<double> lever);
+  /// `active` are the independent rows; `lengths` as in Violation.
+  MinimumNorm(const System& system, const ActiveRows& active, std::vector<double> lengths);
 
   [[nodiscard]] bool needed() const { return !dropped_.empty(); }
   /// Spreads lambda (one per row of the system, zero for dropped ones) by (1)-(3); `e` holds the equations
@@ -58,7 +58,7 @@ class MinimumNorm {
   void minimise();
 
   const System* system_;
-  std::vector<double> lever_;
+  std::vector<double> lengths_;
   std::vector<Eigen::Index> active_, dropped_;
   std::vector<Stated> stated_;
   std::vector<char> unique_;

@@ -34,7 +34,7 @@ Moment::Moment(const System& system, const Start& start)
 Recovery::Recovery(const System& system, const Start& start, double tolerance)
     : system_(&system),
       scales_(start.scales),
-      lever_(start.scales.lever()),
+      lengths_(start.scales.lengths()),
       tolerance_(tolerance),
       q_given_(start.q.size()),
       v_given_(start.q.size()),
@@ -84,7 +84,7 @@ void Recovery::leave_forces_out(Moment& m) const {
 /// Compares with a second state, see above.
 void Recovery::mark_undetermined(Manifold& manifold, Moment& m) {
   std::ranges::copy(manifold.equations().w, w_.begin());
-  const double response = manifold.weakest_direction(lever_, n_);
+  const double response = manifold.weakest_direction(lengths_, n_);
   const double off = std::max(m.position.size, scales_.rounding(m.q)) / response;
   for (std::size_t i = 0; i < n_.size(); ++i) {
     q_[i] = m.q[i] + off * n_[i];
@@ -99,7 +99,7 @@ void Recovery::mark_undetermined(Manifold& manifold, Moment& m) {
   if (!known) return leave_forces_out(m);
   double largest = 0.0;
   const auto force = [&](std::size_t r, double lambda) {
-    return std::abs(lambda) * gradient_length(*system_, w_, lever_, r);
+    return std::abs(lambda) * gradient_length(*system_, w_, lengths_, r);
   };
   for (std::size_t r = 0; r < lambda_.size(); ++r) largest = std::max(largest, force(r, m.lambda[r]));
   for (const Layout::Constraint& c : system_->layout()->constraints) {
@@ -124,10 +124,10 @@ void Recovery::recover(Manifold& manifold, Moment& m) {
     std::ranges::copy(q_given_, m.q.begin());
     std::ranges::copy(v_given_, m.v.begin());
   }
-  m.velocity = velocity_violation(*system_, manifold.equations(), lever_);
+  m.velocity = velocity_violation(*system_, manifold.equations(), lengths_);
   m.correction = 0.0;
   for (std::size_t i = 0; i < q_given_.size(); ++i)
-    m.correction = std::max(m.correction, std::abs(m.q[i] - q_given_[i]) * lever_[i]);
+    m.correction = std::max(m.correction, std::abs(m.q[i] - q_given_[i]) * lengths_[i]);
   m.energy = system_->kinetic_energy(m.v) + system_->potential_energy({m.t, m.q, m.v});
   if (system_->compliant()) m.energy += system_->elastic_energy(m.lambda);
   if (!std::isfinite(m.energy) || (known && !finite(m.forces))) {

@@ -48,7 +48,7 @@ class Recovery {
 
   const System* system_;
   Scales scales_;
-  std::vector<double> lever_;
+  std::vector<double> lengths_;
   double tolerance_;
   std::vector<double> q_given_, v_given_;       // before projection
   std::vector<double> q_, v_, a_, lambda_, n_;  // of the second state

@@ -14,10 +14,10 @@ double Scales::rounding(std::span<const double> q) const {
   return 10.0 * std::numeric_limits<double>::epsilon() * farthest;
 }
 
-std::vector<double> Scales::lever() const {
-  auto lever = coordinate;
-  for (double& s : lever) s = length / s;
-  return lever;
+std::vector<double> Scales::lengths() const {
+  auto lengths = coordinate;
+  for (double& s : lengths) s = length / s;
+  return lengths;
 }
 
 /// Relative to the way, errors are the same whatever the units and wherever t_end lies: a step from rest at

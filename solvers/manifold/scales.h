@@ -53,8 +53,8 @@ struct Scales {
   void take(const Way& next);
   /// How far from its constraints round-off alone may leave a state.
   [[nodiscard]] double rounding(std::span<const double> q) const;
-  /// What turns each coordinate into a length: 1, or `length` for an angle.
-  [[nodiscard]] std::vector<double> lever() const;
+  /// Of each coordinate the length that a unit of it counts for: 1, or `length` for an angle.
+  [[nodiscard]] std::vector<double> lengths() const;
 };
 
 }  // namespace dalembert

@@ -155,10 +155,10 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
   system.bias({t, start.q, start.v}, residual);
   const auto& w = manifold.equations().w;
   const auto forced = forced_acceleration(system, manifold.equations());
-  const auto lever = start.scales.lever();
+  const auto lengths = start.scales.lengths();
   double scale = 0.0;
   for (std::size_t r = 0; r < residual.size(); ++r) {
-    const double gradient = gradient_length(system, w, lever, r);
+    const double gradient = gradient_length(system, w, lengths, r);
     residual[r] /= gradient;
     for (const std::size_t k : system.row(r)) {
       const auto i = system.w_columns()[k];
@@ -195,9 +195,9 @@ void require_met(const System& system, const Violation& left, double bound, doub
 void start_positions(const System& system, Start& start, const System::Evaluation& e,
                      const Options& options) {
   const double L = start.scales.length;
-  const auto lever = start.scales.lever();
+  const auto lengths = start.scales.lengths();
   const double bound = rounding_of_the_user * L + start.scales.rounding(start.q);
-  const Violation given = position_violation(system, e, lever);
+  const Violation given = position_violation(system, e, lengths);
   if (given.size > bound && !options.assemble) {
     refuse(system, given, options.t_start, "is violated by the initial positions: distance",
            "correct the positions, or set the option assemble to have them moved");
@@ -205,14 +205,14 @@ void start_positions(const System& system, Start& start, const System::Evaluatio
   // Rows are told apart only as well as the given state is known: rows that depend on each other on
   // the constraints do so only roughly nearby, and must not be solved against each other.
   const double known = std::max(rank_threshold, std::min(10.0 * given.size / L, 1e-3));
-  Manifold manifold(system, independent_rows(system, e.w, known), lever);
+  Manifold manifold(system, independent_rows(system, e.w, known), lengths);
   require_met(system, manifold.project_positions(options.t_start, start.q, start.v, converged * L), bound,
               options.t_start, "distance");
 }
 
 void start_velocities(const System& system, const Start& start, const System::Evaluation& e,
                       const Options& options) {
-  const Violation given = velocity_violation(system, e, start.scales.lever());
+  const Violation given = velocity_violation(system, e, start.scales.lengths());
   if (given.size > rounding_of_the_user * speed_of(system, e, start) && !options.assemble) {
     refuse(system, given, options.t_start, "is violated by the initial velocities: speed",
            "correct the velocities, or set the option assemble to have them changed");
@@ -246,13 +246,13 @@ Start consistent_start(const System& system, std::span<const double> q, std::spa
 
     start.scales.origin = start.q;
     start.rows = independent_rows(system, e.w);
-    Manifold manifold(system, start.rows, start.scales.lever());
+    Manifold manifold(system, start.rows, start.scales.lengths());
     const auto left = [&] {
       if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda)) {
         throw InconsistentStart(
             "The constraints of this scene are singular at the start, though none repeats another");
       }
-      return velocity_violation(system, manifold.equations(), start.scales.lever());
+      return velocity_violation(system, manifold.equations(), start.scales.lengths());
     };
     Violation violation = left();
     if (largest_scaled(start.v, start.scales.coordinate) * start.scales.length <= start.scales.rounding(v)) {
@@ -278,7 +278,7 @@ Start begin_anew(const System& system, const Start& before, double t, std::span<
   auto e = system.evaluation();
   system.evaluate({t, q, v}, e);
   start.rows = independent_rows(system, e.w, before.rows);
-  Manifold manifold(system, start.rows, start.scales.lever());
+  Manifold manifold(system, start.rows, start.scales.lengths());
   manifold.project_positions(t, start.q, start.v, converged * start.scales.length);
   if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda))
     throw StepFailure{"the constraints became dependent on each other", t};

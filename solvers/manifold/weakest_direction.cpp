@@ -23,12 +23,12 @@ double WeakestDirection::find(SaddleMatrix& matrix, const ActiveRows& rows, std:
     std::fill_n(x_.begin(), n, 0.0);
     for (std::size_t k = 0; k < m; ++k) {
       u_[k] /= length;
-      x_[n + k] = u_[k] * std::sqrt(mobility(*system_, w, rows.rows[k]));
+      x_[n + k] = u_[k] * std::sqrt(inverse_effective_mass(*system_, w, rows.rows[k]));
     }
     matrix.solve(x_);
     double projection = 0.0;
     for (std::size_t k = 0; k < m; ++k) {
-      const double y = x_[n + k] * std::sqrt(mobility(*system_, w, rows.rows[k]));
+      const double y = x_[n + k] * std::sqrt(inverse_effective_mass(*system_, w, rows.rows[k]));
       projection += y * u_[k];
       u_[k] = y;
     }

@@ -8,11 +8,15 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// For the message of a run that stopped: the constraint whose force has outgrown all that the scene's
-/// masses, speed and time explain, and has grown since the start as much, with its multiplier and what it
-/// says of itself when singular. Empty if there is none.
-[[nodiscard]] std::string outgrown_constraint(const System& system, const Scales& scales,
-                                              std::span<const double> w, std::span<const double> lambda,
-                                              std::span<const double> lambda_at_start);
+// For the message of a run that stopped; empty if there is nothing to say.
+
+/// The constraint whose force is far beyond all that the scene's masses, speed and time explain, and has
+/// grown since the start as much, with its multiplier and what it says of itself when singular.
+[[nodiscard]] std::string unbounded_multiplier(const System& system, const Scales& scales,
+                                               std::span<const double> w, std::span<const double> lambda,
+                                               std::span<const double> lambda_at_start);
+
+/// That times so far from 0 are too coarse for the scene.
+[[nodiscard]] std::string coarse_time(const Scales& scales, double time);
 
 }  // namespace dalembert

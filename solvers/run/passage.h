@@ -9,7 +9,7 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// The accelerations of the last steps, to go on with where those of the equations are worth nothing:
+/// The accelerations of the last steps, to go on with where those of the equations are lost to round-off:
 ///
 ///   v(t) = v0 + int p,   q(t) = q0 + (t - t0) v0 + int int p,   p through a at the last nodes  (Adams)
 ///

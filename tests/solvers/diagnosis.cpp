@@ -1,4 +1,4 @@
-#include "dalembert/solvers/run/outgrown.h"
+#include "dalembert/solvers/run/diagnosis.h"
 
 #include "scenes.h"
 
@@ -9,7 +9,7 @@ namespace {
 
 /// A bob of 1 kg on a rod: in units of its mass, length and time a force is 9.81 N. 53184 of them have grown
 /// from the weight, but not from 60000 at the start.
-TEST(Outgrown, NamesAMultiplierOnlyIfItHasGrown) {
+TEST(Diagnosis, NamesAMultiplierOnlyIfItHasGrown) {
   const Pendulum pendulum;
   const System system = pendulum.scene.system();
   const Start start = consistent_start(system, pendulum.scene.initial_positions(),
@@ -17,9 +17,9 @@ TEST(Outgrown, NamesAMultiplierOnlyIfItHasGrown) {
   auto e = system.evaluation();
   system.evaluate({0.0, start.q, start.v}, e);
   const std::vector<double> grown{53184.0 * 9.81}, weight{9.81}, large{60000.0 * 9.81};
-  EXPECT_THAT(outgrown_constraint(system, start.scales, e.w, grown, weight),
+  EXPECT_THAT(unbounded_multiplier(system, start.scales, e.w, grown, weight),
               testing::HasSubstr("Distance \"rod\""));
-  EXPECT_EQ(outgrown_constraint(system, start.scales, e.w, grown, large), "");
+  EXPECT_EQ(unbounded_multiplier(system, start.scales, e.w, grown, large), "");
 }
 
 }  // namespace

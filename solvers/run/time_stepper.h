@@ -1,0 +1,31 @@
+#pragma once
+
+#include <dalembert/core/results/statistics.h>
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/manifold/springs.h>
+
+#include <span>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// What takes a system from one time to the next: the same to a run whatever its method.
+class TimeStepper {
+ public:
+  virtual ~TimeStepper() = default;
+
+  /// One accepted step, not beyond t_end; `wanted` is the next time of output. Throws StepFailure.
+  virtual void step(double wanted) = 0;
+  /// Where the last step ended.
+  [[nodiscard]] virtual double time() const = 0;
+  /// See Manifold::sine; at or close to that time.
+  [[nodiscard]] virtual double sine() const = 0;
+  /// The state at a time inside the last step (or at the start, before the first). Throws EquationFault.
+  virtual void interpolate(double t, std::span<double> q, std::span<double> v) = 0;
+  /// The multipliers of compliant rows at such a time. False if the positions say all.
+  [[nodiscard]] virtual bool springs(double t, Springs& out) const = 0;
+  /// Adds its counts.
+  virtual void count(Statistics& statistics) const = 0;
+};
+
+}  // namespace dalembert

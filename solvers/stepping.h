@@ -1,0 +1,78 @@
+#pragma once
+
+#include <dalembert/solvers/manifold/manifold.h>
+#include <dalembert/solvers/manifold/recovery.h>
+#include <dalembert/solvers/run/singularity.h>
+#include <dalembert/solvers/run/sticking.h>
+#include <dalembert/solvers/run/time_stepper.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// A system's way through time: the stepper that the options ask for, restarted with other rows where those
+/// in use come to depend on each other, and giving way to the explicit one at isolated singular positions.
+/// What is read from it lies on the constraints.
+class Stepping {
+ public:
+  /// The system must outlive it. Throws InconsistentStart; StepFailure and EquationFault at the start.
+  Stepping(const System& system, std::span<const double> q, std::span<const double> v,
+           const Options& options);
+
+  [[nodiscard]] double time() const { return stepper_->time(); }
+  /// Throws StepFailure, EquationFault.
+  void step(double wanted);
+  /// Everything at a time inside the last step (or at the start, before the first). Throws StepFailure,
+  /// EquationFault.
+  void read(double t, Moment& m);
+
+  /// What it began from, or last began anew from.
+  [[nodiscard]] const Start& start() const { return start_; }
+  /// The constraint whose force has grown without bound where the last step ended, in words; empty if there
+  /// is none.
+  [[nodiscard]] std::string suspect();
+  /// Of all its steppers, without the run time.
+  [[nodiscard]] Statistics statistics() const;
+
+ private:
+  /// A state of the stepper's own, not put onto the constraints.
+  struct State {
+    std::vector<double> q, v;
+  };
+  const State& interpolate(double t);
+  void follow_springs(double t, Manifold& follower);
+
+  [[nodiscard]] bool redundant() const { return start_.rows.size() < system_->rows(); }
+  void compare_rows_from(double t);
+  [[nodiscard]] std::optional<ActiveRows> better_rows(const Instant& at);
+  void exchange_rows();
+
+  void watch_sine();
+  void hand_over();
+  void watch_sliding();
+  void restart(Stepper kind);
+
+  const System* system_;
+  Options options_;
+  Start start_;
+  std::vector<double> lambda_at_start_;
+  std::vector<double> lengths_;       // see Scales
+  std::optional<Manifold> manifold_;  // of the rows in use
+  std::unique_ptr<TimeStepper> stepper_;
+  std::optional<Sticking> sticking_;  // for the implicit stepper, if there is friction
+  Recovery recovery_;
+  double best_sine_ = 1.0;  // of any rows, where they were compared last
+
+  bool begun_ = false;
+  Angle angle_;               // at the last step
+  bool handed_over_ = false;  // to the explicit stepper, close to a singular position
+  double sine_at_handover_ = 0.0;
+
+  Springs springs_;  // of the implicit stepper's state, if any constraint is compliant
+  State state_;
+  Statistics past_;  // of the steppers and manifolds before
+};
+
+}  // namespace dalembert
