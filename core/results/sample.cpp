@@ -32,6 +32,12 @@ std::string at_time(double t) {
 }  // namespace
 
 template <int D>
+void Sample<D>::refuse_path() const {
+  throw EquationFault("The path of a driven point has no finite value or derivative" + at_time(flat_.time) +
+                      "; read it at another time");
+}
+
+template <int D>
 void Sample<D>::refuse_acceleration() const {
   throw UndeterminedForce("This acceleration is not determined" + at_time(flat_.time) +
                           ", because the force of a constraint on it is not: the constraints are close to "

@@ -46,16 +46,17 @@ class Sample {
   [[nodiscard]] double energy() const { return flat_.energy; }
 
   /// Of any point: a particle, a point of a body, a fixed or a driven one [length], and its derivatives with
-  /// respect to time.
+  /// respect to time. Throws EquationFault where the path of a driven point gives a number that is not
+  /// finite.
   template <Point P>
   [[nodiscard]] Vec<D> position(const P& point) const {
     require_known(point);
-    return dalembert::position<double>(point, flat_.time, instant(), AsNumber{}, 0);
+    return finite<P>(dalembert::position<double>(point, flat_.time, instant(), AsNumber{}, 0));
   }
   template <Point P>
   [[nodiscard]] Vec<D> velocity(const P& point) const {
     require_known(point);
-    return dalembert::velocity<double>(point, flat_.time, instant(), AsNumber{}, 0);
+    return finite<P>(dalembert::velocity<double>(point, flat_.time, instant(), AsNumber{}, 0));
   }
   template <Point P>
   [[nodiscard]] Vec<D> acceleration(const P& point) const {
@@ -67,7 +68,7 @@ class Sample {
     } else if constexpr (P::driven) {
       using Time = Dual<1, 2>;
       const VecOf<Time, D> path = point.path(Time::input(flat_.time, 0)).template cast<Time>();
-      return path.unaryExpr([](const Time& x) { return x.hessian(0, 0); });
+      return finite<P>(path.unaryExpr([](const Time& x) { return x.hessian(0, 0); }));
     } else {
       return Vec<D>::Zero();
     }
@@ -204,6 +205,12 @@ class Sample {
     for (std::size_t i = 1; i < std::size(body.particles); ++i) sum += f(Particle<D>(body.particles[i]));
     return sum;
   }
+  template <Point P>
+  [[nodiscard]] Vec<D> finite(const Vec<D>& r) const {
+    if (P::driven && !r.allFinite()) refuse_path();
+    return r;
+  }
+  [[noreturn]] void refuse_path() const;
   [[noreturn]] void refuse_acceleration() const;
   [[noreturn]] void refuse(const Layout::Constraint& constraint) const;
   [[nodiscard]] Vec<D> force_of(const Layout::Constraint& constraint, Particle<D> particle) const;

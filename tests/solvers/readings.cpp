@@ -338,6 +338,18 @@ TEST(Readings, FixedAndDrivenPointsAreReadLikeParticles) {
   }
 }
 
+TEST(Readings, APathWithoutAValueCannotBeRead) {
+  const auto run = simulate(Pendulum().scene, {.t_end = 1.0, .samples = 3});
+  const auto away = driven([](auto t) { return vec(1.0 / t, 0.0); });
+  const auto kinked =
+      driven([](auto t) { return vec(t * sqrt(t), 0.0); });  // its second derivative begins at infinity
+  const auto refused =
+      ThrowsMessage<EquationFault>(HasSubstr("driven point has no finite value or derivative at t = 0"));
+  EXPECT_THAT([&] { (void)run.position(away, 0); }, refused);
+  EXPECT_THAT([&] { (void)run.acceleration(kinked, 0); }, refused);
+  EXPECT_EQ(run.position(away, 1), Vec<2>(2.0, 0.0));
+}
+
 TEST(Readings, AllTimesAreTheSamplesOneByOne) {
   const EachKind each;
   const auto run = simulate(each.scene, {.t_end = 1.0, .samples = 11});
