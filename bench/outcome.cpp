@@ -11,6 +11,7 @@ Outcome refused_by(const Error& error) {
   if (dynamic_cast<const IntegrationFailure*>(&error) != nullptr) return {"IntegrationFailure", said};
   if (dynamic_cast<const InconsistentStart*>(&error) != nullptr) return {"InconsistentStart", said};
   if (dynamic_cast<const InvalidScene*>(&error) != nullptr) return {"InvalidScene", said};
+  if (dynamic_cast<const InvalidArgument*>(&error) != nullptr) return {"InvalidArgument", said};
   if (dynamic_cast<const MethodFailure*>(&error) != nullptr) return {"MethodFailure", said};
   return {"Error", said};
 }

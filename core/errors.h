@@ -17,9 +17,15 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The scene, an option or a handle makes no sense by itself: a negative mass, a handle of another
-/// scene, t_end before t_start. Nothing was computed.
+/// What a scene states makes no sense by itself: a negative mass, a name that is taken, no particle at all.
+/// Nothing was computed, and the scene is as it was.
 class InvalidScene : public Error {
+  using Error::Error;
+};
+
+/// An option, a handle, an index or a time makes no sense where it was given: t_end before t_start, a handle
+/// of another scene, a sample that a run does not have, a time beyond its end. Nothing was computed.
+class InvalidArgument : public Error {
   using Error::Error;
 };
 
@@ -50,7 +56,7 @@ class IntegrationFailure : public Error {
 
   /// The last time reached.
   [[nodiscard]] double time() const { return time_; }
-  /// The samples before the failure. D is the dimension of the scene; throws InvalidScene if not.
+  /// The samples before the failure. D is the dimension of the scene; throws InvalidArgument if not.
   template <int D>
   [[nodiscard]] Trajectory<D> trajectory() const;
 

@@ -55,7 +55,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
   }
 
   [[nodiscard]] FlatSample sample() const {
-    return {now.t, now.q, now.v, now.lambda, now.forces, now.energy, now.unique};
+    return {now.t, now.q, now.v, now.a, now.lambda, now.forces, now.energy, now.unique};
   }
 
   void step_once(double wanted) {
@@ -135,10 +135,13 @@ Statistics Integrator::statistics() const { return state_->statistics(); }
 
 void Integrator::step() {
   State& s = *state_;
+  if (s.now.t >= s.options.t_end) {
+    std::ostringstream what;
+    what << "step(): t_end = " << s.options.t_end << " is reached; choose a later one in the options";
+    throw InvalidArgument(what.str());
+  }
   s.guarded([&s] {
-    if (s.stepping.time() >= s.options.t_end)
-      throw StepFailure{"t_end is reached; choose a later one", s.now.t};
-    s.step_once(s.options.t_end);
+    if (s.stepping.time() < s.options.t_end) s.step_once(s.options.t_end);
     s.visit(s.stepping.time());
   });
 }
@@ -149,7 +152,7 @@ void Integrator::advance_to(double t) {
     std::ostringstream what;
     what << "advance_to(" << t << "): must lie between the current time " << s.now.t
          << " and t_end = " << s.options.t_end;
-    throw InvalidScene(what.str());
+    throw InvalidArgument(what.str());
   }
   s.guarded([&] { s.go_to(t); });
 }

@@ -14,16 +14,17 @@ namespace dalembert {
 /// forces. Knows no scene; Simulation reads its results by handle.
 class Integrator {
  public:
-  /// Checks the options and the start. Throws InvalidScene, InconsistentStart.
+  /// Checks the options and the start. Throws InvalidArgument, InconsistentStart.
   Integrator(System system, std::span<const double> q, std::span<const double> v, const Options& options);
   Integrator(Integrator&&) noexcept;
   ~Integrator();
 
   /// The current instant: at first the start, later where `step` or `advance_to` went.
   [[nodiscard]] FlatSample sample() const;
-  /// One step of the integrator's own choice. Throws IntegrationFailure, also beyond t_end.
+  /// One step of the integrator's own choice. Throws InvalidArgument where t_end is reached,
+  /// IntegrationFailure.
   void step();
-  /// To a time not before the current one and not after t_end. Throws InvalidScene outside,
+  /// To a time not before the current one and not after t_end. Throws InvalidArgument outside,
   /// IntegrationFailure.
   void advance_to(double t);
 

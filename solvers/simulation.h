@@ -9,12 +9,20 @@ namespace dalembert {
 
 /// A scene in motion, for step-wise control; the scene may be changed or destroyed meanwhile.
 /// After a failure the last good instant can still be read.
+///
+/// Every function of Sample is one of a Simulation, of its current instant; see Readings.
 template <int D>
-class Simulation {
+class Simulation : public Readings<D, Simulation<D>> {
  public:
-  /// Throws InvalidScene, InconsistentStart.
+  /// Throws InvalidScene, InvalidArgument, InconsistentStart.
   Simulation(const Scene<D>& scene, const Options& options)
       : integrator_(scene.system(), scene.initial_positions(), scene.initial_velocities(), options) {}
+  /// From a sample of a run of this scene, or of a copy of it with other parameters, at the time of the
+  /// sample; the option t_start is that, or left out. Throws InvalidArgument also if the sample is of
+  /// something else.
+  Simulation(const Scene<D>& scene, const Sample<D>& start, const Options& options)
+      : integrator_((scene.require_state(start), scene.system()), start.flat().q, start.flat().v,
+                    starting_at(start.time(), options)) {}
 
   /// See Integrator.
   void step() { integrator_.step(); }
@@ -23,28 +31,6 @@ class Simulation {
   /// The current instant; see Sample for what can be read. A view, valid until the next step.
   [[nodiscard]] Sample<D> sample() const { return {*integrator_.system().layout(), integrator_.sample()}; }
   [[nodiscard]] double time() const { return sample().time(); }
-  [[nodiscard]] double energy() const { return sample().energy(); }
-  template <Point P>
-  [[nodiscard]] Vec<D> position(const P& point) const {
-    return sample().position(point);
-  }
-  template <Point P>
-  [[nodiscard]] Vec<D> velocity(const P& point) const {
-    return sample().velocity(point);
-  }
-  [[nodiscard]] double angle(Rotor rotor) const { return sample().angle(rotor); }
-  [[nodiscard]] double angular_velocity(Rotor rotor) const { return sample().angular_velocity(rotor); }
-  template <int Rows>
-  [[nodiscard]] Multiplier<Rows> multiplier(Constraint<Rows> constraint) const {
-    return sample().multiplier(constraint);
-  }
-  template <int Rows>
-  [[nodiscard]] Vec<D> constraint_force(Constraint<Rows> constraint, Particle<D> particle) const {
-    return sample().constraint_force(constraint, particle);
-  }
-  [[nodiscard]] Vec<D> constraint_force(Particle<D> particle) const {
-    return sample().constraint_force(particle);
-  }
   [[nodiscard]] Statistics statistics() const { return integrator_.statistics(); }
 
   /// All samples that the options ask for.
@@ -60,12 +46,20 @@ class Simulation {
   Integrator integrator_;
 };
 
-/// Runs a scene and returns its motion and forces of constraint. Throws InvalidScene,
+/// Runs a scene and returns its motion and forces of constraint. Throws InvalidScene, InvalidArgument,
 /// InconsistentStart, IntegrationFailure; see there.
 template <int D>
 [[nodiscard]] Trajectory<D> simulate(  // is an option misspelled, or not in the order of solvers/options.h?
     const Scene<D>& scene, const Options& options) {
   return Simulation<D>(scene, options).run();
+}
+
+/// The same from a sample of another run on, see Simulation:
+///
+///   const auto rest = simulate(scene, run.sample(50), {.t_end = 20.0});
+template <int D>
+[[nodiscard]] Trajectory<D> simulate(const Scene<D>& scene, const Sample<D>& start, const Options& options) {
+  return Simulation<D>(scene, start, options).run();
 }
 
 /// The same for runs too long to keep: hands each sample to `observe(const Sample<D>&)` and returns

@@ -8,7 +8,7 @@ namespace {
 Statistics statistics_of(const IntegrationFailure& failure) {
   try {
     return failure.trajectory<2>().statistics();
-  } catch (const InvalidScene&) {
+  } catch (const InvalidArgument&) {
     return failure.trajectory<3>().statistics();
   }
 }
@@ -23,6 +23,8 @@ Result run(const Case& extreme, double parameter, Stepper stepper) try {
   return {.outcome = "InconsistentStart", .said = refusal.what()};
 } catch (const InvalidScene& refusal) {
   return {.outcome = "InvalidScene", .said = refusal.what()};
+} catch (const InvalidArgument& refusal) {
+  return {.outcome = "InvalidArgument", .said = refusal.what()};
 }
 
 }  // namespace

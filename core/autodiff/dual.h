@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/core/autodiff/branches.h>
+#include <dalembert/core/autodiff/functions.h>
 
 #include <Eigen/Core>
 
@@ -20,12 +21,15 @@ namespace dalembert {
 /// Every operation returns a plain Dual. Eigen::AutoDiffScalar returns expressions that refer to
 /// temporaries, so that `auto s = x * y + 1.0;` in a user's lambda would read dead memory; and its
 /// second derivatives, by nesting, compute the value N + 1 times.
+///
+/// The functions of <cmath> are in Functions.
 template <int N, int Order>
-class Dual {
+class Dual : Functions<Dual<N, Order>> {
   static_assert(N > 0 && (Order == 1 || Order == 2));
   struct None {};
 
  public:
+  static constexpr int order = Order;
   using Gradient = Eigen::Matrix<double, N, 1>;
   using Hessian = std::conditional_t<Order == 2, Eigen::Matrix<double, N, N>, None>;
 
@@ -106,82 +110,6 @@ class Dual {
     return a.value <=> b;
   }
 
-  friend Dual sqrt(const Dual& a) {
-    const double f = std::sqrt(a.value);
-    return chain(a, f, 0.5 / f, -0.25 / (f * a.value));
-  }
-  friend Dual exp(const Dual& a) {
-    const double f = std::exp(a.value);
-    return chain(a, f, f, f);
-  }
-  friend Dual log(const Dual& a) {
-    const double r = 1.0 / a.value;
-    return chain(a, std::log(a.value), r, -r * r);
-  }
-  friend Dual sin(const Dual& a) {
-    const double s = std::sin(a.value);
-    return chain(a, s, std::cos(a.value), -s);
-  }
-  friend Dual cos(const Dual& a) {
-    const double c = std::cos(a.value);
-    return chain(a, c, -std::sin(a.value), -c);
-  }
-  friend Dual tan(const Dual& a) {
-    const double f = std::tan(a.value);
-    const double f_a = 1.0 + f * f;
-    return chain(a, f, f_a, 2.0 * f * f_a);
-  }
-  friend Dual asin(const Dual& a) {
-    const double f_a = 1.0 / std::sqrt(1.0 - a.value * a.value);
-    return chain(a, std::asin(a.value), f_a, a.value * f_a * f_a * f_a);
-  }
-  friend Dual acos(const Dual& a) {
-    const double f_a = -1.0 / std::sqrt(1.0 - a.value * a.value);
-    return chain(a, std::acos(a.value), f_a, a.value * f_a * f_a * f_a);
-  }
-  friend Dual atan(const Dual& a) {
-    const double f_a = 1.0 / (1.0 + a.value * a.value);
-    return chain(a, std::atan(a.value), f_a, -2.0 * a.value * f_a * f_a);
-  }
-  friend Dual sinh(const Dual& a) {
-    const double s = std::sinh(a.value);
-    return chain(a, s, std::cosh(a.value), s);
-  }
-  friend Dual cosh(const Dual& a) {
-    const double c = std::cosh(a.value);
-    return chain(a, c, std::sinh(a.value), c);
-  }
-  friend Dual tanh(const Dual& a) {
-    const double f = std::tanh(a.value);
-    const double f_a = 1.0 - f * f;
-    return chain(a, f, f_a, -2.0 * f * f_a);
-  }
-  friend Dual abs(const Dual& a) { return a < 0.0 ? -a : a; }
-  friend Dual abs2(const Dual& a) { return a * a; }
-  friend Dual pow(const Dual& a, double p) {
-    // A zero factor must win against 0^(p-2) = inf, or x^1 would be NaN at x = 0.
-    const double f_a = p == 0.0 ? 0.0 : p * std::pow(a.value, p - 1.0);
-    const double f_aa = p == 0.0 || p == 1.0 ? 0.0 : p * (p - 1.0) * std::pow(a.value, p - 2.0);
-    return chain(a, std::pow(a.value, p), f_a, f_aa);
-  }
-  friend Dual pow(const Dual& a, const Dual& b) { return exp(b * log(a)); }
-  friend Dual atan2(const Dual& y, const Dual& x) {
-    // Equation (2) with f = atan2: the angle's derivatives are those of Im log(x + iy).
-    const double r2 = x.value * x.value + y.value * y.value;
-    const double f_y = x.value / r2;
-    const double f_x = -y.value / r2;
-    Dual r(std::atan2(y.value, x.value));
-    r.gradient = f_y * y.gradient + f_x * x.gradient;
-    if constexpr (Order == 2) {
-      const double f_xx = -2.0 * f_x * f_y;  // = -f_yy
-      const double f_xy = f_x * f_x - f_y * f_y;
-      r.hessian = f_y * y.hessian + f_x * x.hessian;
-      r.hessian += f_xx * (x.gradient * x.gradient.transpose() - y.gradient * y.gradient.transpose());
-      r.hessian += f_xy * (x.gradient * y.gradient.transpose() + y.gradient * x.gradient.transpose());
-    }
-    return r;
-  }
-  friend Dual hypot(const Dual& a, const Dual& b) { return sqrt(a * a + b * b); }
   friend bool isfinite(const Dual& a) { return std::isfinite(a.value) && a.gradient.allFinite(); }
 
  private:

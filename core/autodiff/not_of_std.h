@@ -33,6 +33,31 @@ DALEMBERT_NOT_OF_STD(pow, const dalembert::Dual<N, Order>&, double);
 DALEMBERT_NOT_OF_STD(pow, const dalembert::Dual<N, Order>&, const dalembert::Dual<N, Order>&);
 DALEMBERT_NOT_OF_STD(atan2, const dalembert::Dual<N, Order>&, const dalembert::Dual<N, Order>&);
 DALEMBERT_NOT_OF_STD(hypot, const dalembert::Dual<N, Order>&, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(exp2, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(expm1, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(log2, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(log10, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(log1p, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(cbrt, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(asinh, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(acosh, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(atanh, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(erf, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(erfc, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(fabs, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(floor, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(ceil, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(trunc, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(round, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(fmax, const dalembert::Dual<N, Order>&, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(fmin, const dalembert::Dual<N, Order>&, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(fdim, const dalembert::Dual<N, Order>&, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(copysign, const dalembert::Dual<N, Order>&, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(fmod, const dalembert::Dual<N, Order>&, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(max, const dalembert::Dual<N, Order>&, double);  // of two Duals it is right
+DALEMBERT_NOT_OF_STD(max, double, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(min, const dalembert::Dual<N, Order>&, double);  // of two Duals it is right
+DALEMBERT_NOT_OF_STD(min, double, const dalembert::Dual<N, Order>&);
 
 }  // namespace std
 

@@ -19,12 +19,11 @@ struct ElementFault {
   std::string what;
 };
 
-/// Calls `f(element, index)` for every element; whatever goes wrong says in which.
+/// Calls `f(element, index)` for every element from `i` to before `end`; whatever goes wrong says in which.
 template <class Element, class F>
-void for_each_element(const std::vector<Element>& elements, const F& f) {
-  std::size_t i = 0;
+void for_each_element(const std::vector<Element>& elements, std::size_t i, std::size_t end, const F& f) {
   try {
-    for (; i < elements.size(); ++i) f(elements[i], i);
+    for (; i < end; ++i) f(elements[i], i);
   } catch (const ElementFault&) {
     throw;
   } catch (const std::exception& e) {
@@ -32,6 +31,11 @@ void for_each_element(const std::vector<Element>& elements, const F& f) {
   } catch (...) {
     throw ElementFault{i, "threw something that is no std::exception"};
   }
+}
+
+template <class Element, class F>
+void for_each_element(const std::vector<Element>& elements, const F& f) {
+  for_each_element(elements, 0, elements.size(), f);
 }
 
 /// Sizes that all constraints of one type have in common.
@@ -103,6 +107,8 @@ class ForceBatch {
   virtual void linearise(const Instant& at, std::span<double> stiffness, std::span<double> damping) const = 0;
   /// F . v of each force.
   virtual void power(const Instant& at, std::span<double> out) const = 0;
+  /// The force of one element on each of the `width` coordinates that it acts on.
+  virtual void force(std::size_t element, const Instant& at, std::span<double> out) const = 0;
   /// Sum of the energies; 0 for forces that have none.
   [[nodiscard]] virtual double energy(const Instant& at) const = 0;
 };
@@ -140,6 +146,9 @@ class MultiplierForceBatch {
                          std::span<double> damping) const = 0;
   /// F . v of each force.
   virtual void power(const Instant& at, const Multipliers& lambda, std::span<double> out) const = 0;
+  /// The force of one element on each of the `width` coordinates that it acts on.
+  virtual void force(std::size_t element, const Instant& at, const Multipliers& lambda,
+                     std::span<double> out) const = 0;
 };
 
 /// The batch for one type of element, as a scene makes and fills it, in the one place that instantiates
@@ -150,6 +159,8 @@ struct BatchOf {
   [[nodiscard]] static std::unique_ptr<Batch> empty();
   /// Adds the element and says so, if the batch is of its type.
   static bool add(Batch& batch, const Element& element);
+  /// Puts the element in the place of number `i` and says so, if the batch is of its type.
+  static bool replace(Batch& batch, std::size_t i, const Element& element);
 };
 
 /// The elements of a batch and the coordinates they read.
@@ -162,6 +173,17 @@ class Elements {
     coordinates_.resize(coordinates_.size() + width);
     read_coordinates(element, std::span(coordinates_).last(width));
     all_.push_back(std::move(element));
+  }
+  void replace(std::size_t i, const Element& element) {
+    if constexpr (std::is_copy_assignable_v<Element>) {
+      all_[i] = element;
+    } else {  // a lambda that captures can only be copied
+      std::vector<Element> all;
+      all.reserve(all_.size());
+      for (std::size_t k = 0; k < all_.size(); ++k) all.push_back(k == i ? element : all_[k]);
+      all_.swap(all);
+    }
+    read_coordinates(element, std::span(coordinates_).subspan(i * width, width));
   }
   /// `rows` rows of w and of `out` per element; see ForcesAtPoints.
   template <int rows>

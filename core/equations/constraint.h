@@ -159,4 +159,19 @@ inline constexpr int rows_of_constraint<C> = detail::rows_in<detail::Residual<C>
 template <class C>
 inline constexpr bool is_timed = detail::takes_time<C> || PointFacts<C>::driven;
 
+namespace detail {
+
+template <class C>
+concept AnyConstraint = HolonomicConstraint<C> || NonholonomicConstraint<C>;
+
+/// What Scene asks of an equation.
+template <AnyConstraint C>
+constexpr void require_equations() {
+  static_assert(Equations<Residual<C>>,
+                "a constraint's equation returns a number or a plain column of fixed size, vec(g_1, g_2): no "
+                "row, matrix or vector of dynamic size, and of an Eigen expression its .eval()");
+}
+
+}  // namespace detail
+
 }  // namespace dalembert

@@ -19,6 +19,7 @@ class HolonomicBatch final : public ConstraintBatch {
 
  public:
   void add(C constraint) { elements_.add(std::move(constraint)); }
+  void replace(std::size_t i, const C& constraint) { elements_.replace(i, constraint); }
 
   [[nodiscard]] std::unique_ptr<ConstraintBatch> clone() const override {
     return std::make_unique<HolonomicBatch>(*this);

@@ -16,6 +16,7 @@ class NonholonomicBatch final : public ConstraintBatch {
 
  public:
   void add(C constraint) { elements_.add(std::move(constraint)); }
+  void replace(std::size_t i, const C& constraint) { elements_.replace(i, constraint); }
 
   [[nodiscard]] std::unique_ptr<ConstraintBatch> clone() const override {
     return std::make_unique<NonholonomicBatch>(*this);

@@ -31,6 +31,28 @@ struct BatchFor<E> {
   using type = FrictionBatch<E>;
 };
 
+template <class E>
+concept AnyForce = PotentialForce<E> || LawForce<E> || FrictionForce<E>;
+
+template <AnyForce E>
+[[nodiscard]] constexpr std::string_view kind_of_force() {
+  return kind_of<E>(PotentialForce<E> ? "Potential" : LawForce<E> ? "ForceLaw" : "Friction");
+}
+
+/// What Scene asks of the equation of a force.
+template <AnyForce E>
+constexpr void require_forces() {
+  using Batch = typename BatchFor<E>::type;
+  static_assert(!PotentialForce<E> || Batch::gives_what_it_should,
+                "a potential returns its energy, one number; of an Eigen expression its .value()");
+  static_assert(!LawForce<E> || Batch::gives_what_it_should,
+                "a force law returns one column of its point's dimension, or one for each point, "
+                "std::tuple{f_a, f_b}; of an Eigen expression its .eval()");
+  static_assert(!FrictionForce<E> || Batch::gives_what_it_should,
+                "a friction law returns one column of its point's dimension, or one for each point, "
+                "std::tuple{f_a, f_b}; of an Eigen expression its .eval()");
+}
+
 }  // namespace detail
 
 template <class Batch, class Element>
@@ -43,6 +65,14 @@ bool BatchOf<Batch, Element>::add(Batch& batch, const Element& element) {
   auto* const same = dynamic_cast<typename detail::BatchFor<Element>::type*>(&batch);
   if (same == nullptr) return false;
   same->add(element);
+  return true;
+}
+
+template <class Batch, class Element>
+bool BatchOf<Batch, Element>::replace(Batch& batch, std::size_t i, const Element& element) {
+  auto* const same = dynamic_cast<typename detail::BatchFor<Element>::type*>(&batch);
+  if (same == nullptr) return false;
+  same->replace(i, element);
   return true;
 }
 

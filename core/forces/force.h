@@ -91,6 +91,7 @@ class PotentialBatch final : public ForceBatch {
       detail::Number<detail::ForceResult<detail::EnergyOf<E>, takes_time, E, detail::ProbePositions<E>>>;
 
   void add(E element) { elements_.add(std::move(element)); }
+  void replace(std::size_t i, const E& element) { elements_.replace(i, element); }
 
   [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override {
     return std::make_unique<PotentialBatch>(*this);
@@ -128,6 +129,15 @@ class PotentialBatch final : public ForceBatch {
     });
   }
 
+  void force(std::size_t element, const Instant& at, std::span<double> out) const override {
+    using S = Dual<inputs, 1>;
+    for_each_element(elements_.all(), element, element + 1, [&](const E& e, std::size_t) {
+      const S V = potential<S>(e, at, AsInput<S>{});
+      detail::require_finite(isfinite(V), element, "is not a finite number or has no finite gradient");
+      Eigen::Map<Vec<width>>(out.data()) = -pull_back(e, V.gradient);
+    });
+  }
+
   [[nodiscard]] double energy(const Instant& at) const override {
     double sum = 0.0;
     for_each_element(elements_.all(),
@@ -160,6 +170,7 @@ class LawBatch final : public ForceBatch {
                          PointTuple<E>>;
 
   void add(E element) { elements_.add(std::move(element)); }
+  void replace(std::size_t i, const E& element) { elements_.replace(i, element); }
 
   [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override {
     return std::make_unique<LawBatch>(*this);
@@ -197,6 +208,14 @@ class LawBatch final : public ForceBatch {
       }
       Eigen::Map<Block>(stiffness.data() + i * width * width) = pull_back_block(e, F_r);
       Eigen::Map<Block>(damping.data() + i * width * width) = pull_back_block(e, F_v);
+    });
+  }
+
+  void force(std::size_t element, const Instant& at, std::span<double> out) const override {
+    for_each_element(elements_.all(), element, element + 1, [&](const E& e, std::size_t) {
+      const Vec<inputs> f = forces<double>(e, at, AsNumber{}, AsNumber{});
+      detail::require_finite(f.allFinite(), element, "is not a finite number");
+      Eigen::Map<Vec<width>>(out.data()) = pull_back(e, f);
     });
   }
 

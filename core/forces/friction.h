@@ -5,9 +5,6 @@
 
 namespace dalembert {
 
-/// For laws that take |lambda|: without it a plain number might find C's abs, which is one of int.
-using std::abs;
-
 namespace detail {
 
 /// Makes `friction` of an element callable like a function, without hiding its arity.

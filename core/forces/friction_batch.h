@@ -23,6 +23,10 @@ class FrictionBatch final : public MultiplierForceBatch {
     constraints_.push_back(element.constraint().index);
     elements_.add(std::move(element));
   }
+  void replace(std::size_t i, const E& element) {
+    constraints_[i] = element.constraint().index;
+    elements_.replace(i, element);
+  }
 
   [[nodiscard]] std::unique_ptr<MultiplierForceBatch> clone() const override {
     return std::make_unique<FrictionBatch>(*this);
@@ -46,6 +50,15 @@ class FrictionBatch final : public MultiplierForceBatch {
     for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
       out[i] =
           forces<double>(e, at, lambda, i, AsNumber{}, AsNumber{}, AsNumber{}).dot(gather_inputs(e, at.v));
+    });
+  }
+
+  void force(std::size_t element, const Instant& at, const Multipliers& lambda,
+             std::span<double> out) const override {
+    for_each_element(elements_.all(), element, element + 1, [&](const E& e, std::size_t) {
+      const Vec<inputs> f = forces<double>(e, at, lambda, element, AsNumber{}, AsNumber{}, AsNumber{});
+      detail::require_finite(f.allFinite(), element, "is not a finite number");
+      Eigen::Map<Vec<width>>(out.data()) = pull_back(e, f);
     });
   }
 

@@ -1,6 +1,9 @@
 #include "dalembert/core/results/sample.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/core/results/applied_forces.h>
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -11,28 +14,34 @@ namespace dalembert {
 
 namespace {
 
-void require_known_handle(bool same_scene, bool exists, const char* what, const Layout& layout) {
-  if (same_scene && exists) return;
-  throw InvalidScene(
-      std::string("This ") + what + " handle is not one of scene \"" + layout.scene + "\": " +
-      (same_scene ? "it was added after the run was made" : "it belongs to another scene or to none") +
-      "; use the handles that add_particle and add of this scene returned");
+template <int D>
+MomentOf<D> cross(const Vec<D>& r, const Vec<D>& force) {
+  if constexpr (D == 2) {
+    return r.x() * force.y() - r.y() * force.x();
+  } else {
+    return r.cross(force);
+  }
+}
+
+std::string at_time(double t) {
+  std::ostringstream out;
+  out << " at t = " << std::setprecision(10) << t;
+  return out.str();
 }
 
 }  // namespace
 
 template <int D>
-const Layout::Constraint& Sample<D>::info(int index, std::uint64_t scene) const {
-  require_known_handle(scene == layout_->id,
-                       index >= 0 && index < static_cast<int>(layout_->constraints.size()), "constraint",
-                       *layout_);
-  return layout_->constraints[static_cast<std::size_t>(index)];
+void Sample<D>::refuse_path() const {
+  throw EquationFault("The path of a driven point has no finite value or derivative" + at_time(flat_.time) +
+                      "; read it at another time");
 }
 
 template <int D>
-void Sample<D>::require_coordinate(std::uint64_t scene, int coordinate) const {
-  require_known_handle(scene == layout_->id, coordinate >= 0 && coordinate < static_cast<int>(flat_.q.size()),
-                       "particle or rotor", *layout_);
+void Sample<D>::refuse_acceleration() const {
+  throw UndeterminedForce("This acceleration is not determined" + at_time(flat_.time) +
+                          ", because the force of a constraint on it is not: the constraints are close to "
+                          "dependent there; read it at another time");
 }
 
 template <int D>
@@ -48,10 +57,18 @@ double Sample<D>::angular_velocity(Rotor rotor) const {
 }
 
 template <int D>
+double Sample<D>::angular_acceleration(Rotor rotor) const {
+  require_known(rotor);
+  const double a = rotor.gather(flat_.a)[0];
+  if (std::isnan(a)) refuse_acceleration();
+  return a;
+}
+
+template <int D>
 bool Sample<D>::unique(const Layout::Constraint& constraint, int component) const {
   if (component < 0 || component >= constraint.rows) {
-    throw InvalidScene(constraint.label() + " has no component " + std::to_string(component) + ": it has " +
-                       std::to_string(constraint.rows) + ", counted from 0");
+    throw InvalidArgument(constraint.label() + " has no component " + std::to_string(component) +
+                          ": it has " + std::to_string(constraint.rows) + ", counted from 0");
   }
   return flat_.unique.empty() ||
          flat_.unique[static_cast<std::size_t>(constraint.first_row + component)] != 0;
@@ -66,13 +83,9 @@ bool Sample<D>::determined(const Layout::Constraint& constraint) const {
 
 template <int D>
 void Sample<D>::refuse(const Layout::Constraint& constraint) const {
-  std::ostringstream what;
-  what << "The force of " << constraint.label() << " is not determined at t = " << std::setprecision(10)
-       << flat_.time
-       << ": the constraints are so close to dependent there that an error of the state, however small, "
-          "changes it; "
-          "read it at another time, or ask is_determined before";
-  throw UndeterminedForce(what.str());
+  throw UndeterminedForce("The force of " + constraint.label() + " is not determined" + at_time(flat_.time) +
+                          ": the constraints are so close to dependent there that an error of the state, "
+                          "however small, changes it; read it at another time, or ask is_determined before");
 }
 
 template <int D>
@@ -94,11 +107,92 @@ Vec<D> Sample<D>::force_of(const Layout::Constraint& constraint, Particle<D> par
   return Z;
 }
 
+/// Of all constraints that act on one coordinate.
+template <int D>
+double Sample<D>::force_on(int coordinate) const {
+  double Z = 0.0;
+  for (const int slot : layout_->touching_slots(coordinate))
+    Z += flat_.forces[static_cast<std::size_t>(slot)];
+  if (!std::isnan(Z)) return Z;
+  for (const Layout::Constraint& c : layout_->constraints) (void)force_at(c, coordinate);  // says which
+  return Z;
+}
+
 template <int D>
 Vec<D> Sample<D>::constraint_force(Particle<D> particle) const {
-  Vec<D> Z = Vec<D>::Zero();
-  for (const Layout::Constraint& constraint : layout_->constraints) Z += force_of(constraint, particle);
+  require_known(particle);
+  Vec<D> Z;
+  for (int k = 0; k < D; ++k) Z[k] = force_on(particle.coordinate + k);
   return Z;
+}
+
+template <int D>
+MomentOf<D> Sample<D>::moment(Particle<D> particle, const Vec<D>& force, const Vec<D>& about) const {
+  return cross<D>(position(particle) - about, force);
+}
+
+template <int D>
+Vec<D> Sample<D>::force_on_ground(const Layout::Constraint& constraint) const {
+  Vec<D> Z = Vec<D>::Zero();
+  for (int s = constraint.first_slot; s < constraint.first_slot + constraint.width; ++s) {
+    const auto slot = static_cast<std::size_t>(s);
+    const int coordinate = layout_->slot_coordinate[slot];
+    if (const auto* p = layout_->particle_at(coordinate)) Z[coordinate - p->coordinate] -= flat_.forces[slot];
+  }
+  if (!Z.allFinite()) refuse(constraint);
+  return Z;
+}
+
+template <int D>
+MomentOf<D> Sample<D>::moment_on_ground(const Layout::Constraint& constraint, const Vec<D>& about) const {
+  (void)force_on_ground(constraint);  // is it determined?
+  MomentOf<D> M = cross<D>(Vec<D>::Zero(), Vec<D>::Zero());
+  for (int s = constraint.first_slot; s < constraint.first_slot + constraint.width; ++s) {
+    const auto slot = static_cast<std::size_t>(s);
+    const int coordinate = layout_->slot_coordinate[slot];
+    const auto* p = layout_->particle_at(coordinate);
+    if (p == nullptr) {
+      throw InvalidArgument(
+          constraint.label() +
+          " turns a rotor, whose axis has no place in space, so that its moment on the ground "
+          "is not known; read constraint_torque of the rotor and ground_force");
+    }
+    const Vec<D> r = Eigen::Map<const Vec<D>>(flat_.q.data() + p->coordinate) - about;
+    M -= cross<D>(r, flat_.forces[slot] * Vec<D>::Unit(coordinate - p->coordinate));
+  }
+  return M;
+}
+
+template <int D>
+void Sample<D>::evaluate(Force force, int first, double mass, std::span<double> out) const {
+  layout_->require(force);
+  const auto number = static_cast<std::size_t>(force.index);
+  bool determined = false;
+  try {
+    determined = layout_->applied->on(number, instant(), flat_.lambda, first, mass, out);
+  } catch (const ElementFault& fault) {
+    throw EquationFault(layout_->forces[number].label() + ' ' + fault.what + at_time(flat_.time));
+  }
+  if (!determined)
+    throw UndeterminedForce(layout_->forces[number].label() + " is not determined" + at_time(flat_.time) +
+                            ", because the multiplier that it reads is not; read it at another time");
+}
+
+template <int D>
+Vec<D> Sample<D>::force(Force force, Particle<D> particle) const {
+  require_known(particle);
+  Vec<D> F;
+  evaluate(force, particle.coordinate, layout_->particles[static_cast<std::size_t>(particle.index)].mass,
+           {F.data(), static_cast<std::size_t>(D)});
+  return F;
+}
+
+template <int D>
+double Sample<D>::torque(Force force, Rotor rotor) const {
+  require_known(rotor);
+  double torque = 0.0;
+  evaluate(force, rotor.coordinate, 0.0, {&torque, 1});
+  return torque;
 }
 
 template class Sample<2>;

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <dalembert/core/points/handles.h>
-#include <dalembert/core/points/points.h>
+#include <dalembert/core/equations/arguments.h>
 #include <dalembert/core/results/layout.h>
 
 #include <span>
+#include <type_traits>
 
 namespace dalembert {
 
@@ -13,17 +13,30 @@ struct FlatSample {
   double time = 0.0;
   std::span<const double> q;       ///< n
   std::span<const double> v;       ///< n
+  std::span<const double> a;       ///< n; NaN where the state does not determine it
   std::span<const double> lambda;  ///< m; NaN where the state does not determine it
   std::span<const double> forces;  ///< the slots of constraint forces; likewise
   double energy = 0.0;             ///< kinetic plus all potential energies
   std::span<const char> unique{};  ///< m: is this multiplier determined? empty if all are
 };
 
+/// A moment: in the plane counter-clockwise.
+template <int D>
+using MomentOf = std::conditional_t<D == 2, double, Vec<3>>;
+
+/// What is made of particles: a RigidBody, Lamina, ThinRod, and a BodyPoint, which stands for its body.
+template <class B, int D>
+concept MadeOfParticles = requires(const B& body) {
+  { body.particles[0] } -> std::convertible_to<Particle<D>>;
+};
+
 /// One instant of a run, read by handle. A view: valid while the Trajectory or Simulation it comes
 /// from is alive and unchanged, inside an observer until it returns.
 ///
-/// Every function throws InvalidScene for a handle that is not one of this scene's, and those that give a
-/// force UndeterminedForce where `is_determined` says no.
+/// Every function throws InvalidArgument for a handle that is not one of this scene's, and those that give a
+/// force or an acceleration UndeterminedForce where `is_determined` of a constraint says no.
+///
+/// What is added here is given on in Readings.
 template <int D>
 class Sample {
  public:
@@ -32,25 +45,43 @@ class Sample {
   [[nodiscard]] double time() const { return flat_.time; }
   [[nodiscard]] double energy() const { return flat_.energy; }
 
-  /// Of a particle or a point of a body [length], [length / time].
+  /// Of any point: a particle, a point of a body, a fixed or a driven one [length], and its derivatives with
+  /// respect to time. Throws EquationFault where the path of a driven point gives a number that is not
+  /// finite.
   template <Point P>
   [[nodiscard]] Vec<D> position(const P& point) const {
     require_known(point);
-    return point.gather(flat_.q);
+    return finite<P>(dalembert::position<double>(point, flat_.time, instant(), AsNumber{}, 0));
   }
   template <Point P>
   [[nodiscard]] Vec<D> velocity(const P& point) const {
     require_known(point);
-    return point.gather(flat_.v);
+    return finite<P>(dalembert::velocity<double>(point, flat_.time, instant(), AsNumber{}, 0));
   }
-  [[nodiscard]] double angle(Rotor rotor) const;             ///< [rad]
-  [[nodiscard]] double angular_velocity(Rotor rotor) const;  ///< [rad / time]
+  template <Point P>
+  [[nodiscard]] Vec<D> acceleration(const P& point) const {
+    require_known(point);
+    if constexpr (P::inputs > 0) {
+      const Vec<D> a = point.gather(flat_.a);
+      if (!a.allFinite()) refuse_acceleration();
+      return a;
+    } else if constexpr (P::driven) {
+      using Time = Dual<1, 2>;
+      const VecOf<Time, D> path = point.path(Time::input(flat_.time, 0)).template cast<Time>();
+      return finite<P>(path.unaryExpr([](const Time& x) { return x.hessian(0, 0); }));
+    } else {
+      return Vec<D>::Zero();
+    }
+  }
+  [[nodiscard]] double angle(Rotor rotor) const;                 ///< [rad]
+  [[nodiscard]] double angular_velocity(Rotor rotor) const;      ///< [rad / time]
+  [[nodiscard]] double angular_acceleration(Rotor rotor) const;  ///< [rad / time^2]
 
   /// lambda, the multiplier: a force where the constraint's gradient has unit length, as in all of
   /// the library's own; see the constraint for its direction.
   template <int Rows>
   [[nodiscard]] Multiplier<Rows> multiplier(Constraint<Rows> constraint) const {
-    const Layout::Constraint& its = info(constraint.index, constraint.scene);
+    const Layout::Constraint& its = info(constraint);
     if (!determined(its)) refuse(its);
     const double* first = flat_.lambda.data() + its.first_row;
     if constexpr (Rows == 1) {
@@ -64,7 +95,7 @@ class Sample {
   /// constraints are dependent for an instant, round-off or the tolerance may leave nothing of it.
   template <int Rows>
   [[nodiscard]] bool is_determined(Constraint<Rows> constraint) const {
-    return determined(info(constraint.index, constraint.scene));
+    return determined(info(constraint));
   }
 
   /// Whether the motion determines this constraint's multipliers. Where constraints repeat each
@@ -81,41 +112,115 @@ class Sample {
   /// forces, while only the sum of the vertical ones is.
   template <int Rows>
   [[nodiscard]] bool is_unique(Constraint<Rows> constraint, int component) const {
-    return unique(info(constraint.index, constraint.scene), component);
+    return unique(info(constraint), component);
   }
 
   /// Z = +W^T lambda: the force that one constraint exerts on one particle [force]; zero if it does
   /// not act on it.
   template <int Rows>
   [[nodiscard]] Vec<D> constraint_force(Constraint<Rows> constraint, Particle<D> particle) const {
-    return force_of(info(constraint.index, constraint.scene), particle);
+    const Layout::Constraint& its = info(constraint);
+    require_known(particle);
+    return force_of(its, particle);
+  }
+  /// The force of all constraints together on one particle [force]. Looks at those that act on it only.
+  [[nodiscard]] Vec<D> constraint_force(Particle<D> particle) const;
+  /// The same on a body, at whatever points of it they act: the resultant. Of all constraints together, those
+  /// inside the body cancel.
+  template <int Rows, MadeOfParticles<D> Body>
+  [[nodiscard]] Vec<D> constraint_force(Constraint<Rows> constraint, const Body& body) const {
+    const Layout::Constraint& its = info(constraint);
+    return sum_over(body, [&](Particle<D> p) { return force_of(its, p); });
+  }
+  template <MadeOfParticles<D> Body>
+  [[nodiscard]] Vec<D> constraint_force(const Body& body) const {
+    return sum_over(body, [this](Particle<D> p) { return constraint_force(p); });
+  }
+  /// The moment about a point of space of what one constraint, or all of them, exert on a body
+  /// [force length].
+  template <int Rows, MadeOfParticles<D> Body>
+  [[nodiscard]] MomentOf<D> constraint_moment(Constraint<Rows> constraint, const Body& body,
+                                              const Vec<D>& about) const {
+    const Layout::Constraint& its = info(constraint);
+    return sum_over(body, [&](Particle<D> p) { return moment(p, force_of(its, p), about); });
+  }
+  template <MadeOfParticles<D> Body>
+  [[nodiscard]] MomentOf<D> constraint_moment(const Body& body, const Vec<D>& about) const {
+    return sum_over(body, [&](Particle<D> p) { return moment(p, constraint_force(p), about); });
   }
   /// The torque that one constraint exerts on one rotor [force length].
   template <int Rows>
   [[nodiscard]] double constraint_torque(Constraint<Rows> constraint, Rotor rotor) const {
+    const Layout::Constraint& its = info(constraint);
     require_known(rotor);
-    return force_at(info(constraint.index, constraint.scene), rotor.coordinate);
+    return force_at(its, rotor.coordinate);
   }
-  /// The force of all constraints together on one particle [force].
-  [[nodiscard]] Vec<D> constraint_force(Particle<D> particle) const;
 
+  /// What one constraint exerts on the ground, which is whatever holds the fixed and driven points and the
+  /// curves and surfaces of its equation: a constraint has no mass, so this balances what it exerts on
+  /// particles. Zero if it acts between particles only.
+  template <int Rows>
+  [[nodiscard]] Vec<D> ground_force(Constraint<Rows> constraint) const {
+    return force_on_ground(info(constraint));
+  }
+  /// Its moment about a point of space [force length]. Throws InvalidArgument if the constraint turns a
+  /// rotor: how the axis of that one lies in space no scene knows.
+  template <int Rows>
+  [[nodiscard]] MomentOf<D> ground_moment(Constraint<Rows> constraint, const Vec<D>& about) const {
+    return moment_on_ground(info(constraint), about);
+  }
+
+  /// What an applied force (gravity, a spring, a drag, friction) exerts on a particle, or on a body: the
+  /// resultant; zero if it does not act on it [force]. Its equation is evaluated here; throws EquationFault
+  /// if that goes wrong.
+  [[nodiscard]] Vec<D> force(Force force, Particle<D> particle) const;
+  template <MadeOfParticles<D> Body>
+  [[nodiscard]] Vec<D> force(Force applied, const Body& body) const {
+    return sum_over(body, [&](Particle<D> p) { return force(applied, p); });
+  }
+  /// What it exerts on a rotor [force length].
+  [[nodiscard]] double torque(Force force, Rotor rotor) const;
+
+  [[nodiscard]] const Layout& layout() const { return *layout_; }
   [[nodiscard]] const FlatSample& flat() const { return flat_; }
 
  private:
-  [[nodiscard]] const Layout::Constraint& info(int index, std::uint64_t scene) const;
+  [[nodiscard]] Instant instant() const { return {flat_.time, flat_.q, flat_.v}; }
+  template <int Rows>
+  [[nodiscard]] const Layout::Constraint& info(const Constraint<Rows>& constraint) const {
+    layout_->require(constraint);
+    return layout_->constraints[static_cast<std::size_t>(constraint.index)];
+  }
   template <Point P>
   void require_known(const P& point) const {
     if constexpr (requires { point.particles; }) {
       for (const auto& particle : point.particles) require_known(particle);
-    } else {
-      require_coordinate(point.scene, point.coordinate);
+    } else if constexpr (P::coordinates > 0) {
+      layout_->require(point);
     }
   }
-  void require_coordinate(std::uint64_t scene, int coordinate) const;
+  template <class Body, class F>
+  [[nodiscard]] auto sum_over(const Body& body, const F& f) const {
+    auto sum = f(Particle<D>(body.particles[0]));
+    for (std::size_t i = 1; i < std::size(body.particles); ++i) sum += f(Particle<D>(body.particles[i]));
+    return sum;
+  }
+  template <Point P>
+  [[nodiscard]] Vec<D> finite(const Vec<D>& r) const {
+    if (P::driven && !r.allFinite()) refuse_path();
+    return r;
+  }
+  [[noreturn]] void refuse_path() const;
+  [[noreturn]] void refuse_acceleration() const;
+  [[noreturn]] void refuse(const Layout::Constraint& constraint) const;
   [[nodiscard]] Vec<D> force_of(const Layout::Constraint& constraint, Particle<D> particle) const;
+  [[nodiscard]] double force_on(int coordinate) const;
+  [[nodiscard]] MomentOf<D> moment(Particle<D> particle, const Vec<D>& force, const Vec<D>& about) const;
+  [[nodiscard]] Vec<D> force_on_ground(const Layout::Constraint& constraint) const;
+  [[nodiscard]] MomentOf<D> moment_on_ground(const Layout::Constraint& constraint, const Vec<D>& about) const;
+  void evaluate(Force force, int first, double mass, std::span<double> out) const;
   [[nodiscard]] bool unique(const Layout::Constraint& constraint, int component) const;
   [[nodiscard]] bool determined(const Layout::Constraint& constraint) const;
-  [[noreturn]] void refuse(const Layout::Constraint& constraint) const;
   [[nodiscard]] double force_at(const Layout::Constraint& constraint, int coordinate) const;
 
   const Layout* layout_;

@@ -7,13 +7,13 @@ namespace dalembert {
 void Record::reserve(std::size_t samples, const FlatSample& like) {
   times.reserve(samples);
   unique.reserve(samples * like.unique.size());
-  values.reserve(samples * (2 * like.q.size() + like.lambda.size() + like.forces.size() + 1));
+  values.reserve(samples * (3 * like.q.size() + like.lambda.size() + like.forces.size() + 1));
 }
 
 void Record::append(const FlatSample& sample) {
   coordinates = sample.q.size();
   rows = sample.lambda.size();
-  for (const auto& part : {sample.q, sample.v, sample.lambda, sample.forces}) {
+  for (const auto& part : {sample.q, sample.v, sample.a, sample.lambda, sample.forces}) {
     values.insert(values.end(), part.begin(), part.end());
   }
   unique.insert(unique.end(), sample.unique.begin(), sample.unique.end());
@@ -27,32 +27,35 @@ void Record::clear() {
   unique.clear();
 }
 
+std::size_t Record::stride() const { return 3 * coordinates + rows + layout->slot_coordinate.size() + 1; }
+
 FlatSample Record::sample(std::size_t i) const {
-  const std::size_t slots = layout->slot_coordinate.size();
-  const auto one = std::span(values).subspan(i * (2 * coordinates + rows + slots + 1));
+  const std::size_t n = coordinates;
+  const auto one = std::span(values).subspan(i * stride(), stride());
   return {times[i],
-          one.first(coordinates),
-          one.subspan(coordinates, coordinates),
-          one.subspan(2 * coordinates, rows),
-          one.subspan(2 * coordinates + rows, slots),
-          one[2 * coordinates + rows + slots],
+          one.first(n),
+          one.subspan(n, n),
+          one.subspan(2 * n, n),
+          one.subspan(3 * n, rows),
+          one.subspan(3 * n + rows, layout->slot_coordinate.size()),
+          one.back(),
           unique.empty() ? std::span<const char>{} : std::span(unique).subspan(i * rows, rows)};
 }
 
 template <int D>
 Trajectory<D>::Trajectory(std::shared_ptr<const Record> record) : record_(std::move(record)) {
   if (record_->layout->dimension != D) {
-    throw InvalidScene("Scene \"" + record_->layout->scene + "\" has " +
-                       std::to_string(record_->layout->dimension) + " dimensions; read it as Trajectory<" +
-                       std::to_string(record_->layout->dimension) + ">");
+    throw InvalidArgument("Scene \"" + record_->layout->scene + "\" has " +
+                          std::to_string(record_->layout->dimension) + " dimensions; read it as Trajectory<" +
+                          std::to_string(record_->layout->dimension) + ">");
   }
 }
 
 template <int D>
 Sample<D> Trajectory<D>::sample(std::size_t i) const {
   if (i >= size()) {
-    throw InvalidScene("There is no sample " + std::to_string(i) + ": this run has " +
-                       std::to_string(size()) + ", counted from 0");
+    throw InvalidArgument("There is no sample " + std::to_string(i) + ": this run has " +
+                          std::to_string(size()) + ", counted from 0");
   }
   return {*record_->layout, record_->sample(i)};
 }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <dalembert/core/errors.h>
-#include <dalembert/core/results/sample.h>
+#include <dalembert/core/results/readings.h>
 #include <dalembert/core/results/statistics.h>
 
+#include <cstddef>
 #include <iosfwd>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <string>
@@ -18,7 +20,7 @@ struct Record {
   std::string stepper;
   double tolerance = 0.0;
   std::vector<double> times;
-  std::vector<double> values;  ///< per sample: q, v, lambda, constraint forces, energy
+  std::vector<double> values;  ///< per sample: q, v, a, lambda, constraint forces, energy
   std::vector<char> unique;    ///< per sample and row, see FlatSample; empty if all are
   Statistics statistics;
 
@@ -27,6 +29,8 @@ struct Record {
   void append(const FlatSample& sample);
   void clear();
   [[nodiscard]] FlatSample sample(std::size_t i) const;
+  /// How many of `values` each sample has.
+  [[nodiscard]] std::size_t stride() const;
 
   /// The whole run as comma-separated values, all digits, behind lines that start with '#' and say
   /// what it is: scene, stepper, tolerance, versions, sign convention, statistics. Columns: t;
@@ -40,72 +44,114 @@ struct Record {
   std::size_t coordinates = 0, rows = 0;  ///< n and m
 };
 
+/// A quantity of `Rows` numbers at all samples of a run, a column each: a view into the run.
+template <int Rows>
+using AtAllSamples = std::conditional_t<
+    Rows == 1, Eigen::Map<const Eigen::RowVectorXd, 0, Eigen::InnerStride<>>,
+    Eigen::Map<const Eigen::Matrix<double, Rows, Eigen::Dynamic>, 0, Eigen::OuterStride<>>>;
+
 /// The motion and the forces of constraint of a scene at a sequence of times. Copies are cheap and
 /// share their numbers.
+///
+///   for (const Sample<2>& now : run) std::cout << now.time() << ' ' << now.position(bob).x() << '\n';
+///   std::cout << run.positions(bob).row(0).maxCoeff();
 ///
 /// Sign convention: the force of constraint is Z = +W^T lambda and stands with the applied forces,
 /// M q'' = F + Z.
 ///
-/// Functions of a sample i throw InvalidScene if there is no such sample, and for a handle that is
-/// not one of this scene's; UndeterminedForce like those of Sample.
+/// Every function of Sample is one of a Trajectory with the number of a sample as its last argument, see
+/// Readings; it throws InvalidArgument also if there is no such sample.
 template <int D>
-class Trajectory {
+class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
  public:
+  /// Goes from sample to sample.
+  class Iterator {
+   public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = Sample<D>;
+    using difference_type = std::ptrdiff_t;
+    using pointer = void;
+    using reference = Sample<D>;
+
+    Iterator(const Record& record, std::size_t i) : record_(&record), i_(i) {}
+    Sample<D> operator*() const { return {*record_->layout, record_->sample(i_)}; }
+    Iterator& operator++() { return ++i_, *this; }
+    Iterator operator++(int) { return {*record_, i_++}; }
+    bool operator==(const Iterator&) const = default;
+
+   private:
+    const Record* record_;
+    std::size_t i_;
+  };
+
   explicit Trajectory(std::shared_ptr<const Record> record);
 
   [[nodiscard]] std::size_t size() const { return record_->times.size(); }
   [[nodiscard]] std::span<const double> times() const { return record_->times; }
   [[nodiscard]] Sample<D> sample(std::size_t i) const;
+  [[nodiscard]] Iterator begin() const { return {*record_, 0}; }
+  [[nodiscard]] Iterator end() const { return {*record_, size()}; }
   [[nodiscard]] const Statistics& statistics() const { return record_->statistics; }
 
-  /// See Sample for the meaning of these.
-  template <Point P>
-  [[nodiscard]] Vec<D> position(const P& point, std::size_t i) const {
-    return sample(i).position(point);
+  /// Of a particle at all times: D rows and a column per sample. Views, valid as long as a copy of this run
+  /// lives. NaN where a force of constraint, and so an acceleration, is not determined.
+  [[nodiscard]] AtAllSamples<D> positions(Particle<D> particle) const& { return all<D>(of(particle)); }
+  [[nodiscard]] AtAllSamples<D> velocities(Particle<D> particle) const& {
+    return all<D>(of(particle) + record_->coordinates);
   }
-  template <Point P>
-  [[nodiscard]] Vec<D> velocity(const P& point, std::size_t i) const {
-    return sample(i).velocity(point);
+  [[nodiscard]] AtAllSamples<D> accelerations(Particle<D> particle) const& {
+    return all<D>(of(particle) + 2 * record_->coordinates);
   }
-  [[nodiscard]] double angle(Rotor rotor, std::size_t i) const { return sample(i).angle(rotor); }
-  [[nodiscard]] double angular_velocity(Rotor rotor, std::size_t i) const {
-    return sample(i).angular_velocity(rotor);
+  /// The angle of a rotor and its derivatives, and the multipliers of a constraint, likewise.
+  [[nodiscard]] AtAllSamples<1> angles(Rotor rotor) const& { return all<1>(of(rotor)); }
+  [[nodiscard]] AtAllSamples<1> angular_velocities(Rotor rotor) const& {
+    return all<1>(of(rotor) + record_->coordinates);
   }
-  template <int Rows>
-  [[nodiscard]] double constraint_torque(Constraint<Rows> constraint, Rotor rotor, std::size_t i) const {
-    return sample(i).constraint_torque(constraint, rotor);
-  }
-  template <int Rows>
-  [[nodiscard]] Multiplier<Rows> multiplier(Constraint<Rows> constraint, std::size_t i) const {
-    return sample(i).multiplier(constraint);
+  [[nodiscard]] AtAllSamples<1> angular_accelerations(Rotor rotor) const& {
+    return all<1>(of(rotor) + 2 * record_->coordinates);
   }
   template <int Rows>
-  [[nodiscard]] bool is_determined(Constraint<Rows> constraint, std::size_t i) const {
-    return sample(i).is_determined(constraint);
+  [[nodiscard]] AtAllSamples<Rows> multipliers(Constraint<Rows> constraint) const& {
+    return all<Rows>(of(constraint));
   }
+  // No views into a run that is gone when they are looked at: keep the run.
+  void positions(Particle<D>) const&& = delete;
+  void velocities(Particle<D>) const&& = delete;
+  void accelerations(Particle<D>) const&& = delete;
+  void angles(Rotor) const&& = delete;
+  void angular_velocities(Rotor) const&& = delete;
+  void angular_accelerations(Rotor) const&& = delete;
   template <int Rows>
-  [[nodiscard]] bool is_unique(Constraint<Rows> constraint, std::size_t i) const {
-    return sample(i).is_unique(constraint);
-  }
-  template <int Rows>
-  [[nodiscard]] bool is_unique(Constraint<Rows> constraint, int component, std::size_t i) const {
-    return sample(i).is_unique(constraint, component);
-  }
-  template <int Rows>
-  [[nodiscard]] Vec<D> constraint_force(Constraint<Rows> constraint, Particle<D> particle,
-                                        std::size_t i) const {
-    return sample(i).constraint_force(constraint, particle);
-  }
-  [[nodiscard]] Vec<D> constraint_force(Particle<D> particle, std::size_t i) const {
-    return sample(i).constraint_force(particle);
-  }
-  [[nodiscard]] double energy(std::size_t i) const { return sample(i).energy(); }
+  void multipliers(Constraint<Rows>) const&& = delete;
 
   /// See Record.
   void write_csv(std::ostream& out) const { record_->write_csv(out); }
   void write_csv(const std::string& path) const { record_->write_csv(path); }
 
  private:
+  /// Where the numbers of something begin in each sample.
+  template <class Handle>
+  [[nodiscard]] std::size_t of(const Handle& handle) const {
+    record_->layout->require(handle);
+    if constexpr (requires { handle.coordinate; }) {
+      return static_cast<std::size_t>(handle.coordinate);
+    } else {
+      const auto& its = record_->layout->constraints[static_cast<std::size_t>(handle.index)];
+      return 3 * record_->coordinates + static_cast<std::size_t>(its.first_row);
+    }
+  }
+  template <int Rows>
+  [[nodiscard]] AtAllSamples<Rows> all(std::size_t first) const {
+    const auto stride = static_cast<Eigen::Index>(record_->stride());
+    const auto count = static_cast<Eigen::Index>(size());
+    const double* const data = count > 0 ? record_->values.data() + first : nullptr;
+    if constexpr (Rows == 1) {
+      return {data, count, Eigen::InnerStride<>(stride)};
+    } else {
+      return {data, Rows, count, Eigen::OuterStride<>(stride)};
+    }
+  }
+
   std::shared_ptr<const Record> record_;
 };
 

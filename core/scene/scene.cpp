@@ -6,13 +6,12 @@
 
 namespace dalembert {
 
-namespace {
-
-/// A number no other scene of this process has. It identifies and computes nothing.
-std::uint64_t new_identity() {
+std::uint64_t detail::Identity::next() noexcept {
   static std::atomic<std::uint64_t> last{0};
   return ++last;
 }
+
+namespace {
 
 template <int D>
 std::string text(const Vec<D>& r) {
@@ -22,13 +21,24 @@ std::string text(const Vec<D>& r) {
   return out.str();
 }
 
+void require(bool good, const auto& label, const char* what, double value, const char* rule) {
+  if (good) return;
+  std::ostringstream text;
+  text << label.text() << ": " << what << " = " << value << ", must be finite" << rule;
+  throw InvalidScene(text.str());
+}
+
 }  // namespace
 
 template <int D>
 Scene<D>::Scene(std::string name) {
   layout_.scene = std::move(name);
-  layout_.id = new_identity();
   layout_.dimension = D;
+}
+
+template <int D>
+std::string Scene<D>::Label::text() const {
+  return std::string(kind) + " \"" + std::string(name) + '"';
 }
 
 template <int D>
@@ -39,53 +49,107 @@ std::string Scene<D>::unique_name(std::string_view kind, const std::string& name
     return own;
   }
   if (names_.contains(name)) {
-    throw InvalidScene(std::string(kind) + " \"" + name + "\": this name is taken in scene \"" +
-                       layout_.scene + "\"; names must differ");
+    throw InvalidScene(Label{kind, name}.text() + ": this name is taken in scene \"" + layout_.scene +
+                       "\"; names must differ");
   }
   return name;
 }
 
 template <int D>
+int Scene<D>::find(std::string_view name, Kind kind) const {
+  constexpr const char* kinds[] = {"particle", "rotor", "constraint", "force"};
+  const auto what = [&kinds](Kind k) { return kinds[static_cast<std::size_t>(k)]; };
+  const auto found = names_.find(std::string(name));
+  if (found != names_.end() && found->second.kind == kind) return found->second.index;
+  throw InvalidArgument("Scene \"" + layout_.scene + "\" has no " + what(kind) + " \"" + std::string(name) +
+                        '"' +
+                        (found == names_.end() ? std::string("; use a name that was given when it was added")
+                                               : std::string(": that is a ") + what(found->second.kind)));
+}
+
+template <int D>
+Particle<D> Scene<D>::particle(std::string_view name) const {
+  const int index = find(name, Kind::particle);
+  const Layout::Particle& its = layout_.particles[static_cast<std::size_t>(index)];
+  return {index, its.coordinate, its.scene};
+}
+
+template <int D>
+Rotor Scene<D>::rotor(std::string_view name) const {
+  const int index = find(name, Kind::rotor);
+  const Layout::Rotor& its = layout_.rotors[static_cast<std::size_t>(index)];
+  return {index, its.coordinate, its.scene};
+}
+
+template <int D>
+Force Scene<D>::force(std::string_view name) const {
+  const int index = find(name, Kind::force);
+  return {index, layout_.forces[static_cast<std::size_t>(index)].scene};
+}
+
+template <int D>
+int Scene<D>::find_constraint(std::string_view name, int rows) const {
+  const int index = find(name, Kind::constraint);
+  const Layout::Constraint& its = layout_.constraints[static_cast<std::size_t>(index)];
+  if (its.rows == rows) return index;
+  const std::string n = std::to_string(its.rows);
+  throw InvalidArgument(its.label() + " has " + n + " equations, not " + std::to_string(rows) +
+                        ": ask for constraint<" + n + ">");
+}
+
+template <int D>
+void Scene<D>::check(const ParticleState<D>& state, const Label& label) {
+  require(std::isfinite(state.mass) && state.mass > 0.0, label, "mass", state.mass,
+          " and > 0; for a point without mass use Fixed or driven");
+  if (!state.position.allFinite())
+    throw InvalidScene(label.text() + ": position = " + text<D>(state.position) + ", must be finite");
+  if (!state.velocity.allFinite())
+    throw InvalidScene(label.text() + ": velocity = " + text<D>(state.velocity) + ", must be finite");
+}
+
+template <int D>
 Particle<D> Scene<D>::add_particle(const ParticleState<D>& state, const std::string& name) {
-  const std::size_t number = layout_.particles.size();
-  const std::string own = unique_name("particle", name, number);
-  const std::string label = "Particle \"" + own + "\": ";
-  if (!(std::isfinite(state.mass) && state.mass > 0.0)) {
-    std::ostringstream mass;
-    mass << state.mass;
-    throw InvalidScene(label + "mass = " + mass.str() +
-                       ", must be finite and > 0; for a point without mass use Fixed or driven");
-  }
-  if (!state.position.allFinite()) {
-    throw InvalidScene(label + "position = " + text<D>(state.position) + ", must be finite");
-  }
-  if (!state.velocity.allFinite()) {
-    throw InvalidScene(label + "velocity = " + text<D>(state.velocity) + ", must be finite");
-  }
-  names_.insert(own);
-  const Particle<D> particle{static_cast<int>(number), static_cast<int>(q_.size()), layout_.id};
-  layout_.particles.push_back({own, particle.coordinate, state.mass});
+  const int index = static_cast<int>(layout_.particles.size());
+  const std::string own = unique_name("particle", name, layout_.particles.size());
+  check(state, {"Particle", own});
+  const Particle<D> particle{index, static_cast<int>(q_.size()), identity_.number()};
+  names_.insert({own, {Kind::particle, index}});
+  layout_.particles.push_back({own, particle.coordinate, state.mass, particle.scene});
   q_.insert(q_.end(), state.position.begin(), state.position.end());
   v_.insert(v_.end(), state.velocity.begin(), state.velocity.end());
   masses_.insert(masses_.end(), D, state.mass);
-  extent_.extend(state.position);
   return particle;
 }
 
 template <int D>
+void Scene<D>::replace(Particle<D> particle, const ParticleState<D>& state) {
+  layout_.require(particle);
+  Layout::Particle& its = layout_.particles[static_cast<std::size_t>(particle.index)];
+  check(state, {"Particle", its.name});
+  its.mass = state.mass;
+  for (int k = 0; k < D; ++k) {
+    const auto i = static_cast<std::size_t>(particle.coordinate + k);
+    q_[i] = state.position[k];
+    v_[i] = state.velocity[k];
+    masses_[i] = state.mass;
+  }
+}
+
+template <int D>
+void Scene<D>::check(const RotorState& state, const Label& label) {
+  require(std::isfinite(state.inertia) && state.inertia > 0.0, label, "inertia", state.inertia, " and > 0");
+  require(std::isfinite(state.angle), label, "angle", state.angle, "");
+  require(std::isfinite(state.angular_velocity), label, "angular_velocity", state.angular_velocity, "");
+}
+
+template <int D>
 Rotor Scene<D>::add_rotor(const RotorState& state, const std::string& name) {
+  const int index = static_cast<int>(layout_.rotors.size());
   const std::string own = unique_name("rotor", name, layout_.rotors.size());
-  const std::string label = "Rotor \"" + own + "\": ";
-  const auto require = [&label](bool good, const char* what, double value, const char* rule) {
-    std::ostringstream text;
-    text << label << what << " = " << value << ", must be finite" << rule;
-    if (!good) throw InvalidScene(text.str());
-  };
-  require(std::isfinite(state.inertia) && state.inertia > 0.0, "inertia", state.inertia, " and > 0");
-  require(std::isfinite(state.angle), "angle", state.angle, "");
-  require(std::isfinite(state.angular_velocity), "angular_velocity", state.angular_velocity, "");
-  const Rotor rotor{static_cast<int>(layout_.rotors.size()), static_cast<int>(q_.size()), layout_.id};
-  layout_.rotors.push_back({own, rotor.coordinate, state.inertia});
+  check(state, {"Rotor", own});
+  const Rotor rotor{index, static_cast<int>(q_.size()), identity_.number()};
+  names_.insert({own, {Kind::rotor, index}});
+  layout_.rotors.push_back({own, rotor.coordinate, state.inertia, rotor.scene});
   q_.push_back(state.angle);
   v_.push_back(state.angular_velocity);
   masses_.push_back(state.inertia);
@@ -93,106 +157,100 @@ Rotor Scene<D>::add_rotor(const RotorState& state, const std::string& name) {
 }
 
 template <int D>
-void Scene<D>::add(const UniformGravity<D>& gravity) {
-  if (!gravity.acceleration.allFinite()) {
-    throw InvalidScene("UniformGravity: acceleration = " + text<D>(gravity.acceleration) +
-                       ", must be finite");
-  }
-  gravity_ += gravity.acceleration;
+void Scene<D>::replace(Rotor rotor, const RotorState& state) {
+  layout_.require(rotor);
+  Layout::Rotor& its = layout_.rotors[static_cast<std::size_t>(rotor.index)];
+  check(state, {"Rotor", its.name});
+  const auto i = static_cast<std::size_t>(rotor.coordinate);
+  its.inertia = masses_[i] = state.inertia;
+  q_[i] = state.angle;
+  v_[i] = state.angular_velocity;
 }
 
 template <int D>
-void Scene<D>::require_own(std::uint64_t scene, int coordinate, const std::string& label) const {
-  if (scene == layout_.id && coordinate >= 0 && coordinate < static_cast<int>(q_.size())) return;
-  throw InvalidScene(label + ": a particle or rotor it acts on " +
-                     (scene == 0 ? "was never added" : "belongs to another scene") +
-                     "; use the handle that add_particle or add_rotor of scene \"" + layout_.scene +
-                     "\" returned");
+void Scene<D>::check(const UniformGravity<D>& gravity) {
+  if (gravity.acceleration.allFinite()) return;
+  throw InvalidScene("UniformGravity: acceleration = " + text<D>(gravity.acceleration) + ", must be finite");
 }
 
 template <int D>
-void Scene<D>::require_constraint(std::uint64_t scene, int index, int rows, const std::string& label) const {
-  if (scene == layout_.id && index >= 0 && index < static_cast<int>(layout_.constraints.size()) &&
-      layout_.constraints[static_cast<std::size_t>(index)].rows == rows)
-    return;
-  throw InvalidScene(label + ": the constraint whose multiplier it reads " +
-                     (scene == 0 || scene == layout_.id ? "was never added" : "belongs to another scene") +
-                     "; use the handle that add of scene \"" + layout_.scene + "\" returned");
+Force Scene<D>::add(const UniformGravity<D>& gravity, const std::string& name) {
+  check(gravity);
+  const std::string own = unique_name("UniformGravity", name, gravities_.size());
+  const Force force = enter_force({no_group, gravities_.size()}, "UniformGravity", own, {});
+  gravities_.push_back({force.index, gravity});
+  return force;
 }
 
 template <int D>
-void Scene<D>::admit_fixed(const Vec<D>& fixed, const std::string& label,
-                           Eigen::AlignedBox<double, D>& extent) {
+void Scene<D>::replace(Force handle, const UniformGravity<D>& gravity) {
+  layout_.require(handle);
+  check(gravity);
+  const auto number = static_cast<std::size_t>(handle.index);
+  if (force_places_[number].group != no_group) refuse_type(layout_.forces[number].label());
+  gravities_[force_places_[number].element].second = gravity;
+}
+
+template <int D>
+void Scene<D>::refuse_point(std::uint64_t scene, const Label& label) const {
+  throw InvalidArgument(label.text() + ": a particle or rotor it acts on " +
+                        (scene == 0 ? "was never added" : "belongs to another scene") +
+                        "; use the handle that add_particle or add_rotor of scene \"" + layout_.scene +
+                        "\" returned");
+}
+
+template <int D>
+void Scene<D>::refuse_constraint(std::uint64_t scene, const Label& label) const {
+  throw InvalidArgument(
+      label.text() + ": the constraint whose multiplier it reads " +
+      (scene == 0 || scene == identity_.number() ? "was never added" : "belongs to another scene") +
+      "; use the handle that add of scene \"" + layout_.scene + "\" returned");
+}
+
+template <int D>
+void Scene<D>::refuse_type(const std::string& label) {
+  throw InvalidArgument(
+      label + ": it can be replaced only by one of its own type, on points of the same kinds, with " +
+      "other parameters; for another, build another scene");
+}
+
+template <int D>
+void Scene<D>::admit_fixed(const Vec<D>& fixed, const Label& label, Box& box) {
   if (!fixed.allFinite()) {
-    throw InvalidScene(label + ": its fixed point " + text<D>(fixed) + " must be finite");
+    throw InvalidScene(label.text() + ": its fixed point " + text<D>(fixed) + " must be finite");
   }
-  extent.extend(fixed);
+  box.extend(fixed);
 }
 
 template <int D>
-void Scene<D>::require_compliance(double compliance, const std::string& label) {
+void Scene<D>::require_compliance(double compliance, const Label& label) {
   if (std::isfinite(compliance) && compliance >= 0.0) return;
   std::ostringstream what;
-  what << label << ": compliance = " << compliance << ", must be finite and >= 0; 0 is rigid";
+  what << label.text() << ": compliance = " << compliance << ", must be finite and >= 0; 0 is rigid";
   throw InvalidScene(what.str());
 }
 
 template <int D>
-void Scene<D>::take(const std::string& name, const Eigen::AlignedBox<double, D>& extent) {
-  names_.insert(name);
-  extent_ = extent;
-}
-
-template <int D>
-ConstraintBatch& Scene<D>::begin_group(std::unique_ptr<ConstraintBatch> batch) {
-  return *constraints_.emplace_back(ConstraintGroup{std::move(batch), {}}).batch;
-}
-
-template <int D>
-int Scene<D>::enter(std::size_t group, const std::string& name) {
+int Scene<D>::enter(Place place, const std::string& name, Surroundings around) {
   const int number = static_cast<int>(layout_.constraints.size());
-  const ConstraintShape shape = constraints_[group].batch->shape();
-  layout_.constraints.push_back(
-      {std::string(shape.kind), name, shape.rows, shape.width, shape.inputs, shape.internal, 0, 0});
-  constraints_[group].numbers.push_back(number);
+  const ConstraintShape shape = constraints_[place.group].batch->shape();
+  layout_.constraints.push_back({std::string(shape.kind), name, shape.rows, shape.width, shape.inputs,
+                                 shape.internal, 0, 0, identity_.number()});
+  place.around = std::move(around);
+  constraint_places_.push_back(std::move(place));
+  names_.insert({name, {Kind::constraint, number}});
   return number;
 }
 
 template <int D>
-System Scene<D>::system() const {
-  if (q_.empty()) {
-    throw InvalidScene("Scene \"" + layout_.scene + "\" is empty: add at least one particle");
-  }
-  // A path that has no value at the start is refused there, by the constraint that needs it.
-  const auto extent = [box = extent_, paths = paths_](double t) {
-    auto with_paths = box;
-    for (const auto& path : paths) {
-      try {
-        if (const Vec<D> r = path(t); r.allFinite()) with_paths.extend(r);
-      } catch (...) {
-      }
-    }
-    return with_paths.isEmpty() ? 0.0 : with_paths.diagonal().norm();
-  };
-  SystemParts parts{layout_, masses_, std::vector<double>(q_.size(), 0.0), {}, {}, {}, {}, extent};
-  for (const auto& particle : layout_.particles) {
-    for (int k = 0; k < D; ++k) {
-      parts.constant_force[static_cast<std::size_t>(particle.coordinate + k)] = particle.mass * gravity_[k];
-    }
-  }
-  for (const auto& group : constraints_) {
-    parts.constraints.push_back(group.batch->clone());
-    parts.constraint_numbers.push_back(group.numbers);
-  }
-  for (const auto& group : forces_) {
-    parts.forces.push_back(group.batch->clone());
-    parts.force_names.push_back(group.names);
-  }
-  for (const auto& group : frictions_) {
-    parts.frictions.push_back(group.batch->clone());
-    parts.friction_names.push_back(group.names);
-  }
-  return System(std::move(parts));
+Force Scene<D>::enter_force(Place place, std::string_view kind, const std::string& name,
+                            Surroundings around) {
+  const int number = static_cast<int>(layout_.forces.size());
+  layout_.forces.push_back({std::string(kind), name, identity_.number()});
+  place.around = std::move(around);
+  force_places_.push_back(std::move(place));
+  names_.insert({name, {Kind::force, number}});
+  return {number, identity_.number()};
 }
 
 template class Scene<2>;

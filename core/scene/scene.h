@@ -4,14 +4,17 @@
 #include <dalembert/core/forces/batch_of.h>
 #include <dalembert/core/forces/forces.h>
 #include <dalembert/core/points/handles.h>
+#include <dalembert/core/results/sample.h>
 #include <dalembert/core/scene/system.h>
+#include <dalembert/core/scene/value.h>
 
 #include <Eigen/Geometry>
 
 #include <functional>
-#include <memory>
 #include <string>
-#include <unordered_set>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace dalembert {
@@ -34,19 +37,19 @@ struct RotorState {
 /// What the user says: particles, forces, and constraints, each as its equation. D is 2 or 3.
 ///
 /// Everything is checked as it is added; the initial state against the constraints when a run
-/// starts. Names are optional, must differ, and appear in errors and output. Scenes can be moved,
-/// not copied, so that a handle belongs to one scene.
+/// starts. Names are optional, must differ, and appear in errors and output.
+///
+/// A scene is a value: a copy shares nothing with its original, and the handles that the original gave out
+/// before address the same things in the copy. What either adds later is its own.
+///
+///   Scene<2> softer = scene;
+///   softer.replace(spring, Spring{a, b, 0.5 * stiffness, length});
 template <int D>
 class Scene {
  public:
   static_assert(D == 2 || D == 3);
 
   explicit Scene(std::string name = "scene");
-  Scene(const Scene&) = delete;
-  Scene(Scene&&) noexcept = default;
-  Scene& operator=(const Scene&) = delete;
-  Scene& operator=(Scene&&) noexcept = default;
-  ~Scene() = default;
 
   /// Throws InvalidScene unless mass, position and velocity are finite and the mass is positive.
   Particle<D> add_particle(const ParticleState<D>& state, const std::string& name = {});
@@ -55,58 +58,68 @@ class Scene {
   Rotor add_rotor(const RotorState& state, const std::string& name = {});
 
   /// Gravity for every particle, added before or after it.
-  void add(const UniformGravity<D>& gravity);
+  Force add(const UniformGravity<D>& gravity, const std::string& name = {});
 
-  /// Adds a constraint. Throws InvalidScene if its parameters make no sense (it says which) or a
-  /// particle of it does not belong to this scene.
-  template <HolonomicConstraint C>
+  /// Adds a constraint. Throws InvalidScene if its parameters make no sense (it says which), and
+  /// InvalidArgument if a particle of it does not belong to this scene.
+  template <detail::AnyConstraint C>
   Constraint<rows_of_constraint<C>> add(C constraint, const std::string& name = {}) {
-    static_assert(
-        detail::Equations<detail::Residual<C>>,
-        "a constraint's equation returns a number or a plain column of fixed size, vec(g_1, g_2): no "
-        "row, matrix or vector of dynamic size, and of an Eigen expression its .eval()");
-    const std::string own =
-        admit(constraint, detail::kind_of<C>("Holonomic"), name, layout_.constraints.size());
-    return place<rows_of_constraint<C>>(constraint, own);
-  }
-  template <NonholonomicConstraint C>
-  Constraint<rows_of_constraint<C>> add(C constraint, const std::string& name = {}) {
-    static_assert(
-        detail::Equations<detail::Residual<C>>,
-        "a constraint's equation returns a number or a plain column of fixed size, vec(g_1, g_2): no "
-        "row, matrix or vector of dynamic size, and of an Eigen expression its .eval()");
-    const std::string own =
-        admit(constraint, detail::kind_of<C>("Nonholonomic"), name, layout_.constraints.size());
-    return place<rows_of_constraint<C>>(constraint, own);
+    detail::require_equations<C>();
+    const std::string_view kind = detail::kind_of<C>(HolonomicConstraint<C> ? "Holonomic" : "Nonholonomic");
+    const std::string own = unique_name(kind, name, layout_.constraints.size());
+    Surroundings around = admit(constraint, {kind, own});
+    const Place place = put(constraints_, constraint, layout_.constraints.size());
+    return {enter(place, own, std::move(around)), identity_.number()};
   }
 
-  /// Adds a force; throws like a constraint.
-  template <PotentialForce E>
-  void add(E force, const std::string& name = {}) {
-    static_assert(PotentialBatch<E>::gives_what_it_should,
-                  "a potential returns its energy, one number; of an Eigen expression its .value()");
-    const std::string own = admit(force, detail::kind_of<E>("Potential"), name, force_count_);
-    place_force(forces_, force, own);
+  /// Adds a force; throws like a constraint. One that reads a multiplier throws InvalidArgument also if the
+  /// constraint of that is not one of this scene.
+  template <detail::AnyForce E>
+  Force add(E force, const std::string& name = {}) {
+    detail::require_forces<E>();
+    const std::string_view kind = detail::kind_of_force<E>();
+    const std::string own = unique_name(kind, name, layout_.forces.size() - gravities_.size());
+    Surroundings around = admit(force, {kind, own});
+    const Place place = put(batches_for<E>(), force, layout_.forces.size());
+    return enter_force(place, kind, own, std::move(around));
   }
-  template <LawForce E>
-  void add(E force, const std::string& name = {}) {
-    static_assert(LawBatch<E>::gives_what_it_should,
-                  "a force law returns one column of its point's dimension, or one for each point, "
-                  "std::tuple{f_a, f_b}; "
-                  "of an Eigen expression its .eval()");
-    const std::string own = admit(force, detail::kind_of<E>("ForceLaw"), name, force_count_);
-    place_force(forces_, force, own);
+
+  /// States a constraint or force anew: one of the same type with other parameters, or points; a lambda is of
+  /// the same type if it comes from the same line of a program, so let a function make it. Name and handle
+  /// stay. Throws as when it was added, and InvalidArgument for one of another type or a handle of another
+  /// scene; then nothing has changed.
+  template <detail::AnyConstraint C>
+  void replace(Constraint<rows_of_constraint<C>> handle, C constraint) {
+    detail::require_equations<C>();
+    layout_.require(handle);
+    const auto number = static_cast<std::size_t>(handle.index);
+    const Layout::Constraint& its = layout_.constraints[number];
+    Surroundings around = admit(constraint, {its.kind, its.name});
+    exchange(constraints_, constraint, constraint_places_[number], number, its.label(), std::move(around));
   }
-  /// Adds a force that reads a multiplier; throws also if its constraint is not one of this scene.
-  template <FrictionForce E>
-  void add(E force, const std::string& name = {}) {
-    static_assert(
-        FrictionBatch<E>::gives_what_it_should,
-        "a friction law returns one column of its point's dimension, or one for each point, std::tuple{f_a, "
-        "f_b}; "
-        "of an Eigen expression its .eval()");
-    const std::string own = admit(force, detail::kind_of<E>("Friction"), name, force_count_);
-    place_force(frictions_, force, own);
+  template <detail::AnyForce E>
+  void replace(Force handle, E force) {
+    detail::require_forces<E>();
+    layout_.require(handle);
+    const auto number = static_cast<std::size_t>(handle.index);
+    const Layout::Force& its = layout_.forces[number];
+    Surroundings around = admit(force, {its.kind, its.name});
+    exchange(batches_for<E>(), force, force_places_[number], number, its.label(), std::move(around));
+  }
+  void replace(Force handle, const UniformGravity<D>& gravity);
+  /// Another mass and another initial state.
+  void replace(Particle<D> particle, const ParticleState<D>& state);
+  void replace(Rotor rotor, const RotorState& state);
+
+  /// Handles by name. Throws InvalidArgument if nothing of the kind has it.
+  [[nodiscard]] Particle<D> particle(std::string_view name) const;
+  [[nodiscard]] Rotor rotor(std::string_view name) const;
+  [[nodiscard]] Force force(std::string_view name) const;
+  /// `constraint<2>("hinge")` for one of two equations.
+  template <int Rows = 1>
+  [[nodiscard]] Constraint<Rows> constraint(std::string_view name) const {
+    const int index = find_constraint(name, Rows);
+    return {index, layout_.constraints[static_cast<std::size_t>(index)].scene};
   }
 
   /// Everything else is a mistake, which the compiler tells.
@@ -130,20 +143,50 @@ class Scene {
   /// The equations of the scene as it is now. Throws InvalidScene if it has no particles.
   [[nodiscard]] System system() const;
 
+  /// Throws InvalidArgument unless a sample is one of this scene or of a copy, with the same particles and
+  /// rotors: its state can be a start.
+  void require_state(const Sample<D>& sample) const;
+
  private:
-  struct ConstraintGroup {
-    std::unique_ptr<ConstraintBatch> batch;
+  using Box = Eigen::AlignedBox<double, D>;
+  using Path = std::function<Vec<D>(double)>;
+
+  /// The elements of one type, and the scene's number of each.
+  template <class Batch>
+  struct Group {
+    detail::Owned<Batch> batch;
     std::vector<int> numbers;
   };
-  template <class Batch>
-  struct ForceGroup {
-    std::unique_ptr<Batch> batch;
-    std::vector<std::string> names;
+  /// The points of an element that the scene does not move: the box around those that stand still, and the
+  /// paths of the driven ones.
+  struct Surroundings {
+    Box box;
+    std::vector<Path> paths;
+  };
+  /// Where an element stands among those of its type.
+  struct Place {
+    std::size_t group = 0, element = 0;
+    Surroundings around{};
+  };
+  enum class Kind { particle, rotor, constraint, force };
+  struct Named {
+    Kind kind;
+    int index;
+  };
+  static constexpr std::size_t no_group = static_cast<std::size_t>(-1);  // of gravity
+
+  /// What an error calls an element; composed only there.
+  struct Label {
+    std::string_view kind, name;
+    [[nodiscard]] std::string text() const;
   };
 
   /// `name`, or if it is empty `kind` and the next free number; throws InvalidScene if it is taken.
   [[nodiscard]] std::string unique_name(std::string_view kind, const std::string& name,
                                         std::size_t number) const;
+  /// The number of what has this name.
+  [[nodiscard]] int find(std::string_view name, Kind kind) const;
+  [[nodiscard]] int find_constraint(std::string_view name, int rows) const;
 
   template <class E>
   static constexpr void require_points() {
@@ -153,83 +196,89 @@ class Scene {
                   "at least one point of a constraint or force must be able to move");
   }
 
-  /// Checks an element's parameters and points and returns its name. What is refused leaves no trace.
+  /// Checks an element's parameters and points. What is refused leaves no trace.
   template <class Element>
-  std::string admit(const Element& element, std::string_view kind, const std::string& name,
-                    std::size_t number) {
+  [[nodiscard]] Surroundings admit(const Element& element, const Label& label) const {
     require_points<Element>();
-    const std::string own = unique_name(kind, name, number);
-    const std::string label = std::string(kind) + " \"" + own + '"';
     if constexpr (requires { element.fault(); }) {
       const std::string fault = element.fault();
-      if (!fault.empty()) throw InvalidScene(label + ": " + fault);
+      if (!fault.empty()) throw InvalidScene(label.text() + ": " + fault);
     }
     if constexpr (HasCompliance<Element>) require_compliance(element.compliance, label);
     if constexpr (ReadsMultiplier<Element>) {
-      const auto& read = element.constraint();
-      require_constraint(read.scene, read.index, rows_read<Element>, label);
+      if (!layout_.has(element.constraint())) refuse_constraint(element.constraint().scene, label);
     }
-    Eigen::AlignedBox<double, D> extent = extent_;
-    std::apply([&](const auto&... point) { (admit_point(point, label, extent), ...); }, element.points());
-    std::apply([this](const auto&... point) { (this->remember_path(point), ...); }, element.points());
-    take(own, extent);
-    return own;
+    Surroundings around;
+    std::apply([&](const auto&... point) { (admit_point(point, label, around), ...); }, element.points());
+    return around;
   }
   template <Point P>
-  void admit_point(const P& point, const std::string& label, Eigen::AlignedBox<double, D>& extent) const {
+  void admit_point(const P& point, const Label& label, Surroundings& around) const {
     if constexpr (requires { point.particles; }) {
-      for (const auto& particle : point.particles) admit_point(particle, label, extent);
+      for (const auto& particle : point.particles) admit_point(particle, label, around);
     } else if constexpr (P::coordinates > 0) {
-      require_own(point.scene, point.coordinate, label);
-    } else if constexpr (!P::driven) {
-      admit_fixed(point.position, label, extent);
+      if (!layout_.has(point)) refuse_point(point.scene, label);
+    } else if constexpr (P::driven) {
+      around.paths.push_back(
+          [path = point.path](double t) { return Vec<D>(path(t).template cast<double>()); });
+    } else {
+      admit_fixed(point.position, label, around.box);
     }
   }
-  template <Point P>
-  void remember_path(const P& point) {
-    if constexpr (P::driven)
-      paths_.push_back([path = point.path](double t) { return Vec<D>(path(t).template cast<double>()); });
-  }
-  void require_own(std::uint64_t scene, int coordinate, const std::string& label) const;
-  void require_constraint(std::uint64_t scene, int index, int rows, const std::string& label) const;
-  static void admit_fixed(const Vec<D>& fixed, const std::string& label,
-                          Eigen::AlignedBox<double, D>& extent);
-  static void require_compliance(double compliance, const std::string& label);
-  void take(const std::string& name, const Eigen::AlignedBox<double, D>& extent);
+  [[noreturn]] void refuse_point(std::uint64_t scene, const Label& label) const;
+  [[noreturn]] void refuse_constraint(std::uint64_t scene, const Label& label) const;
+  [[noreturn]] static void refuse_type(const std::string& label);
+  static void admit_fixed(const Vec<D>& fixed, const Label& label, Box& box);
+  static void require_compliance(double compliance, const Label& label);
+  static void check(const ParticleState<D>& state, const Label& label);
+  static void check(const RotorState& state, const Label& label);
+  static void check(const UniformGravity<D>& gravity);
 
-  template <int rows, class C>
-  Constraint<rows> place(const C& constraint, const std::string& name) {
-    using Own = BatchOf<ConstraintBatch, C>;
-    std::size_t g = 0;
-    while (g < constraints_.size() && !Own::add(*constraints_[g].batch, constraint)) ++g;
-    if (g == constraints_.size()) Own::add(begin_group(Own::empty()), constraint);
-    return {enter(g, name), layout_.id};
+  template <class E>
+  auto& batches_for() {
+    if constexpr (FrictionForce<E>) {
+      return frictions_;
+    } else {
+      return forces_;
+    }
   }
-  ConstraintBatch& begin_group(std::unique_ptr<ConstraintBatch> batch);
-  /// Takes the constraint last added to a group into the layout, and returns its number.
-  int enter(std::size_t group, const std::string& name);
-
+  /// Puts an element with those of its type.
   template <class Batch, class E>
-  void place_force(std::vector<ForceGroup<Batch>>& groups, const E& force, const std::string& name) {
+  static Place put(std::vector<Group<Batch>>& groups, const E& element, std::size_t number) {
     using Own = BatchOf<Batch, E>;
-    ++force_count_;
-    for (auto& group : groups) {
-      if (Own::add(*group.batch, force)) return group.names.push_back(name);
+    std::size_t g = 0;
+    while (g < groups.size() && !Own::add(*groups[g].batch, element)) ++g;
+    if (g == groups.size()) {
+      groups.push_back({detail::Owned<Batch>(Own::empty()), {}});
+      Own::add(*groups[g].batch, element);
     }
-    groups.push_back({Own::empty(), {name}});
-    Own::add(*groups.back().batch, force);
+    groups[g].numbers.push_back(static_cast<int>(number));
+    return {g, groups[g].numbers.size() - 1};
   }
+  /// Puts another element in the place of number `number`, if it is of the same type.
+  template <class Batch, class E>
+  static void exchange(std::vector<Group<Batch>>& groups, const E& element, Place& place, std::size_t number,
+                       const std::string& label, Surroundings around) {
+    const bool among_them = place.group < groups.size() &&
+                            place.element < groups[place.group].numbers.size() &&
+                            groups[place.group].numbers[place.element] == static_cast<int>(number);
+    if (!among_them || !BatchOf<Batch, E>::replace(*groups[place.group].batch, place.element, element))
+      refuse_type(label);
+    place.around = std::move(around);
+  }
+  /// Takes the element last put into the layout.
+  int enter(Place place, const std::string& name, Surroundings around);
+  Force enter_force(Place place, std::string_view kind, const std::string& name, Surroundings around);
 
+  detail::Identity identity_;
   Layout layout_;
   std::vector<double> q_, v_, masses_;
-  Vec<D> gravity_ = Vec<D>::Zero();
-  std::vector<ConstraintGroup> constraints_;
-  std::vector<ForceGroup<ForceBatch>> forces_;
-  std::vector<ForceGroup<MultiplierForceBatch>> frictions_;
-  std::size_t force_count_ = 0;
-  std::unordered_set<std::string> names_;  // asked for membership only, never iterated
-  Eigen::AlignedBox<double, D> extent_;    // of the points that stand still and of the initial positions
-  std::vector<std::function<Vec<D>(double)>> paths_;  // of the driven points
+  std::vector<std::pair<int, UniformGravity<D>>> gravities_;  // and their numbers among the forces
+  std::vector<Group<ConstraintBatch>> constraints_;
+  std::vector<Group<ForceBatch>> forces_;
+  std::vector<Group<MultiplierForceBatch>> frictions_;
+  std::vector<Place> constraint_places_, force_places_;
+  std::unordered_map<std::string, Named> names_;  // asked for one name at a time, never iterated
 };
 
 extern template class Scene<2>;

@@ -40,6 +40,7 @@ System::System(SystemParts parts) : parts_(std::move(parts)) {
   stiffness_of_constraints_ = stiffness_pattern_.size();
   place_forces();
   place_frictions();
+  index_layout();
   layout_ = std::make_shared<const Layout>(std::move(parts_.layout));
 }
 
@@ -145,7 +146,7 @@ void System::on_forces(double t, const F& f) const {
 }
 
 std::string System::force_label(std::size_t batch, std::size_t element) const {
-  return std::string(parts_.forces[batch]->shape().kind) + " \"" + parts_.force_names[batch][element] + '"';
+  return layout_->forces[static_cast<std::size_t>(parts_.force_numbers[batch][element])].label();
 }
 
 void System::evaluate(const Instant& at, Evaluation& out) const {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <dalembert/core/equations/batch.h>
+#include <dalembert/core/results/applied_forces.h>
 #include <dalembert/core/results/layout.h>
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <span>
@@ -13,16 +15,18 @@ namespace dalembert {
 
 /// The parts a System is made of; Scene::system() fills them in.
 struct SystemParts {
-  Layout layout;                       ///< rows and slots are filled in by System
-  std::vector<double> masses;          ///< one per coordinate; a rotor's inertia
-  std::vector<double> constant_force;  ///< one per coordinate
-  std::vector<std::unique_ptr<ConstraintBatch>> constraints;
-  std::vector<std::vector<int>> constraint_numbers;  ///< per batch: the scene's number of each element
-  std::vector<std::unique_ptr<ForceBatch>> forces;
-  std::vector<std::vector<std::string>> force_names;  ///< per batch, one per element
-  std::function<double(double t)> extent;  ///< diagonal of the box around all points at the start [length]
-  std::vector<std::unique_ptr<MultiplierForceBatch>> frictions{};
-  std::vector<std::vector<std::string>> friction_names{};  ///< per batch, one per element
+  Layout layout{};                       ///< rows, slots and applied forces are filled in by System
+  std::vector<double> masses{};          ///< one per coordinate; a rotor's inertia
+  std::vector<double> constant_force{};  ///< one per coordinate
+  std::vector<std::unique_ptr<ConstraintBatch>> constraints{};
+  std::vector<std::vector<int>> constraint_numbers{};  ///< per batch: the scene's number of each element
+  // Shared with the results of a run, which evaluate forces where they are read.
+  std::vector<std::shared_ptr<const ForceBatch>> forces{};
+  std::vector<std::vector<int>> force_numbers{};
+  std::vector<std::shared_ptr<const MultiplierForceBatch>> frictions{};
+  std::vector<std::vector<int>> friction_numbers{};
+  std::vector<std::pair<int, std::array<double, 3>>> gravities{};  ///< the scene's number, acceleration
+  std::function<double(double t)> extent{};  ///< diagonal of the box around all points at the start [length]
 };
 
 /// The equations of motion of a scene as flat arrays: no dimension, no particles, no types.
@@ -177,6 +181,8 @@ class System {
   void place_constraints();
   void place_forces();
   void place_frictions();
+  /// Which slots act on each coordinate, and where each force is found.
+  void index_layout();
   void linearise_frictions(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
   [[nodiscard]] std::string friction_label(std::size_t batch, std::size_t element) const;
   [[nodiscard]] std::string friction_of_stiffness(std::size_t entry) const;

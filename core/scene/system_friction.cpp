@@ -29,8 +29,7 @@ void System::place_frictions() {
 }
 
 std::string System::friction_label(std::size_t batch, std::size_t element) const {
-  return std::string(parts_.frictions[batch]->shape().kind) + " \"" + parts_.friction_names[batch][element] +
-         '"';
+  return layout_->forces[static_cast<std::size_t>(parts_.friction_numbers[batch][element])].label();
 }
 
 template <class F>

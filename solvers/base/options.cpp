@@ -26,7 +26,7 @@ void require(bool good, const char* option, const T& value, const std::string& r
   if (good) return;
   std::ostringstream what;
   what << "Option " << option << " = " << value << ": " << rule;
-  throw InvalidScene(what.str());
+  throw InvalidArgument(what.str());
 }
 
 std::vector<double> equally_spaced(const Options& o) {
@@ -69,6 +69,13 @@ void validate(const Options& o) {
   require(std::isfinite(o.length) && o.length >= 0.0, "length", o.length,
           "must be finite and > 0, or 0 for the scene's own");
   require(o.max_steps > 0, "max_steps", o.max_steps, "must be > 0");
+}
+
+Options starting_at(double time, Options o) {
+  require(o.t_start == 0.0 || o.t_start == time, "t_start", o.t_start,
+          "leave it out, as the run starts from a sample at " + text(time));
+  o.t_start = time;
+  return o;
 }
 
 std::vector<double> sample_times(const Options& o) {

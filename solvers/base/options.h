@@ -45,9 +45,12 @@ struct Options {
   double length = 0.0;
 };
 
-/// The sample times that the options ask for. Throws InvalidScene, naming the option, its value
+/// The sample times that the options ask for. Throws InvalidArgument, naming the option, its value
 /// and its bounds, if any option makes no sense.
 [[nodiscard]] std::vector<double> sample_times(const Options& options);
+
+/// The same for a run that starts at this time. Throws InvalidArgument if they name another t_start than 0.
+[[nodiscard]] Options starting_at(double time, Options options);
 
 /// The part of that check that does not concern sampling.
 void validate(const Options& options);

@@ -79,6 +79,22 @@ void Recovery::require_agreement(const Moment& m) const {
 void Recovery::leave_forces_out(Moment& m) const {
   std::ranges::fill(m.lambda, undetermined);
   std::ranges::fill(m.forces, undetermined);
+  std::ranges::fill(m.a, undetermined);
+}
+
+/// Those that differ by as much as a force may not, relative to the largest that there is or that a force of
+/// constraint alone would give.
+void Recovery::mark_accelerations(Moment& m) const {
+  double largest = 0.0;
+  const auto& coordinates = system_->layout()->slot_coordinate;
+  for (std::size_t slot = 0; slot < coordinates.size(); ++slot) {
+    const auto i = static_cast<std::size_t>(coordinates[slot]);
+    largest = std::max(largest, std::abs(m.forces[slot]) / system_->masses()[i] * lengths_[i]);
+  }
+  for (std::size_t i = 0; i < a_.size(); ++i) largest = std::max(largest, std::abs(m.a[i]) * lengths_[i]);
+  for (std::size_t i = 0; i < a_.size(); ++i) {
+    if (std::abs(a_[i] - m.a[i]) * lengths_[i] > std::sqrt(tolerance_) * largest) m.a[i] = undetermined;
+  }
 }
 
 /// Compares with a second state, see above.
@@ -97,6 +113,7 @@ void Recovery::mark_undetermined(Manifold& manifold, Moment& m) {
     known = false;
   }
   if (!known) return leave_forces_out(m);
+  mark_accelerations(m);
   double largest = 0.0;
   const auto force = [&](std::size_t r, double lambda) {
     return std::abs(lambda) * gradient_length(*system_, w_, lengths_, r);

@@ -31,7 +31,7 @@ struct Moment {
 /// round-off. What the constraints hold least is one direction n (see Manifold::weakest_direction). A second
 /// state, as far off along n as the constraints cannot tell, shows what that does: a multiplier that differs
 /// by more than the root of the tolerance, relative to the largest force, is not determined. It is
-/// NaN here, and Sample refuses to read it.
+/// NaN here, and Sample refuses to read it. So are accelerations.
 class Recovery {
  public:
   Recovery(const System& system, const Start& start, double tolerance);
@@ -44,6 +44,7 @@ class Recovery {
   [[nodiscard]] bool moved_too_far(const Moment& m) const;
   void require_agreement(const Moment& m) const;
   void mark_undetermined(Manifold& manifold, Moment& m);
+  void mark_accelerations(Moment& m) const;
   void leave_forces_out(Moment& m) const;
 
   const System* system_;

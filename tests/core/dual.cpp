@@ -11,8 +11,11 @@
 namespace dalembert {
 namespace {
 
-using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cos, std::cosh, std::exp, std::hypot,
-    std::log, std::pow, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
+using std::abs, std::acos, std::acosh, std::asin, std::asinh, std::atan, std::atan2, std::atanh, std::cbrt,
+    std::ceil, std::copysign, std::cos, std::cosh, std::erf, std::erfc, std::exp, std::exp2, std::expm1,
+    std::fabs, std::fdim, std::floor, std::fmax, std::fmin, std::fmod, std::hypot, std::log, std::log10,
+    std::log1p, std::log2, std::max, std::min, std::pow, std::round, std::sin, std::sinh, std::sqrt, std::tan,
+    std::tanh, std::trunc;
 
 /// A function of k variables as the library sees it.
 template <int k>
@@ -83,6 +86,27 @@ TEST(Dual, EveryFunctionOfOneArgumentHasItsDerivatives) {
       {"sinh", where(0.7), [](const auto& r) { return sinh(inner(r)); }},
       {"cosh", where(0.7), [](const auto& r) { return cosh(inner(r)); }},
       {"tanh", where(0.7), [](const auto& r) { return tanh(inner(r)); }},
+      {"exp2", where(0.7), [](const auto& r) { return exp2(inner(r)); }},
+      {"expm1", where(0.7), [](const auto& r) { return expm1(inner(r)); }},
+      {"log2", where(0.7), [](const auto& r) { return log2(inner(r)); }},
+      {"log10", where(0.7), [](const auto& r) { return log10(inner(r)); }},
+      {"log1p", where(-0.4), [](const auto& r) { return log1p(inner(r)); }},
+      {"cbrt", where(0.7), [](const auto& r) { return cbrt(inner(r)); }},
+      {"cbrt of a negative", where(-0.7), [](const auto& r) { return cbrt(inner(r)); }},
+      {"asinh", where(-0.7), [](const auto& r) { return asinh(inner(r)); }},
+      {"acosh", where(1.7), [](const auto& r) { return acosh(inner(r)); }},
+      {"atanh", where(-0.4), [](const auto& r) { return atanh(inner(r)); }},
+      {"erf", where(0.7), [](const auto& r) { return erf(inner(r)); }},
+      {"erfc", where(0.7), [](const auto& r) { return erfc(inner(r)); }},
+      {"fabs", where(-0.7), [](const auto& r) { return fabs(inner(r)); }},
+      {"max with a smaller number", where(0.7), [](const auto& r) { return max(inner(r), 0.5) * inner(r); }},
+      {"max with a larger number", where(0.7), [](const auto& r) { return max(0.9, inner(r)) * inner(r); }},
+      {"min with a smaller number", where(0.7), [](const auto& r) { return min(0.5, inner(r)) * inner(r); }},
+      {"min with a larger number", where(0.7), [](const auto& r) { return min(inner(r), 0.9) * inner(r); }},
+      {"floor", where(1.7), [](const auto& r) { return floor(inner(r)) * inner(r); }},
+      {"ceil", where(1.7), [](const auto& r) { return ceil(inner(r)) * inner(r); }},
+      {"trunc", where(-1.7), [](const auto& r) { return trunc(inner(r)) * inner(r); }},
+      {"round", where(1.7), [](const auto& r) { return round(inner(r)) * inner(r); }},
       {"abs of a negative", where(-0.7), [](const auto& r) { return abs(inner(r)); }},
       {"abs of a positive", where(0.7), [](const auto& r) { return abs(inner(r)); }},
       {"minus", where(0.7), [](const auto& r) { return -sin(inner(r)); }},
@@ -109,6 +133,20 @@ TEST(Dual, EveryFunctionOfTwoArgumentsHasItsDerivatives) {
       {"pow", at, [](const auto& r) { return pow(r[0], r[1]); }},
       {"pow of a number", at, [](const auto& r) { return pow(2.0, r[1] * r[0]); }},
       {"hypot", at, [](const auto& r) { return hypot(r[0], r[0] * r[1]); }},
+      {"hypot of three", at, [](const auto& r) { return hypot(r[0], r[0] * r[1], sin(r[1])); }},
+      {"max, the first", at, [](const auto& r) { return max(sin(r[0]), sin(r[1])); }},
+      {"max, the second", at, [](const auto& r) { return max(sin(r[1]), sin(r[0])); }},
+      {"min, the first", at, [](const auto& r) { return min(sin(r[1]), sin(r[0])); }},
+      {"min, the second", at, [](const auto& r) { return min(sin(r[0]), sin(r[1])); }},
+      {"fmax", at, [](const auto& r) { return fmax(sin(r[0]), sin(r[1])); }},
+      {"fmin", at, [](const auto& r) { return fmin(sin(r[0]), sin(r[1])); }},
+      {"fdim, positive", at, [](const auto& r) { return fdim(sin(r[0]), sin(r[1])); }},
+      {"fdim, zero", at, [](const auto& r) { return fdim(sin(r[1]), sin(r[0])); }},
+      {"copysign, turned", at, [](const auto& r) { return copysign(sin(r[0]), -r[1]); }},
+      {"copysign, kept", at, [](const auto& r) { return copysign(-sin(r[0]), -r[1]); }},
+      {"copysign, positive", at, [](const auto& r) { return copysign(-sin(r[0]), r[1]); }},
+      {"fmod", at, [](const auto& r) { return fmod(sin(r[0]), 0.5 * sin(r[1])); }},
+      {"fmod of a negative", at, [](const auto& r) { return fmod(-sin(r[0]), 0.5 * sin(r[1])); }},
       {"atan2, first quadrant", at, [](const auto& r) { return atan2(r[0], r[1]); }},
       {"atan2, second quadrant", {0.7, -0.4}, [](const auto& r) { return atan2(r[0], r[1]); }},
       {"atan2, third quadrant", {-0.7, -0.4}, [](const auto& r) { return atan2(r[0], r[1]); }},
@@ -177,10 +215,48 @@ TEST(Dual, PowersAtZeroHaveTheirLimits) {
   EXPECT_TRUE(is(pow(zero, 3.0), 0.0, 0.0, 0.0));
 }
 
+TEST(Dual, SignedZerosAndTiesGoAsInStd) {
+  using S = Dual<1, 1>;
+  EXPECT_EQ(copysign(S(2.0), S(-0.0)).value, std::copysign(2.0, -0.0));
+  EXPECT_EQ(copysign(S(2.0), S(0.0)).value, 2.0);
+  // std::max and std::min return their first argument where both are equal.
+  EXPECT_EQ(max(S::input(1.0, 0), S(1.0)).gradient[0], 1.0);
+  EXPECT_EQ(max(S(1.0), S::input(1.0, 0)).gradient[0], 0.0);
+  EXPECT_EQ(min(S::input(1.0, 0), S(1.0)).gradient[0], 1.0);
+  EXPECT_EQ(min(S(1.0), S::input(1.0, 0)).gradient[0], 0.0);
+}
+
+TEST(Dual, EveryKinkAndJumpIsHeard) {
+  using S = Dual<1, 1>;
+  const auto heard = [](double x, auto f) {
+    Branches::Outcomes outcomes(1);
+    const Branches listen(outcomes);
+    (void)f(S::input(x, 0));
+    return outcomes;
+  };
+  const auto tells = [&heard](double before, double behind, auto f) {
+    return heard(before, f) != heard(behind, f) && heard(before, f) == heard(std::nextafter(before, -9.0), f);
+  };
+  EXPECT_TRUE(tells(0.9, 1.1, [](const S& x) { return max(x, 1.0); }));
+  EXPECT_TRUE(tells(0.9, 1.1, [](const S& x) { return min(x, 1.0); }));
+  EXPECT_TRUE(tells(0.9, 1.1, [](const S& x) { return fdim(x, 1.0); }));
+  EXPECT_TRUE(tells(-0.1, 0.1, [](const S& x) { return copysign(S(2.0), x); }));
+  EXPECT_TRUE(tells(-0.1, 0.1, [](const S& x) { return fabs(x); }));
+  EXPECT_TRUE(tells(0.9, 1.1, [](const S& x) { return floor(x); }));
+  EXPECT_TRUE(tells(0.9, 1.1, [](const S& x) { return ceil(x); }));
+  EXPECT_TRUE(tells(0.9, 1.1, [](const S& x) { return trunc(x); }));
+  EXPECT_TRUE(tells(0.4, 0.6, [](const S& x) { return round(x); }));
+  EXPECT_TRUE(tells(0.9, 1.1, [](const S& x) { return fmod(x, 1.0); }));
+  EXPECT_EQ(heard(0.9, [](const S& x) { return exp(x); }), heard(1.1, [](const S& x) { return exp(x); }));
+}
+
 TEST(Dual, ASingularDerivativeIsNotFinite) {
   using S = Dual<1, 2>;
   EXPECT_FALSE(isfinite(sqrt(S::input(0.0, 0))));
   EXPECT_FALSE(isfinite(log(S::input(0.0, 0))));
+  EXPECT_FALSE(isfinite(cbrt(S::input(0.0, 0))));
+  EXPECT_FALSE(isfinite(acosh(S::input(1.0, 0))));
+  EXPECT_FALSE(isfinite(atanh(S::input(1.0, 0))));
   EXPECT_FALSE(isfinite(asin(S::input(1.0, 0))));
   EXPECT_FALSE(isfinite(hypot(S::input(0.0, 0), S(0.0))));
   EXPECT_FALSE(isfinite(1.0 / S::input(0.0, 0)));

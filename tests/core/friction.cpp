@@ -104,12 +104,12 @@ TEST_F(Friction, RefusesAHandleThatIsNotOfThisScene) {
   const auto foreign = other.add(OnCurve{bead, Plane<2>{{0.0, 0.0}, {0.0, 1.0}}});
   const auto law = [](auto lambda, auto, auto v) { return (lambda * v).eval(); };
   EXPECT_THAT([&] { scene.add(friction_law(foreign, points(a), law), "rough"); },
-              ThrowsMessage<InvalidScene>(
+              ThrowsMessage<InvalidArgument>(
                   AllOf(HasSubstr("FrictionLaw \"rough\""), HasSubstr("belongs to another scene"))));
   for (const auto& never : {Constraint<1>{}, Constraint<1>{99, slope.scene}, Constraint<1>{0, pin.scene}}) {
-    EXPECT_THAT(
-        [&] { scene.add(friction_law(never, points(a), law), "rough"); },
-        ThrowsMessage<InvalidScene>(AllOf(HasSubstr("FrictionLaw \"rough\""), HasSubstr("was never added"))));
+    EXPECT_THAT([&] { scene.add(friction_law(never, points(a), law), "rough"); },
+                ThrowsMessage<InvalidArgument>(
+                    AllOf(HasSubstr("FrictionLaw \"rough\""), HasSubstr("was never added"))));
   }
   scene.add(friction_law(slope, points(a), law), "rough");  // the name is still free
 }

@@ -7,8 +7,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
+#include <limits>
 #include <sstream>
 
 namespace dalembert {
@@ -34,11 +37,12 @@ class TwoSamples : public testing::Test {
     r.tolerance = 1e-8;
     r.statistics.steps = 7;
     // Slots: the rod's force on a and b, the pin's on a.
-    const std::vector<double> q{0.1, 0.2, 1.1, 1.2}, v{0.3, 0.4, 1.3, 1.4}, lambda{5.0, 6.0, 7.0};
+    const std::vector<double> q{0.1, 0.2, 1.1, 1.2}, v{0.3, 0.4, 1.3, 1.4}, a{0.5, 0.6, 1.5, 1.6},
+        lambda{5.0, 6.0, 7.0};
     const std::vector<double> forces{1.0, 2.0, -1.0, -2.0, 6.0, 7.0};
-    r.append({0.0, q, v, lambda, forces, 42.0});
+    r.append({0.0, q, v, a, lambda, forces, 42.0});
     const std::vector<double> later{1.0 / 3.0, 0.2, 1.1, 1.2};
-    r.append({0.5, later, v, lambda, forces, 43.0});
+    r.append({0.5, later, v, a, lambda, forces, 43.0});
     return r;
   }
   Trajectory<2> run{std::make_shared<const Record>(record())};
@@ -62,20 +66,65 @@ TEST_F(TwoSamples, AreReadByHandleAndSample) {
   EXPECT_EQ(run.statistics().steps, 7);
 }
 
+/// The rod's force and with it the accelerations of b are not determined; those of a, say, are.
+TEST_F(TwoSamples, WhatIsNotDeterminedCannotBeRead) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Record r = record();
+  r.clear();
+  const std::vector<double> q{0.1, 0.2, 1.1, 1.2}, v{0.3, 0.4, 1.3, 1.4}, acceleration{0.5, 0.6, nan, 1.6};
+  const std::vector<double> lambda{nan, 6.0, 7.0}, forces{nan, nan, nan, nan, 6.0, 7.0};
+  r.append({0.5, q, v, acceleration, lambda, forces, 42.0});
+  const Trajectory<2> marked{std::make_shared<const Record>(std::move(r))};
+  EXPECT_EQ(marked.acceleration(a, 0), Vec<2>(0.5, 0.6));
+  EXPECT_EQ(marked.constraint_force(pin, a, 0), Vec<2>(6.0, 7.0));
+  EXPECT_EQ(marked.ground_force(pin, 0), Vec<2>(-6.0, -7.0));
+  const auto refused = ThrowsMessage<UndeterminedForce>(
+      AllOf(HasSubstr("\"rod\""), HasSubstr("not determined at t = 0.5"), HasSubstr("another time")));
+  EXPECT_THAT([&] { (void)marked.constraint_force(b, 0); }, refused);
+  EXPECT_THAT([&] { (void)marked.ground_force(rod, 0); }, refused);
+  EXPECT_THAT([&] { (void)marked.ground_moment(rod, {0.0, 0.0}, 0); }, refused);
+  EXPECT_THAT([&] { (void)marked.acceleration(b, 0); },
+              ThrowsMessage<UndeterminedForce>(HasSubstr("not determined at t = 0.5")));
+  EXPECT_TRUE(std::isnan(marked.accelerations(b)(0, 0)));
+  EXPECT_TRUE(std::isnan(marked.multipliers(rod)[0]));
+}
+
+TEST_F(TwoSamples, AreIteratedOver) {
+  std::vector<double> times;
+  for (const auto& now : run) times.push_back(now.time());
+  EXPECT_THAT(times, testing::ElementsAre(0.0, 0.5));
+  EXPECT_EQ(std::distance(run.begin(), run.end()), 2);
+  EXPECT_EQ((*std::next(run.begin())).position(a), run.position(a, 1));
+}
+
+TEST_F(TwoSamples, AreMatricesToo) {
+  EXPECT_EQ(run.positions(b), (Eigen::Matrix2d() << 1.1, 1.1, 1.2, 1.2).finished());
+  EXPECT_EQ(run.velocities(a), (Eigen::Matrix2d() << 0.3, 0.3, 0.4, 0.4).finished());
+  EXPECT_EQ(run.accelerations(b), (Eigen::Matrix2d() << 1.5, 1.5, 1.6, 1.6).finished());
+  EXPECT_EQ(run.multipliers(pin), (Eigen::Matrix2d() << 6.0, 6.0, 7.0, 7.0).finished());
+  EXPECT_EQ(run.multipliers(rod), Eigen::RowVector2d(5.0, 5.0));
+}
+
+/// By hand: the pin holds a with (6, 7) at (0.1, 0.2), so the ground feels (-6, -7) there.
+TEST_F(TwoSamples, TellTheMomentOnTheGround) {
+  const double expected = (0.1 - 1.0) * -7.0 - (0.2 - 2.0) * -6.0;
+  EXPECT_DOUBLE_EQ(run.ground_moment(pin, {1.0, 2.0}, 0), expected);
+}
+
 TEST_F(TwoSamples, AConstraintExertsNoForceOnAParticleItDoesNotTouch) {
   EXPECT_EQ(run.constraint_force(pin, b, 0), Vec<2>::Zero());
 }
 
 TEST_F(TwoSamples, HaveNoThird) {
   EXPECT_THAT([&] { (void)run.position(a, 2); },
-              ThrowsMessage<InvalidScene>(AllOf(HasSubstr("no sample 2"), HasSubstr("has 2"))));
+              ThrowsMessage<InvalidArgument>(AllOf(HasSubstr("no sample 2"), HasSubstr("has 2"))));
 }
 
 TEST_F(TwoSamples, RefuseAForeignHandle) {
   Scene<2> other;
   const auto foreign = other.add_particle({.mass = 1.0});
   const auto foreign_rod = other.add(Distance{Fixed<2>{}, foreign, 1.0});
-  const auto refused = ThrowsMessage<InvalidScene>(
+  const auto refused = ThrowsMessage<InvalidArgument>(
       AllOf(HasSubstr("\"dumbbell\""), HasSubstr("another scene"), HasSubstr("use the handles")));
   EXPECT_THAT([&] { (void)run.position(foreign, 0); }, refused);
   EXPECT_THAT([&] { (void)run.velocity(foreign, 0); }, refused);
@@ -86,21 +135,21 @@ TEST_F(TwoSamples, RefuseAForeignHandle) {
 }
 
 TEST_F(TwoSamples, RefuseAHandleThatWasNeverAdded) {
-  EXPECT_THROW((void)run.position(Particle<2>{}, 0), InvalidScene);
-  EXPECT_THROW((void)run.multiplier(Constraint<1>{}, 0), InvalidScene);
+  EXPECT_THROW((void)run.position(Particle<2>{}, 0), InvalidArgument);
+  EXPECT_THROW((void)run.multiplier(Constraint<1>{}, 0), InvalidArgument);
 }
 
 TEST_F(TwoSamples, RefuseAHandleAddedAfterTheRun) {
   const auto late = scene.add_particle({.mass = 1.0});
   const auto late_rod = scene.add(Distance{a, late, 1.0});
-  const auto refused = ThrowsMessage<InvalidScene>(HasSubstr("added after the run was made"));
+  const auto refused = ThrowsMessage<InvalidArgument>(HasSubstr("added after the run was made"));
   EXPECT_THAT([&] { (void)run.position(late, 0); }, refused);
   EXPECT_THAT([&] { (void)run.multiplier(late_rod, 0); }, refused);
 }
 
 TEST_F(TwoSamples, CannotBeReadInAnotherDimension) {
   EXPECT_THAT([&] { Trajectory<3>{std::make_shared<const Record>(record())}; },
-              ThrowsMessage<InvalidScene>(AllOf(HasSubstr("\"dumbbell\""), HasSubstr("Trajectory<2>"))));
+              ThrowsMessage<InvalidArgument>(AllOf(HasSubstr("\"dumbbell\""), HasSubstr("Trajectory<2>"))));
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -173,7 +222,7 @@ TEST(Trajectory, NamesWithACommaAreQuotedInCsv) {
   Record r;
   r.layout = scene.system().layout();
   const std::vector<double> two{0.0, 0.0};
-  r.append({0.0, two, two, {}, {}, 0.0});
+  r.append({0.0, two, two, two, {}, {}, 0.0});
   std::ostringstream out;
   Trajectory<2>(std::make_shared<const Record>(std::move(r))).write_csv(out);
   EXPECT_THAT(out.str(), HasSubstr("t,\"upper, left.x\",\"upper, left.y\","));
@@ -181,14 +230,14 @@ TEST(Trajectory, NamesWithACommaAreQuotedInCsv) {
 
 TEST(Record, ReservedRoomIsNotLeftWhileAppending) {
   Record r;
-  const std::vector<double> q(4), v(4), lambda(3), forces(6);
-  const FlatSample sample{0.0, q, v, lambda, forces, 0.0};
+  const std::vector<double> q(4), v(4), a(4), lambda(3), forces(6);
+  const FlatSample sample{0.0, q, v, a, lambda, forces, 0.0};
   r.reserve(10, sample);
   r.append(sample);
   const double* const first = r.values.data();
   for (int i = 1; i < 10; ++i) r.append(sample);
   EXPECT_EQ(r.values.data(), first);
-  EXPECT_EQ(r.values.size(), 10U * (4 + 4 + 3 + 6 + 1));
+  EXPECT_EQ(r.values.size(), 10U * (4 + 4 + 4 + 3 + 6 + 1));
 }
 
 }  // namespace

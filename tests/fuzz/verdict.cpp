@@ -25,7 +25,7 @@ std::string walk(Draft<D>& draft) {
   try {
     simulation.advance_to(draft.plan.options.t_start - draft.plan.time);
     return "advance_to went back in time";
-  } catch (const InvalidScene&) {
+  } catch (const InvalidArgument&) {
   }
   return {};
 }
@@ -95,10 +95,14 @@ Verdict judge_draft(Draft<D>& draft) {
     v.outcome = "InvalidScene";
     v.message = error.what();
     v.fault = unless_sensible(draft.plan, error.what());
+  } catch (const InvalidArgument& error) {
+    v.outcome = "InvalidArgument";
+    v.message = error.what();
+    v.fault = unless_sensible(draft.plan, error.what());
   } catch (const Error& error) {
     v.outcome = "Error";
     v.message = error.what();
-    v.fault = std::string("an Error that is none of the three: ") + error.what();
+    v.fault = std::string("an Error that is none of the four: ") + error.what();
   } catch (const std::exception& error) {
     v.outcome = "foreign";
     v.fault = std::string("a foreign exception, ") + typeid(error).name() + ": " + error.what();

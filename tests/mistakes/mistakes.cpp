@@ -51,6 +51,9 @@ using namespace dalembert;
 #ifdef MISTAKE_root_of_std  // call sqrt(...) without std::
   scene.add(OnCurve{bead, [](auto r) { return std::sqrt(r.dot(r)) - 1.0; }});
 #endif
+#ifdef MISTAKE_max_of_std  // call max(...) without std::
+  scene.add(potential(points(bead), [](auto r) { return std::max(r.x(), 0.0); }));
+#endif
 #ifdef MISTAKE_option  // is an option misspelled, or not in the order of solvers/options.h?
   const auto run = simulate(scene, {.t_end = 1.0, .tolerence = 1e-8});
 #endif

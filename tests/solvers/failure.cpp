@@ -137,7 +137,7 @@ TEST(Failure, TheTrajectoryKnowsItsDimension) {
   const Faulty faulty = throwing_after(1.0);
   const auto failure = failure_of([&] { (void)simulate(faulty.scene, sampled(2.0)); });
   ASSERT_TRUE(failure);
-  EXPECT_THROW((void)failure->trajectory<3>(), InvalidScene);
+  EXPECT_THROW((void)failure->trajectory<3>(), InvalidArgument);
 }
 
 TEST(Failure, StepsAreLimited) {

@@ -19,7 +19,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// That a run refuses these options, naming one and its rule.
 void expect_refused(const Options& options, const std::string& option, const std::string& rule) {
   EXPECT_THAT([&] { (void)simulate(Pendulum().scene, options); },
-              ThrowsMessage<InvalidScene>(AllOf(HasSubstr("Option " + option + " = "), HasSubstr(rule))));
+              ThrowsMessage<InvalidArgument>(AllOf(HasSubstr("Option " + option + " = "), HasSubstr(rule))));
 }
 
 TEST(Options, TheEndMustComeAfterTheStart) {

@@ -13,7 +13,8 @@ using testing::ThrowsMessage;
 /// Every number of an instant.
 std::vector<double> numbers(const FlatSample& s) {
   std::vector<double> all{s.time, s.energy};
-  for (const auto& part : {s.q, s.v, s.lambda, s.forces}) all.insert(all.end(), part.begin(), part.end());
+  for (const auto& part : {s.q, s.v, s.a, s.lambda, s.forces})
+    all.insert(all.end(), part.begin(), part.end());
   return all;
 }
 
@@ -132,7 +133,8 @@ TEST(Simulation, StepsForwardUntilItsEnd) {
     EXPECT_EQ(simulation.statistics().steps, ++steps);
   }
   EXPECT_EQ(simulation.time(), 0.5);
-  EXPECT_THAT([&] { simulation.step(); }, ThrowsMessage<IntegrationFailure>(HasSubstr("t_end is reached")));
+  EXPECT_THAT([&] { simulation.step(); },
+              ThrowsMessage<InvalidArgument>(HasSubstr("t_end = 0.5 is reached")));
   EXPECT_EQ(simulation.time(), 0.5);
 }
 
@@ -154,7 +156,7 @@ TEST(Simulation, DoesNotAdvanceBackwardsOrBeyondItsEnd) {
   simulation.advance_to(0.5);
   for (const double t : {0.4, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THAT([&] { simulation.advance_to(t); },
-                ThrowsMessage<InvalidScene>(
+                ThrowsMessage<InvalidArgument>(
                     AllOf(HasSubstr("advance_to("), HasSubstr("current time 0.5"), HasSubstr("t_end = 1"))));
   }
   EXPECT_EQ(simulation.time(), 0.5);
@@ -191,8 +193,8 @@ TEST(Simulation, ASecondRunHoldsOnlyWhatIsLeft) {
 TEST(Simulation, RefusesAForeignHandle) {
   const Pendulum pendulum, other;
   const Simulation<2> simulation(pendulum.scene, {.t_end = 1.0});
-  EXPECT_THROW((void)simulation.position(other.bob), InvalidScene);
-  EXPECT_THROW((void)simulation.multiplier(other.rod), InvalidScene);
+  EXPECT_THROW((void)simulation.position(other.bob), InvalidArgument);
+  EXPECT_THROW((void)simulation.multiplier(other.rod), InvalidArgument);
 }
 
 /// The box around the pivot and the bob is 1 m long, or what the options say; in its time gravity moves the

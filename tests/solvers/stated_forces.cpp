@@ -213,9 +213,9 @@ TEST(DoorOnTwoHinges, HaveNoFourthComponent) {
   const Door door(inertias[0], Vec<3>::UnitZ());
   const Simulation<3> at(door.scene, {.t_end = 1.0});
   for (const int component : {-1, 3}) {
-    EXPECT_THAT(
-        [&] { (void)at.sample().is_unique(door.upper, component); },
-        ThrowsMessage<InvalidScene>(AllOf(HasSubstr("Coincident \"upper\""), HasSubstr("counted from 0"))));
+    EXPECT_THAT([&] { (void)at.sample().is_unique(door.upper, component); },
+                ThrowsMessage<InvalidArgument>(
+                    AllOf(HasSubstr("Coincident \"upper\""), HasSubstr("counted from 0"))));
   }
 }
 

@@ -16,7 +16,8 @@ std::vector<double> numbers(const Trajectory<D>& run) {
   std::vector<double> all;
   for (std::size_t i = 0; i < run.size(); ++i) {
     const FlatSample s = run.sample(i).flat();
-    for (const auto part : {s.q, s.v, s.lambda, s.forces}) all.insert(all.end(), part.begin(), part.end());
+    for (const auto part : {s.q, s.v, s.a, s.lambda, s.forces})
+      all.insert(all.end(), part.begin(), part.end());
     all.push_back(s.energy);
   }
   return all;
@@ -83,6 +84,50 @@ TEST(Threads, TwoSimulationsMayReadOneScene) {
   const EachKind kinds;
   const auto run = [&kinds] { return numbers(simulate(kinds.scene, {.t_end = 1.0, .samples = 11})); };
   expect_independent(run, run);
+}
+
+/// One scene, a thousand copies with changed parameters over two threads: each gives the bits that it gives
+/// alone, and in a scene built with those parameters from the beginning.
+TEST(Threads, CopiesWithOtherParametersGiveTheBitsTheyGiveAlone) {
+  struct Swing {
+    Scene<2> scene{"swing"};
+    Particle<2> bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}}, "bob");
+    Force gravity = scene.add(UniformGravity<2>{{0.0, -9.81}});
+    Constraint<1> rod;
+    Force spring;
+    [[nodiscard]] static auto pivot(double amplitude) {
+      return driven([amplitude](auto t) { return vec(amplitude * (1.0 - cos(5.0 * t)), 0.0); });
+    }
+    explicit Swing(double k, double amplitude) {
+      rod = scene.add(Distance{pivot(amplitude), bob, 1.0}, "rod");
+      spring = scene.add(Spring{Fixed<2>{{0.0, -2.0}}, bob, k}, "spring");
+    }
+  };
+  constexpr std::size_t copies = 1000;
+  const Swing original(1.0, 0.0);
+  const auto stiffness = [](std::size_t i) { return 0.01 * static_cast<double>(i); };
+  const auto amplitude = [](std::size_t i) { return 1e-4 * static_cast<double>(i % 7); };
+  const auto run_copy = [&](std::size_t i) {
+    Scene<2> copy = original.scene;
+    copy.replace(original.rod, Distance{Swing::pivot(amplitude(i)), original.bob, 1.0});
+    copy.replace(original.spring, Spring{Fixed<2>{{0.0, -2.0}}, original.bob, stiffness(i)});
+    return numbers(
+        simulate(copy, {.t_end = 0.2, .samples = 3, .stepper = i % 2 == 0 ? Stepper::erk : Stepper::ida}));
+  };
+  std::vector<std::vector<double>> together(copies);
+  const auto every_other = [&](std::size_t first) {
+    for (std::size_t i = first; i < copies; i += 2) together[i] = run_copy(i);
+  };
+  { const std::jthread even(every_other, 0U), odd(every_other, 1U); }
+  for (std::size_t i = 0; i < copies; ++i) {
+    EXPECT_EQ(together[i], run_copy(i)) << i;
+    const Swing anew(stiffness(i), amplitude(i));
+    EXPECT_EQ(
+        together[i],
+        numbers(simulate(anew.scene,
+                         {.t_end = 0.2, .samples = 3, .stepper = i % 2 == 0 ? Stepper::erk : Stepper::ida})))
+        << i;
+  }
 }
 
 /// An error of one thread stays in it.

@@ -1,0 +1,178 @@
+#pragma once
+
+#include <dalembert/core/autodiff/branches.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dalembert {
+
+/// For equations that are evaluated with plain numbers, too: without these a number finds no max and min, and
+/// of abs perhaps C's, which is one of int.
+using std::abs, std::max, std::min;
+
+/// The functions of <cmath> for a number D that carries derivatives, each with its first and second one; see
+/// Dual::chain. They are called without std::.
+///
+/// Where a function has a kink or a jump, it tells Branches on which side of it its argument lies: abs, max,
+/// min and what is made of them, copysign, and floor, ceil, trunc, round, fmod, whose derivatives are those
+/// between their jumps. What has no derivative somewhere (sqrt at 0) gives one there that is not finite.
+///
+/// They are friends, not templates, so that numbers convert: max(x, 0.0).
+template <class D>
+struct Functions {
+  friend D sqrt(const D& a) {
+    const double f = std::sqrt(a.value);
+    return D::chain(a, f, 0.5 / f, -0.25 / (f * a.value));
+  }
+  friend D exp(const D& a) {
+    const double f = std::exp(a.value);
+    return D::chain(a, f, f, f);
+  }
+  friend D log(const D& a) {
+    const double r = 1.0 / a.value;
+    return D::chain(a, std::log(a.value), r, -r * r);
+  }
+  friend D sin(const D& a) {
+    const double s = std::sin(a.value);
+    return D::chain(a, s, std::cos(a.value), -s);
+  }
+  friend D cos(const D& a) {
+    const double c = std::cos(a.value);
+    return D::chain(a, c, -std::sin(a.value), -c);
+  }
+  friend D tan(const D& a) {
+    const double f = std::tan(a.value);
+    const double f_a = 1.0 + f * f;
+    return D::chain(a, f, f_a, 2.0 * f * f_a);
+  }
+  friend D asin(const D& a) {
+    const double f_a = 1.0 / std::sqrt(1.0 - a.value * a.value);
+    return D::chain(a, std::asin(a.value), f_a, a.value * f_a * f_a * f_a);
+  }
+  friend D acos(const D& a) {
+    const double f_a = -1.0 / std::sqrt(1.0 - a.value * a.value);
+    return D::chain(a, std::acos(a.value), f_a, a.value * f_a * f_a * f_a);
+  }
+  friend D atan(const D& a) {
+    const double f_a = 1.0 / (1.0 + a.value * a.value);
+    return D::chain(a, std::atan(a.value), f_a, -2.0 * a.value * f_a * f_a);
+  }
+  friend D sinh(const D& a) {
+    const double s = std::sinh(a.value);
+    return D::chain(a, s, std::cosh(a.value), s);
+  }
+  friend D cosh(const D& a) {
+    const double c = std::cosh(a.value);
+    return D::chain(a, c, std::sinh(a.value), c);
+  }
+  friend D tanh(const D& a) {
+    const double f = std::tanh(a.value);
+    const double f_a = 1.0 - f * f;
+    return D::chain(a, f, f_a, -2.0 * f * f_a);
+  }
+  friend D abs(const D& a) { return a < 0.0 ? -a : a; }
+  friend D abs2(const D& a) { return a * a; }
+  friend D pow(const D& a, double p) {
+    // A zero factor must win against 0^(p-2) = inf, or x^1 would be NaN at x = 0.
+    const double f_a = p == 0.0 ? 0.0 : p * std::pow(a.value, p - 1.0);
+    const double f_aa = p == 0.0 || p == 1.0 ? 0.0 : p * (p - 1.0) * std::pow(a.value, p - 2.0);
+    return D::chain(a, std::pow(a.value, p), f_a, f_aa);
+  }
+  friend D pow(const D& a, const D& b) { return exp(b * log(a)); }
+  friend D atan2(const D& y, const D& x) {
+    // Equation (2) with f = atan2: the angle's derivatives are those of Im log(x + iy).
+    const double r2 = x.value * x.value + y.value * y.value;
+    const double f_y = x.value / r2;
+    const double f_x = -y.value / r2;
+    D r(std::atan2(y.value, x.value));
+    r.gradient = f_y * y.gradient + f_x * x.gradient;
+    if constexpr (D::order == 2) {
+      const double f_xx = -2.0 * f_x * f_y;  // = -f_yy
+      const double f_xy = f_x * f_x - f_y * f_y;
+      r.hessian = f_y * y.hessian + f_x * x.hessian;
+      r.hessian += f_xx * (x.gradient * x.gradient.transpose() - y.gradient * y.gradient.transpose());
+      r.hessian += f_xy * (x.gradient * y.gradient.transpose() + y.gradient * x.gradient.transpose());
+    }
+    return r;
+  }
+  friend D hypot(const D& a, const D& b) { return sqrt(a * a + b * b); }
+  friend D exp2(const D& a) {
+    const double f = std::exp2(a.value);
+    constexpr double k = std::numbers::ln2;
+    return D::chain(a, f, k * f, k * k * f);
+  }
+  friend D expm1(const D& a) {
+    const double e = std::exp(a.value);
+    return D::chain(a, std::expm1(a.value), e, e);
+  }
+  friend D log2(const D& a) { return logarithm(a, std::log2(a.value), std::numbers::log2e); }
+  friend D log10(const D& a) { return logarithm(a, std::log10(a.value), std::numbers::log10e); }
+  friend D log1p(const D& a) {
+    const double r = 1.0 / (1.0 + a.value);
+    return D::chain(a, std::log1p(a.value), r, -r * r);
+  }
+  friend D cbrt(const D& a) {
+    const double f = std::cbrt(a.value);
+    const double f_a = 1.0 / (3.0 * f * f);
+    return D::chain(a, f, f_a, -2.0 * f_a * f_a / f);
+  }
+  friend D asinh(const D& a) {
+    const double f_a = 1.0 / std::sqrt(1.0 + a.value * a.value);
+    return D::chain(a, std::asinh(a.value), f_a, -a.value * f_a * f_a * f_a);
+  }
+  friend D acosh(const D& a) {
+    const double f_a = 1.0 / std::sqrt(a.value * a.value - 1.0);
+    return D::chain(a, std::acosh(a.value), f_a, -a.value * f_a * f_a * f_a);
+  }
+  friend D atanh(const D& a) {
+    const double f_a = 1.0 / (1.0 - a.value * a.value);
+    return D::chain(a, std::atanh(a.value), f_a, 2.0 * a.value * f_a * f_a);
+  }
+  friend D erf(const D& a) { return error_function(a, std::erf(a.value), 1.0); }
+  friend D erfc(const D& a) { return error_function(a, std::erfc(a.value), -1.0); }
+
+  friend D fabs(const D& a) { return abs(a); }
+  friend D max(const D& a, const D& b) { return a < b ? b : a; }
+  friend D min(const D& a, const D& b) { return b < a ? b : a; }
+  friend D fmax(const D& a, const D& b) { return max(a, b); }
+  friend D fmin(const D& a, const D& b) { return min(a, b); }
+  /// a - b where that is positive, else 0.
+  friend D fdim(const D& a, const D& b) { return max(a - b, D(0.0)); }
+  /// |a| with the sign of b.
+  friend D copysign(const D& a, const D& b) {
+    const D size = abs(a);
+    return b < 0.0 || (b.value == 0.0 && std::signbit(b.value)) ? -size : size;
+  }
+  friend D hypot(const D& a, const D& b, const D& c) { return sqrt(a * a + b * b + c * c); }
+
+  friend D floor(const D& a) { return piece(std::floor(a.value)); }
+  friend D ceil(const D& a) { return piece(std::ceil(a.value)); }
+  friend D trunc(const D& a) { return piece(std::trunc(a.value)); }
+  friend D round(const D& a) { return piece(std::round(a.value)); }
+  /// a - n b, n the integer part of a/b.
+  friend D fmod(const D& a, const D& b) {
+    const double f = std::fmod(a.value, b.value);
+    D r = a - piece(std::round((a.value - f) / b.value)) * b;
+    r.value = f;
+    return r;
+  }
+
+ private:
+  [[nodiscard]] static D logarithm(const D& a, double f, double of_e) {
+    const double r = 1.0 / a.value;
+    return D::chain(a, f, of_e * r, -of_e * r * r);
+  }
+  [[nodiscard]] static D error_function(const D& a, double f, double sign) {
+    const double f_a = sign * 2.0 * std::numbers::inv_sqrtpi * std::exp(-a.value * a.value);
+    return D::chain(a, f, f_a, -2.0 * a.value * f_a);
+  }
+  /// A constant, between two jumps.
+  [[nodiscard]] static D piece(double f) {
+    Branches::choose(f);
+    return D(f);
+  }
+};
+
+}  // namespace dalembert

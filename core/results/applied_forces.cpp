@@ -1,0 +1,46 @@
+#include "dalembert/core/results/applied_forces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dalembert {
+
+namespace {
+
+/// Adds up the entries that act on each coordinate from `first` on.
+void gather(std::span<const int> coordinates, std::span<const double> force, int first,
+            std::span<double> out) {
+  for (std::size_t k = 0; k < coordinates.size(); ++k) {
+    const int place = coordinates[k] - first;
+    if (place >= 0 && place < static_cast<int>(out.size())) out[static_cast<std::size_t>(place)] += force[k];
+  }
+}
+
+}  // namespace
+
+bool AppliedForces::on(std::size_t number, const Instant& at, std::span<const double> lambda, int first,
+                       double mass, std::span<double> out) const {
+  const Place& place = places_[number];
+  std::ranges::fill(out, 0.0);
+  if (place.batch != nullptr) {
+    const auto width = static_cast<std::size_t>(place.batch->shape().width);
+    std::vector<double> force(width);
+    place.batch->force(place.element, at, force);
+    gather(place.batch->coordinates().subspan(place.element * width, width), force, first, out);
+  } else if (place.friction != nullptr) {
+    const MultiplierForceShape shape = place.friction->shape();
+    const auto width = static_cast<std::size_t>(shape.width);
+    const auto read = lambda.subspan(place.first_row, static_cast<std::size_t>(shape.rows));
+    if (std::ranges::any_of(read, [](double x) { return std::isnan(x); })) return false;
+    std::vector<double> force(width);
+    // Of all first rows of the batch only that of this element is looked at.
+    const std::vector<std::size_t> first_row(place.element + 1, place.first_row);
+    place.friction->force(place.element, at, {lambda, first_row}, force);
+    gather(place.friction->coordinates().subspan(place.element * width, width), force, first, out);
+  } else {
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] = mass * place.acceleration[k];
+  }
+  return true;
+}
+
+}  // namespace dalembert

@@ -1,0 +1,23 @@
+#include "dalembert/core/results/layout.h"
+
+#include <dalembert/core/errors.h>
+
+#include <algorithm>
+
+namespace dalembert {
+
+const Layout::Particle* Layout::particle_at(int coordinate) const {
+  const auto next = std::ranges::upper_bound(particles, coordinate, {}, &Particle::coordinate);
+  if (next == particles.begin()) return nullptr;
+  const Particle& before = *(next - 1);
+  return coordinate < before.coordinate + dimension ? &before : nullptr;
+}
+
+void Layout::refuse(std::uint64_t other) const {
+  throw InvalidArgument("This handle is not one of scene \"" + scene + "\": " +
+                        (other == id && id != 0 ? "it was added after the run was made"
+                                                : "it belongs to another scene or to none") +
+                        "; use the handles that this scene returned, or before it was copied its original");
+}
+
+}  // namespace dalembert

@@ -1,0 +1,82 @@
+#include <dalembert/core/errors.h>
+#include <dalembert/core/scene/scene.h>
+
+#include <algorithm>
+#include <array>
+
+namespace dalembert {
+
+template <int D>
+void Scene<D>::require_state(const Sample<D>& sample) const {
+  const Layout& its = sample.layout();
+  const auto same = [](const auto& a, const auto& b) {
+    return a.scene == b.scene && a.coordinate == b.coordinate;
+  };
+  if (std::ranges::equal(layout_.particles, its.particles, same) &&
+      std::ranges::equal(layout_.rotors, its.rotors, same))
+    return;
+  throw InvalidArgument(
+      "Scene \"" + layout_.scene + "\" cannot start from a sample of scene \"" + its.scene +
+      "\": its particles and rotors are others; take a sample of a run of this scene or of a copy");
+}
+
+template <int D>
+System Scene<D>::system() const {
+  if (q_.empty()) {
+    throw InvalidScene("Scene \"" + layout_.scene + "\" is empty: add at least one particle");
+  }
+  Box box;
+  std::vector<Path> paths;
+  for (const auto* places : {&constraint_places_, &force_places_}) {
+    for (const Place& place : *places) {
+      box.extend(place.around.box);
+      paths.insert(paths.end(), place.around.paths.begin(), place.around.paths.end());
+    }
+  }
+  for (const auto& p : layout_.particles) box.extend(Eigen::Map<const Vec<D>>(q_.data() + p.coordinate));
+  // A path that has no value at the start is refused there, by the constraint that needs it.
+  const auto extent = [box, paths = std::move(paths)](double t) {
+    auto with_paths = box;
+    for (const auto& path : paths) {
+      try {
+        if (const Vec<D> r = path(t); r.allFinite()) with_paths.extend(r);
+      } catch (...) {
+      }
+    }
+    return with_paths.isEmpty() ? 0.0 : with_paths.diagonal().norm();
+  };
+  SystemParts parts{.layout = layout_, .masses = masses_, .extent = extent};
+  parts.layout.id = identity_.number();
+  Vec<D> together = Vec<D>::Zero();
+  for (const auto& [number, gravity] : gravities_) {
+    together += gravity.acceleration;
+    std::array<double, 3> g{};
+    std::ranges::copy(gravity.acceleration, g.begin());
+    parts.gravities.push_back({number, g});
+  }
+  parts.constant_force.resize(q_.size());
+  for (const auto& particle : layout_.particles) {
+    for (int k = 0; k < D; ++k)
+      parts.constant_force[static_cast<std::size_t>(particle.coordinate + k)] = particle.mass * together[k];
+  }
+  for (const auto& group : constraints_) {
+    parts.constraints.push_back(group.batch->clone());
+    parts.constraint_numbers.push_back(group.numbers);
+  }
+  for (const auto& group : forces_) {
+    parts.forces.push_back(group.batch->clone());
+    parts.force_numbers.push_back(group.numbers);
+  }
+  for (const auto& group : frictions_) {
+    parts.frictions.push_back(group.batch->clone());
+    parts.friction_numbers.push_back(group.numbers);
+  }
+  return System(std::move(parts));
+}
+
+template void Scene<2>::require_state(const Sample<2>&) const;
+template void Scene<3>::require_state(const Sample<3>&) const;
+template System Scene<2>::system() const;
+template System Scene<3>::system() const;
+
+}  // namespace dalembert
