@@ -12,6 +12,7 @@
 #include <dalembert/core/scene/scene.h>
 /// constraints, and the bodies that they hold together;
 #include <dalembert/constraints/bodies/lamina.h>
+#include <dalembert/constraints/bodies/motion.h>
 #include <dalembert/constraints/bodies/rigid_body.h>
 #include <dalembert/constraints/bodies/thin_rod.h>
 #include <dalembert/constraints/coincident.h>

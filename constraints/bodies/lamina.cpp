@@ -2,6 +2,7 @@
 
 #include <dalembert/constraints/bodies/equimomental.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <cmath>
@@ -32,16 +33,32 @@ BodyPoint<3, 3> Lamina::point(const Vec<2>& local) const {
   return p;
 }
 
+BodyPoint<3, 3> Lamina::vector(const Vec<2>& local) const {
+  BodyPoint<3, 3> v = point(local);
+  v.L -= centre().L;
+  return v;
+}
+
+Eigen::Matrix3d Lamina::axes(const Sample<3>& sample) const {
+  const double far = arms.norm();  // as far as particles, for small round-off
+  const Vec<3> x = sample.position(vector({far, 0.0})) / far, y = sample.position(vector({0.0, far})) / far;
+  Eigen::Matrix3d axes;
+  axes << x, y, x.cross(y);
+  return axes;
+}
+
 Lamina add_lamina(Scene<3>& scene, const LaminaState& s, const std::string& name) {
   check(s, name);
   Lamina lamina{.particles = {},
                 .rods = {},
-                .arms = {std::sqrt(s.inertia.y() / s.mass), std::sqrt(s.inertia.x() / s.mass)}};
+                .arms = {std::sqrt(s.inertia.y() / s.mass), std::sqrt(s.inertia.x() / s.mass)},
+                .masses = {}};
   const Equimomental<2> set(lamina.arms);
   std::array<Vec<3>, 3> arm;
   for (std::size_t i = 0; i < 3; ++i) {
     arm[i] = s.axes.leftCols<2>() * set.place(static_cast<int>(i));
-    lamina.particles[i] = scene.add_particle({.mass = s.mass * set.share(static_cast<int>(i)),
+    lamina.masses[i] = s.mass * set.share(static_cast<int>(i));
+    lamina.particles[i] = scene.add_particle({.mass = lamina.masses[i],
                                               .position = s.centre + arm[i],
                                               .velocity = s.velocity + s.angular_velocity.cross(arm[i])},
                                              name + ".p" + std::to_string(i + 1));

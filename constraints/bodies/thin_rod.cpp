@@ -36,10 +36,10 @@ ThinRod<D> add_thin_rod(Scene<D>& scene, const ThinRodState<D>& s, const std::st
     throw InvalidScene("Rod \"" + name +
                        "\": its ends must be finite and different; a rod of no length is a particle");
   }
-  ThinRod<D> rod{.particles = {}, .distance = {}, .length = length};
+  ThinRod<D> rod{.particles = {}, .distance = {}, .length = length, .masses = {0.5 * s.mass, 0.5 * s.mass}};
   for (std::size_t i = 0; i < 2; ++i) {
     const double fraction = i == 0 ? 0.5 - arm : 0.5 + arm;
-    rod.particles[i] = scene.add_particle({.mass = 0.5 * s.mass,
+    rod.particles[i] = scene.add_particle({.mass = rod.masses[i],
                                            .position = between(s.start, s.end, fraction),
                                            .velocity = between(s.start_velocity, s.end_velocity, fraction)},
                                           name + ".p" + std::to_string(i + 1));

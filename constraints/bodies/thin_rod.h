@@ -30,8 +30,9 @@ struct ThinRodState {
 template <int D>
 struct ThinRod {
   std::array<Particle<D>, 2> particles;
-  Constraint<1> distance;  ///< between the particles
-  double length;           ///< from start to end
+  Constraint<1> distance;          ///< between the particles
+  double length;                   ///< from start to end
+  std::array<double, 2> masses{};  ///< of the particles
 
   /// The point at a fraction of the way from start (0) to end (1).
   [[nodiscard]] BodyPoint<D, 2> point(double fraction) const;
