@@ -12,6 +12,7 @@
 #include <dalembert/core/scene/scene.h>
 /// constraints, and the bodies that they hold together;
 #include <dalembert/constraints/bodies/lamina.h>
+#include <dalembert/constraints/bodies/motion.h>
 #include <dalembert/constraints/bodies/rigid_body.h>
 #include <dalembert/constraints/bodies/thin_rod.h>
 #include <dalembert/constraints/coincident.h>
@@ -22,6 +23,19 @@
 #include <dalembert/constraints/heading.h>
 #include <dalembert/constraints/holonomic.h>
 #include <dalembert/constraints/in_plane.h>
+#include <dalembert/constraints/joints/cylindrical.h>
+#include <dalembert/constraints/joints/drives.h>
+#include <dalembert/constraints/joints/gear.h>
+#include <dalembert/constraints/joints/joint.h>
+#include <dalembert/constraints/joints/planar.h>
+#include <dalembert/constraints/joints/prismatic.h>
+#include <dalembert/constraints/joints/rack_and_pinion.h>
+#include <dalembert/constraints/joints/revolute.h>
+#include <dalembert/constraints/joints/screw.h>
+#include <dalembert/constraints/joints/torsion.h>
+#include <dalembert/constraints/joints/universal.h>
+#include <dalembert/constraints/joints/weld.h>
+#include <dalembert/constraints/joints/winding.h>
 #include <dalembert/constraints/line_offset.h>
 #include <dalembert/constraints/nonholonomic.h>
 #include <dalembert/constraints/on_curve.h>

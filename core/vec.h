@@ -23,4 +23,16 @@ template <class... S>
   return VecOf<T, static_cast<int>(sizeof...(S))>{T(component)...};
 }
 
+/// A moment or a turning: in the plane a number, counter-clockwise; in space a vector.
+template <int D>
+using MomentOf = std::conditional_t<D == 2, double, Vec<3>>;
+
+namespace detail {
+/// r x F.
+[[nodiscard]] inline double moment(const Vec<2>& r, const Vec<2>& F) { return r.x() * F.y() - r.y() * F.x(); }
+[[nodiscard]] inline Vec<3> moment(const Vec<3>& r, const Vec<3>& F) {
+  return {r.y() * F.z() - r.z() * F.y(), r.z() * F.x() - r.x() * F.z(), r.x() * F.y() - r.y() * F.x()};
+}
+}  // namespace detail
+
 }  // namespace dalembert

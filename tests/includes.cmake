@@ -5,7 +5,7 @@
 # solvers' own.
 
 set(rooms core core/autodiff core/points core/equations core/forces core/results core/scene core/analysis
-          constraints/geometry constraints constraints/bodies
+          constraints/geometry constraints constraints/bodies constraints/joints
           solvers/base solvers/linear solvers/manifold solvers/run solvers/ida solvers/erk solvers)
 set(public "solvers/base/options|solvers/integrator|solvers/simulation")
 set(theirs "(sundials|ida|nvector|sunlinsol|sunmatrix|sunnonlinsol)/|(suitesparse/)?(klu|amd|colamd|btf|ldl)\\.h")

@@ -2,6 +2,7 @@
 
 #include <dalembert/constraints/bodies/equimomental.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <cmath>
@@ -30,6 +31,20 @@ BodyPoint<3, 3> Lamina::point(const Vec<2>& local) const {
   BodyPoint<3, 3> p{particles, {}};
   for (int i = 0; i < 3; ++i) p.L.middleCols<3>(3 * i) = w[i] * Eigen::Matrix3d::Identity();
   return p;
+}
+
+BodyPoint<3, 3> Lamina::vector(const Vec<2>& local) const {
+  BodyPoint<3, 3> v = point(local);
+  v.L -= centre().L;
+  return v;
+}
+
+Eigen::Matrix3d Lamina::axes(const Sample<3>& sample) const {
+  const double far = arms.norm();  // as far as particles, for small round-off
+  const Vec<3> x = sample.position(vector({far, 0.0})) / far, y = sample.position(vector({0.0, far})) / far;
+  Eigen::Matrix3d axes;
+  axes << x, y, x.cross(y);
+  return axes;
 }
 
 Lamina add_lamina(Scene<3>& scene, const LaminaState& s, const std::string& name) {

@@ -2,6 +2,7 @@
 
 #include <dalembert/constraints/bodies/body_rod.h>
 #include <dalembert/core/points/body_point.h>
+#include <dalembert/core/results/sample.h>
 #include <dalembert/core/scene/scene.h>
 
 #include <array>
@@ -33,6 +34,11 @@ struct Lamina {
   /// The point of the plane at coordinates `local` from the centre of mass along the body's axes.
   [[nodiscard]] BodyPoint<3, 3> point(const Vec<2>& local) const;
   [[nodiscard]] BodyPoint<3, 3> centre() const { return point(Vec<2>::Zero()); }
+  /// A vector in its plane that turns with it; see RigidBody::vector.
+  [[nodiscard]] BodyPoint<3, 3> vector(const Vec<2>& local) const;
+
+  /// Columns: its two axes in the plane, then the normal.
+  [[nodiscard]] Eigen::Matrix3d axes(const Sample<3>& sample) const;
 };
 
 /// Adds a lamina to a scene; its particles and rods are named after it. Throws InvalidScene if mass

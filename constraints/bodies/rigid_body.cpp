@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace dalembert {
@@ -84,8 +85,30 @@ BodyPoint<D> RigidBody<D>::point(const Vec<D>& local) const {
 }
 
 template <int D>
-Eigen::Matrix<double, D, D> RigidBody<D>::axes(const Sample<D>& sample) const {
-  Eigen::Matrix<double, D, D> axes;
+BodyPoint<D> RigidBody<D>::vector(const Vec<D>& local) const {
+  BodyPoint<D> v = point(local);
+  v.L -= centre().L;
+  return v;
+}
+
+template <int D>
+double RigidBody<D>::mass() const {
+  return std::accumulate(masses.begin(), masses.end(), 0.0);
+}
+
+template <int D>
+typename RigidBody<D>::Inertia RigidBody<D>::inertia() const {
+  if constexpr (D == 2) {
+    return mass() * arms.x() * arms.x();
+  } else {
+    const Vec<3> second_moments = arms.cwiseAbs2();
+    return mass() * (Vec<3>::Constant(second_moments.sum()) - second_moments);
+  }
+}
+
+template <int D>
+typename RigidBody<D>::Axes RigidBody<D>::axes(const Sample<D>& sample) const {
+  Axes axes;
   const Vec<D> origin = sample.position(centre());
   // Points as far from the centre as particles keep round-off small whatever the size of the body.
   const double far = arms.norm();
@@ -102,12 +125,16 @@ RigidBody<D> add_body(Scene<D>& scene, const BodyState<D>& state, const std::str
           name, "axes must be right-handed and of unit length");
   RigidBody<D> body;
   body.arms = arms_of(state, name);
+  body.stated_centre = state.centre;
+  body.stated_axes = axes;
   const Particles<D> set(body.arms);
   for (int i = 0; i < RigidBody<D>::particle_count; ++i) {
     const Vec<D> arm = axes * set.place.col(i);
-    body.particles[static_cast<std::size_t>(i)] = scene.add_particle(
-        {set.share[i] * state.mass, state.centre + arm, state.velocity + turning(state, arm)},
-        name + ".p" + std::to_string(i + 1));
+    const double mass = set.share[i] * state.mass;
+    body.masses[static_cast<std::size_t>(i)] = mass;
+    body.particles[static_cast<std::size_t>(i)] =
+        scene.add_particle({mass, state.centre + arm, state.velocity + turning(state, arm)},
+                           name + ".p" + std::to_string(i + 1));
   }
   std::size_t rod = 0;
   for (int i = 0; i < RigidBody<D>::particle_count; ++i) {

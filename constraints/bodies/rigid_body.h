@@ -42,21 +42,44 @@ struct BodyState<3> {
 /// In the plane, two particles of half the mass at centre -+ rho e, rho^2 = inertia/mass, e the
 /// body's first axis. In space, the four of Equimomental, which are as far from each other in a slender
 /// body or a plate as in any other; m a^2 = (I_2 + I_3 - I_1)/2 and so on.
+///
+/// How it moves, its energy and momentum are read by the functions of motion.h.
 template <int D>
 struct RigidBody {
+  static constexpr int dimension = D;
   static constexpr int particle_count = BodyPoint<D>::count;
   static constexpr int rod_count = D == 2 ? 1 : 6;
+  using Axes = Eigen::Matrix<double, D, D>;
+  using Inertia = decltype(BodyState<D>::inertia);
 
   std::array<Particle<D>, static_cast<std::size_t>(particle_count)> particles;
   std::array<Constraint<1>, static_cast<std::size_t>(rod_count)> rods;
   Vec<D> arms;  ///< (rho, rho) or (a, b, c): roots of the second moments over the mass
+  std::array<double, static_cast<std::size_t>(particle_count)> masses{};  ///< of the particles
+  Vec<D> stated_centre = Vec<D>::Zero();                                  ///< where it was added, and how:
+  Axes stated_axes = Axes::Identity();                                    ///< columns
+
+  [[nodiscard]] double mass() const;
+  /// About the centre of mass; in space the principal moments, as BodyState has them.
+  [[nodiscard]] Inertia inertia() const;
 
   /// The point at coordinates `local` from the centre of mass along the body's axes.
   [[nodiscard]] BodyPoint<D> point(const Vec<D>& local) const;
   [[nodiscard]] BodyPoint<D> centre() const { return point(Vec<D>::Zero()); }
+  /// A vector that turns with the body, components `local` along its axes: its `position` is the vector
+  /// itself, its `velocity` the vector's rate. In an equation it stands like a point of the body.
+  [[nodiscard]] BodyPoint<D> vector(const Vec<D>& local) const;
+
+  /// The same, given by where they were in space when the body was added.
+  [[nodiscard]] BodyPoint<D> point_at(const Vec<D>& place) const {
+    return point(stated_axes.transpose() * (place - stated_centre));
+  }
+  [[nodiscard]] BodyPoint<D> vector_along(const Vec<D>& direction) const {
+    return vector(stated_axes.transpose() * direction);
+  }
 
   /// Columns: the body's axes. In the plane the first is (cos angle, sin angle).
-  [[nodiscard]] Eigen::Matrix<double, D, D> axes(const Sample<D>& sample) const;
+  [[nodiscard]] Axes axes(const Sample<D>& sample) const;
 };
 
 /// Adds a rigid body to a scene; its particles and rods are named after it. Throws InvalidScene if

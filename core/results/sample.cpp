@@ -3,8 +3,6 @@
 #include <dalembert/core/errors.h>
 #include <dalembert/core/results/applied_forces.h>
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -13,15 +11,6 @@
 namespace dalembert {
 
 namespace {
-
-template <int D>
-MomentOf<D> cross(const Vec<D>& r, const Vec<D>& force) {
-  if constexpr (D == 2) {
-    return r.x() * force.y() - r.y() * force.x();
-  } else {
-    return r.cross(force);
-  }
-}
 
 std::string at_time(double t) {
   std::ostringstream out;
@@ -128,7 +117,7 @@ Vec<D> Sample<D>::constraint_force(Particle<D> particle) const {
 
 template <int D>
 MomentOf<D> Sample<D>::moment(Particle<D> particle, const Vec<D>& force, const Vec<D>& about) const {
-  return cross<D>(position(particle) - about, force);
+  return detail::moment(Vec<D>(position(particle) - about), force);
 }
 
 template <int D>
@@ -146,7 +135,8 @@ Vec<D> Sample<D>::force_on_ground(const Layout::Constraint& constraint) const {
 template <int D>
 MomentOf<D> Sample<D>::moment_on_ground(const Layout::Constraint& constraint, const Vec<D>& about) const {
   (void)force_on_ground(constraint);  // is it determined?
-  MomentOf<D> M = cross<D>(Vec<D>::Zero(), Vec<D>::Zero());
+  const Vec<D> zero = Vec<D>::Zero();
+  MomentOf<D> M = detail::moment(zero, zero);
   for (int s = constraint.first_slot; s < constraint.first_slot + constraint.width; ++s) {
     const auto slot = static_cast<std::size_t>(s);
     const int coordinate = layout_->slot_coordinate[slot];
@@ -158,7 +148,7 @@ MomentOf<D> Sample<D>::moment_on_ground(const Layout::Constraint& constraint, co
           "is not known; read constraint_torque of the rotor and ground_force");
     }
     const Vec<D> r = Eigen::Map<const Vec<D>>(flat_.q.data() + p->coordinate) - about;
-    M -= cross<D>(r, flat_.forces[slot] * Vec<D>::Unit(coordinate - p->coordinate));
+    M -= detail::moment(r, Vec<D>(flat_.forces[slot] * Vec<D>::Unit(coordinate - p->coordinate)));
   }
   return M;
 }

@@ -3,6 +3,7 @@
 #include <dalembert/core/equations/arguments.h>
 #include <dalembert/core/results/layout.h>
 
+#include <array>
 #include <span>
 #include <type_traits>
 
@@ -20,14 +21,12 @@ struct FlatSample {
   std::span<const char> unique{};  ///< m: is this multiplier determined? empty if all are
 };
 
-/// A moment: in the plane counter-clockwise.
-template <int D>
-using MomentOf = std::conditional_t<D == 2, double, Vec<3>>;
-
 /// What is made of particles: a RigidBody, Lamina, ThinRod, and a BodyPoint, which stands for its body.
 template <class B, int D>
 concept MadeOfParticles = requires(const B& body) {
   { body.particles[0] } -> std::convertible_to<Particle<D>>;
+  requires std::tuple_size_v<std::remove_cvref_t<decltype(body.particles)>> >
+  0;
 };
 
 /// One instant of a run, read by handle. A view: valid while the Trajectory or Simulation it comes

@@ -22,6 +22,20 @@ static_assert(HolonomicConstraint<OnCurve<Particle<2>, Sphere<2>>>);
 static_assert(HolonomicConstraint<OnSurface<Particle<3>, Cone>>);
 static_assert(HolonomicConstraint<OnSurface<Particle<3>, Plane<3>>>);
 
+using Hinge = Revolute<Ground<3>, RigidBody<3>>;
+static_assert(rows_of_constraint<Hinge> == 5 && rows_of_constraint<Revolute<Ground<2>, RigidBody<2>>> == 2);
+static_assert(rows_of_constraint<Weld<RigidBody<3>, RigidBody<3>>> == 6);
+static_assert(rows_of_constraint<Prismatic<RigidBody<3>, Ground<3>>> == 5);
+static_assert(rows_of_constraint<Cylindrical<Ground<3>, RigidBody<3>>> == 4);
+static_assert(rows_of_constraint<Universal<Ground<3>, RigidBody<3>>> == 4);
+static_assert(rows_of_constraint<Planar<Ground<3>, RigidBody<3>>> == 3);
+static_assert(rows_of_constraint<Screw<Ground<3>, RigidBody<3>>> == 5);
+static_assert(rows_of_constraint<Gear<RigidBody<2>, RigidBody<2>>> == 1);
+static_assert(rows_of_constraint<RackAndPinion<RigidBody<3>, RigidBody<3>>> == 1);
+static_assert(HolonomicConstraint<Winding<Ground<3>, RigidBody<3>>>);
+static_assert(PotentialForce<TorsionSpring<Ground<3>, RigidBody<3>>>);
+static_assert(LawForce<TorsionDamper<Ground<3>, RigidBody<3>>>);
+
 static_assert(NonholonomicConstraint<DiskRolling<Particle<3>, Particle<3>, Particle<3>>>);
 static_assert(NonholonomicConstraint<Heading<Particle<2>, Particle<2>, Fixed<2>>>);
 static_assert(NonholonomicConstraint<Pursuit<Particle<2>, Fixed<2>>>);

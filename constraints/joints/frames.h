@@ -1,0 +1,195 @@
+#pragma once
+
+#include <dalembert/constraints/bodies/rigid_body.h>
+#include <dalembert/core/equations/constraint.h>
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <string>
+
+/// What all joints have in common: how two bodies carry the frame of a joint.
+namespace dalembert {
+
+/// What stands still, as a body of a joint: `Revolute{Ground<3>{}, door, point, axis}`.
+template <int D>
+struct Ground {
+  static constexpr int dimension = D;
+};
+
+/// A vector that never turns; in an equation it stands beside those of bodies. It is no place, so it does
+/// not count as one where the scene is measured: unlike Fixed it is made of (no) particles.
+template <int D>
+struct FixedVector {
+  static constexpr int dimension = D;
+  static constexpr int inputs = 0;
+  static constexpr int coordinates = 0;
+  static constexpr bool driven = false;
+  static constexpr std::array<Particle<D>, 0> particles{};
+
+  Vec<D> position = Vec<D>::Zero();
+};
+
+/// The frame of a joint as one body carries it (a marker): its point, and its axes as vectors.
+template <class Body>
+struct JointFrame;
+
+template <int D>
+struct JointFrame<RigidBody<D>> {
+  BodyPoint<D> origin;
+  std::array<BodyPoint<D>, static_cast<std::size_t>(D)> axes;
+
+  static JointFrame at(const RigidBody<D>& body, const Vec<D>& place,
+                       const Eigen::Matrix<double, D, D>& axes) {
+    JointFrame frame{body.point_at(place), {}};
+    for (int k = 0; k < D; ++k) frame.axes[static_cast<std::size_t>(k)] = body.vector_along(axes.col(k));
+    return frame;
+  }
+};
+
+template <int D>
+struct JointFrame<Ground<D>> {
+  Fixed<D> origin;
+  std::array<FixedVector<D>, static_cast<std::size_t>(D)> axes;
+
+  static JointFrame at(const Ground<D>& /*ground*/, const Vec<D>& place,
+                       const Eigen::Matrix<double, D, D>& axes) {
+    JointFrame frame{{place}, {}};
+    for (int k = 0; k < D; ++k) frame.axes[static_cast<std::size_t>(k)].position = axes.col(k);
+    return frame;
+  }
+};
+
+namespace detail {
+
+template <class Body>
+inline constexpr bool moves = true;
+template <int D>
+inline constexpr bool moves<Ground<D>> = false;
+
+/// Axes x, y, z with z along a direction.
+[[nodiscard]] inline Eigen::Matrix3d joint_axes(const Vec<3>& direction) {
+  const Vec<3> z = direction.normalized(), x = z.unitOrthogonal();
+  Eigen::Matrix3d axes;
+  axes << x, z.cross(x), z;
+  return axes;
+}
+/// x along a direction of the plane, y turned left.
+[[nodiscard]] inline Eigen::Matrix2d joint_axes(const Vec<2>& direction) {
+  const Vec<2> x = direction.normalized();
+  Eigen::Matrix2d axes;
+  axes << x, Vec<2>(-x.y(), x.x());
+  return axes;
+}
+/// z along an axis, x along the part of `across` that is across it.
+[[nodiscard]] inline Eigen::Matrix3d axes_across(const Vec<3>& axis, const Vec<3>& across) {
+  const Vec<3> z = axis.normalized(), x = (across - z.dot(across) * z).normalized();
+  Eigen::Matrix3d axes;
+  axes << x, z.cross(x), z;
+  return axes;
+}
+/// x along a direction, y along another at a right angle to it.
+[[nodiscard]] inline Eigen::Matrix3d axes_of_two(const Vec<3>& along_x, const Vec<3>& along_y) {
+  const Vec<3> x = along_x.normalized(), y = along_y.normalized();
+  Eigen::Matrix3d axes;
+  axes << x, y, x.cross(y);
+  return axes;
+}
+
+}  // namespace detail
+
+/// The frames of a joint between two bodies, or a body and the ground. They are stated in space, where the
+/// bodies are when they are added; each body carries its own on from there, and the joint's equations say
+/// how the two may part. (Stated in either body's coordinates, the user would have to turn them.)
+///
+/// The axes are vectors of length `length`, the size of a body of the joint, so that an equation between
+/// them has its force at that length: with unit vectors a torque would be weighed against forces by the
+/// choice of units wherever joints repeat each other (see ForcesAtPoints).
+template <class A, class B>
+struct JointFrames {
+  static constexpr int dimension = A::dimension;
+  static_assert(A::dimension == B::dimension, "the bodies of a joint have the dimension of its scene");
+  static_assert(detail::moves<A> || detail::moves<B>, "a joint needs a body that can move");
+  using Axes = Eigen::Matrix<double, dimension, dimension>;
+
+  Vec<dimension> place;  ///< of b's frame, when the bodies were added
+  Axes stated;           ///< the axes then; columns
+  double length;         ///< [length]
+  JointFrame<A> a;
+  JointFrame<B> b;
+
+  JointFrames(const A& body_a, const B& body_b, const Vec<dimension>& at, const Axes& axes)
+      : JointFrames(body_a, at, body_b, at, axes) {}
+  JointFrames(const A& body_a, const Vec<dimension>& at_a, const B& body_b, const Vec<dimension>& at_b,
+              const Axes& axes)
+      : place(at_b),
+        stated(axes),
+        length(size(body_a, body_b)),
+        a(JointFrame<A>::at(body_a, at_a, length * axes)),
+        b(JointFrame<B>::at(body_b, at_b, length * axes)) {}
+
+  /// What is wrong with it, if anything is; `axes` says what its user stated them by.
+  [[nodiscard]] std::string fault(const char* axes) const {
+    constexpr double rounding_of_the_user = 1e-8;
+    if (!place.allFinite()) return "its point must be finite";
+    if (!((stated.transpose() * stated - Axes::Identity()).norm() < rounding_of_the_user)) return axes;
+    if constexpr (detail::moves<A> && detail::moves<B>) {
+      if (a.origin.particles == b.origin.particles) return "joins a body with itself";
+    }
+    if (!(length > 0.0)) return "a body of it was never added; use what add_body returned";
+    return {};
+  }
+
+ private:
+  [[nodiscard]] static double size(const A& body_a, const B& body_b) {
+    if constexpr (detail::moves<B>) {
+      return body_b.arms.norm();
+    } else {
+      return body_a.arms.norm();
+    }
+  }
+};
+
+namespace detail {
+
+/// A joint, itself or by what add_joint returned for it.
+template <class J>
+[[nodiscard]] const auto& joint_of(const J& of) {
+  if constexpr (requires { of.joint; }) {
+    return of.joint;
+  } else {
+    return of;
+  }
+}
+template <class J>
+[[nodiscard]] const auto& frames_of(const J& of) {
+  return joint_of(of).frames;
+}
+template <class J>
+using JointType = std::remove_cvref_t<decltype(joint_of(std::declval<const J&>()))>;
+
+/// Whether the bodies of a joint turn against each other about the axis of its frames, and slide along it.
+template <class J>
+inline constexpr bool turns = requires {
+  requires JointType<J>::turns;
+};
+template <class J>
+inline constexpr bool slides = requires {
+  requires JointType<J>::slides;
+};
+
+template <class Frames>
+struct BodiesOf;
+template <class A, class B>
+struct BodiesOf<JointFrames<A, B>> {
+  using First = A;
+  using Second = B;
+};
+template <class J>
+using BodyA = typename BodiesOf<std::remove_cvref_t<decltype(frames_of(std::declval<const J&>()))>>::First;
+template <class J>
+using BodyB = typename BodiesOf<std::remove_cvref_t<decltype(frames_of(std::declval<const J&>()))>>::Second;
+
+}  // namespace detail
+
+}  // namespace dalembert
