@@ -1,5 +1,6 @@
 #include "dalembert/core/scene/scene.h"
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <sstream>
@@ -57,8 +58,8 @@ std::string Scene<D>::unique_name(std::string_view kind, const std::string& name
 
 template <int D>
 int Scene<D>::find(std::string_view name, Kind kind) const {
-  constexpr const char* kinds[] = {"particle", "rotor", "constraint", "force"};
-  const auto what = [&kinds](Kind k) { return kinds[static_cast<std::size_t>(k)]; };
+  static constexpr std::array kinds{"particle", "rotor", "constraint", "force"};
+  const auto what = [](Kind k) { return kinds[static_cast<std::size_t>(k)]; };
   const auto found = names_.find(std::string(name));
   if (found != names_.end() && found->second.kind == kind) return found->second.index;
   throw InvalidArgument("Scene \"" + layout_.scene + "\" has no " + what(kind) + " \"" + std::string(name) +

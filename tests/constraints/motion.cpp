@@ -110,13 +110,14 @@ TEST(MotionOfAThinRod, IsWhatWasStated) {
 }
 
 // Let go with the centre level with a hinge at distance d: alpha = -m g d/(I + m d^2), of a rod -3 g/(2 l).
+// Round-off is that of numbers of size 10.
 TEST(AngularAcceleration, OfWhatBeginsToFallIsTheMomentOfItsWeightOverItsInertia) {
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -9.81}});
   const auto body = add_body<2>(scene, {.mass = 3.0, .inertia = 0.7, .centre = {0.4, 0.0}}, "body");
   scene.add(Coincident{Fixed<2>{}, body.point({-0.4, 0.0})}, "hinge");
   const auto rod = add_thin_rod<2>(scene, {.mass = 6.0, .start = {5, 0}, .end = {7, 0}}, "rod");
-  scene.add(Coincident{Fixed<2>{{5.0, 0.0}}, rod.particles[0]}, "end");
+  scene.add(Coincident{Fixed<2>{{5.0, 0.0}}, rod.start()}, "end");
   const Simulation<2> at(scene, {.t_end = 1.0});
   EXPECT_NEAR(angular_acceleration(at.sample(), body), -3.0 * 9.81 * 0.4 / (0.7 + 3.0 * 0.16),
               10 * round_off);
@@ -126,7 +127,7 @@ TEST(AngularAcceleration, OfARodInSpaceIsAcrossIt) {
   Scene<3> scene;
   scene.add(UniformGravity<3>{{0.0, 0.0, -9.81}});
   const auto rod = add_thin_rod<3>(scene, {.mass = 6.0, .start = {0, 0, 0}, .end = {0, 2, 0}}, "rod");
-  scene.add(Coincident{Fixed<3>{}, rod.particles[0]}, "end");
+  scene.add(Coincident{Fixed<3>{}, rod.start()}, "end");
   const Simulation<3> at(scene, {.t_end = 1.0});
   const Vec<3> alpha = angular_acceleration(at.sample(), rod);
   EXPECT_LT((alpha - Vec<3>(-1.5 * 9.81 / 2.0, 0.0, 0.0)).norm(), 10 * round_off);
