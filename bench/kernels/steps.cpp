@@ -4,6 +4,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <memory>
+
 namespace dalembert::bench {
 namespace {
 
@@ -19,12 +21,12 @@ void step(benchmark::State& state) {
   const Options options{.t_end = 1e3};
   const Problem problem(models::Chain{.beads = static_cast<int>(state.range(0))}.scene().scene, options);
   const auto settled = [&] {
-    AnyStepper stepper(problem.system, problem.start, options);
-    for (int i = 0; i < settling_steps; ++i) stepper.step(options.t_end);
+    auto stepper = std::make_unique<AnyStepper>(problem.system, problem.start, options);
+    for (int i = 0; i < settling_steps; ++i) stepper->step(options.t_end);
     return stepper;
   };
   try {
-    AnyStepper stepper = settled();
+    auto stepper = settled();
     int left = steps_of_a_run;
     for (auto _ : state) {
       if (left == 0) {
@@ -33,7 +35,7 @@ void step(benchmark::State& state) {
         left = steps_of_a_run;
         state.ResumeTiming();
       }
-      stepper.step(options.t_end);
+      stepper->step(options.t_end);
       --left;
     }
   } catch (const StepFailure& failure) {
