@@ -110,7 +110,7 @@ Case late_drive() {
                       }
                       return Result{.error = error, .statistics = run.statistics()};
                     },
-                    t0 >= 1e9, "time begin at 0");
+                    t0 >= 1e9, "t_start and t_end closer to 0");
               },
           .limit =
               [](const Run& run) {
