@@ -110,7 +110,7 @@ class Draft {
     const std::string its_name = name();
     if (statement == In::both || (statement == In::lean) == statement_.lean)
       attempt(text, [&] { scene.add(element, its_name); });
-    if constexpr (!std::is_void_v<decltype(scene.add(element))>) {
+    if constexpr (!std::is_same_v<decltype(scene.add(element)), Force>) {  // a force twice is twice the force
       if (statement == In::both && plan.repeat > 0.0 && random.chance(plan.repeat))
         add("  again " + text, element, In::full);
     }
