@@ -129,53 +129,53 @@ Options many(double samples, Stepper stepper) {
   return {.t_end = 10.0, .samples = static_cast<int>(samples), .tolerance = 1e-6, .stepper = stepper};
 }
 
+struct Memory {
+  Statistics statistics;
+  double bytes;  ///< infinite if samples are missing
+};
+
+/// A case of memory: `held(scene, options, before)` gives the statistics of a run that takes its samples and
+/// the memory [bytes] that it held besides what there was before. Limits are over the memory of the output;
+/// besides, the run itself holds less than 300 kB.
+template <class Held>
+Case memory(std::string name, std::string parameter, double limit, const Held& held) {
+  return {.name = std::move(name),
+          .parameter = std::move(parameter),
+          .sweep = {1e4, 1e5, 1e6},
+          .brief = {1e5},
+          .run =
+              [held](double samples, Stepper stepper) {
+                const models::HangingRods built = models::PlanePendulum{}.scene();
+                const auto [statistics, bytes] = held(built.scene, many(samples, stepper), allocated());
+                return Result{.error = bytes / (samples * bytes_per_sample), .statistics = statistics};
+              },
+          .limit = [limit](const Run& run) { return limit + 3e5 / (run.parameter * bytes_per_sample); }};
+}
+
 /// Memory in use at its most during a run that hands its samples on, over what all samples would take: their
-/// times alone are kept, one number of nine, twice while they are handed over.
+/// times alone are kept, one number of each sample, twice while they are handed over.
 Case streamed_samples() {
-  return {
-      .name = "streamed-samples",
-      .parameter = "samples handed on: memory over that of the output",
-      .sweep = {1e4, 1e5, 1e6},
-      .brief = {1e5},
-      .run =
-          [](double samples, Stepper stepper) {
-            models::HangingRods built = models::PlanePendulum{}.scene();
-            const double before = allocated();
-            double most = 0.0;
-            long seen = 0;
-            const Statistics statistics =
-                simulate(built.scene, many(samples, stepper), [&](const Sample<2>& sample) {
-                  if (seen++ % 1000 == 0) most = larger(most, allocated() - before + 0.0 * sample.energy());
+  return memory("streamed-samples", "samples handed on: memory over that of the output",
+                2.0 / numbers_per_sample, [](const Scene<2>& scene, const Options& options, double before) {
+                  double most = 0.0;
+                  int seen = 0;
+                  const Statistics statistics = simulate(scene, options, [&](const Sample<2>& sample) {
+                    if (seen++ % 1000 == 0) most = larger(most, allocated() - before + 0.0 * sample.energy());
+                  });
+                  return Memory{statistics, seen == options.samples ? most : infinite};
                 });
-            const bool all = static_cast<double>(seen) == samples;
-            return Result{.error = all ? most / (samples * bytes_per_sample) : infinite,
-                          .statistics = statistics};
-          },
-      // Besides, the run itself holds less than 300 kB.
-      .limit =
-          [](const Run& run) { return 2.0 / numbers_per_sample + 3e5 / (run.parameter * bytes_per_sample); }};
 }
 
 /// What a kept run leaves behind and what it holds besides: the times that were asked for.
 Case kept_samples() {
-  return {.name = "kept-samples",
-          .parameter = "samples kept: memory at the end over that of the output",
-          .sweep = {1e4, 1e5, 1e6},
-          .brief = {1e5},
-          .run =
-              [](double samples, Stepper stepper) {
-                models::HangingRods built = models::PlanePendulum{}.scene();
-                const double before = allocated();
-                Simulation<2> simulation(built.scene, many(samples, stepper));
-                const Trajectory<2> run = simulation.run();
-                const bool all = static_cast<double>(run.size()) == samples;
-                return Result{.error = all ? (allocated() - before) / (samples * bytes_per_sample) : infinite,
-                              .statistics = run.statistics()};
-              },
-          .limit =
-              [](const Run& run) {
-                return 1.0 + 2.0 / numbers_per_sample + 3e5 / (run.parameter * bytes_per_sample);
-              }};
+  return memory("kept-samples", "samples kept: memory at the end over that of the output",
+                1.0 + 2.0 / numbers_per_sample,
+                [](const Scene<2>& scene, const Options& options, double before) {
+                  Simulation<2> simulation(scene, options);
+                  const Trajectory<2> run = simulation.run();
+                  const bool all = run.size() == static_cast<std::size_t>(options.samples);
+                  return Memory{run.statistics(), all ? allocated() - before : infinite};
+                });
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #include "dalembert/constraints/bodies/lamina.h"
 
 #include <dalembert/constraints/bodies/equimomental.h>
+#include <dalembert/constraints/bodies/orthonormal.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include <cmath>
 
@@ -15,13 +15,10 @@ void check(const LaminaState& s, const std::string& name) {
   const auto require = [&name](bool good, const char* what) {
     if (!good) throw InvalidScene("Lamina \"" + name + "\": " + what);
   };
-  constexpr double rounding_of_the_user = 1e-8;
   require(std::isfinite(s.mass) && s.mass > 0.0, "mass must be finite and > 0");
   require(s.inertia.allFinite() && s.inertia.minCoeff() > 0.0,
           "each moment of inertia in the plane must be finite and > 0; a thin rod is a ThinRod");
-  require((s.axes.transpose() * s.axes - Eigen::Matrix3d::Identity()).norm() < rounding_of_the_user &&
-              s.axes.determinant() > 0.0,
-          "axes must be right-handed and of unit length");
+  require(detail::orthonormal<3>(s.axes), "axes must be right-handed and of unit length");
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ struct LaminaState {
 struct Lamina {
   std::array<Particle<3>, 3> particles;
   std::array<Constraint<1>, 3> rods;  ///< between particles 1 and 2, 2 and 3, 3 and 1
-  Vec<2> arms;                        ///< (a, b): roots of the second moments over the mass
+  Vec<2> arms = Vec<2>::Zero();       ///< (a, b): roots of the second moments over the mass
 
   /// The point of the plane at coordinates `local` from the centre of mass along the body's axes.
   [[nodiscard]] BodyPoint<3, 3> point(const Vec<2>& local) const;

@@ -25,23 +25,46 @@ Eigen::Quaterniond of_axes(const Eigen::Matrix3d& axes) {
   return q.normalized();
 }
 
+/// From its start to its end.
 template <int D>
-Vec<D> direction(const Sample<D>& sample, const ThinRod<D>& rod) {
-  return sample.position(rod.particles[1]) - sample.position(rod.particles[0]);
-}
-template <int D>
-Vec<D> direction_rate(const Sample<D>& sample, const ThinRod<D>& rod) {
-  return sample.velocity(rod.particles[1]) - sample.velocity(rod.particles[0]);
-}
-
-template <int D>
-Vec<D> direction_acceleration(const Sample<D>& sample, const ThinRod<D>& rod) {
-  return sample.acceleration(rod.particles[1]) - sample.acceleration(rod.particles[0]);
+BodyPoint<D, 2> direction(const ThinRod<D>& rod) {
+  BodyPoint<D, 2> d = rod.end();
+  d.L -= rod.start().L;
+  return d;
 }
 
 /// As far as particles, for small round-off.
 double far(const RigidBody<3>& body) { return body.arms.norm(); }
 double far(const Lamina& body) { return body.arms.norm(); }
+
+/// What a derivative of the vectors of a body gives by (1) or (2): `derivative(vector)`.
+double turning_of(const Sample<2>& sample, const RigidBody<2>& body, const auto& derivative) {
+  const auto e = body.vector({body.arms.x(), 0.0});
+  return turning_of_line<2>(sample.position(e), derivative(e));
+}
+Vec<3> turning_of(const Sample<3>& sample, const RigidBody<3>& body, const auto& derivative) {
+  const double l = far(body);
+  Vec<3> sum = Vec<3>::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const auto e = body.vector(l * Vec<3>::Unit(k));
+    sum += turning(sample.position(e) / l, derivative(e) / l);
+  }
+  return sum;
+}
+template <int D>
+MomentOf<D> turning_of(const Sample<D>& sample, const ThinRod<D>& rod, const auto& derivative) {
+  const auto d = direction(rod);
+  return turning_of_line<D>(sample.position(d), derivative(d));
+}
+
+template <int D, class Body>
+MomentOf<D> velocity_of(const Sample<D>& sample, const Body& body) {
+  return turning_of(sample, body, [&sample](const auto& e) { return sample.velocity(e); });
+}
+template <int D, class Body>
+MomentOf<D> acceleration_of(const Sample<D>& sample, const Body& body) {
+  return turning_of(sample, body, [&sample](const auto& e) { return sample.acceleration(e); });
+}
 
 }  // namespace
 
@@ -51,7 +74,7 @@ double angle(const Sample<2>& sample, const RigidBody<2>& body) {
 }
 
 double angle(const Sample<2>& sample, const ThinRod<2>& rod) {
-  const Vec<2> d = direction(sample, rod);
+  const Vec<2> d = sample.position(direction(rod));
   return std::atan2(d.y(), d.x());
 }
 
@@ -64,23 +87,13 @@ Eigen::Quaterniond quaternion(const Sample<3>& sample, const Lamina& body) {
 }
 
 double angular_velocity(const Sample<2>& sample, const RigidBody<2>& body) {
-  const auto e = body.vector({body.arms.x(), 0.0});
-  return turning_of_line<2>(sample.position(e), sample.velocity(e));
+  return velocity_of(sample, body);
 }
-
-double angular_velocity(const Sample<2>& sample, const ThinRod<2>& rod) {
-  return turning_of_line<2>(direction(sample, rod), direction_rate(sample, rod));
-}
-
+double angular_velocity(const Sample<2>& sample, const ThinRod<2>& rod) { return velocity_of(sample, rod); }
 Vec<3> angular_velocity(const Sample<3>& sample, const RigidBody<3>& body) {
-  const double l = far(body);
-  Vec<3> omega = Vec<3>::Zero();
-  for (int k = 0; k < 3; ++k) {
-    const auto e = body.vector(l * Vec<3>::Unit(k));
-    omega += turning(sample.position(e) / l, sample.velocity(e) / l);
-  }
-  return omega;
+  return velocity_of(sample, body);
 }
+Vec<3> angular_velocity(const Sample<3>& sample, const ThinRod<3>& rod) { return velocity_of(sample, rod); }
 
 Vec<3> angular_velocity(const Sample<3>& sample, const Lamina& body) {
   const double l = far(body);
@@ -91,27 +104,17 @@ Vec<3> angular_velocity(const Sample<3>& sample, const Lamina& body) {
          turning(e_x.cross(e_y), rate_x.cross(e_y) + e_x.cross(rate_y));
 }
 
-Vec<3> angular_velocity(const Sample<3>& sample, const ThinRod<3>& rod) {
-  return turning_of_line<3>(direction(sample, rod), direction_rate(sample, rod));
-}
-
 double angular_acceleration(const Sample<2>& sample, const RigidBody<2>& body) {
-  const auto e = body.vector({body.arms.x(), 0.0});
-  return turning_of_line<2>(sample.position(e), sample.acceleration(e));
+  return acceleration_of(sample, body);
 }
-
 double angular_acceleration(const Sample<2>& sample, const ThinRod<2>& rod) {
-  return turning_of_line<2>(direction(sample, rod), direction_acceleration(sample, rod));
+  return acceleration_of(sample, rod);
 }
-
 Vec<3> angular_acceleration(const Sample<3>& sample, const RigidBody<3>& body) {
-  const double l = far(body);
-  Vec<3> alpha = Vec<3>::Zero();
-  for (int k = 0; k < 3; ++k) {
-    const auto e = body.vector(l * Vec<3>::Unit(k));
-    alpha += turning(sample.position(e) / l, sample.acceleration(e) / l);
-  }
-  return alpha;
+  return acceleration_of(sample, body);
+}
+Vec<3> angular_acceleration(const Sample<3>& sample, const ThinRod<3>& rod) {
+  return acceleration_of(sample, rod);
 }
 
 Vec<3> angular_acceleration(const Sample<3>& sample, const Lamina& body) {
@@ -122,10 +125,6 @@ Vec<3> angular_acceleration(const Sample<3>& sample, const Lamina& body) {
   const Vec<3> second_x = sample.acceleration(x) / l, second_y = sample.acceleration(y) / l;
   return turning(e_x, second_x) + turning(e_y, second_y) +
          turning(e_x.cross(e_y), second_x.cross(e_y) + 2.0 * rate_x.cross(rate_y) + e_x.cross(second_y));
-}
-
-Vec<3> angular_acceleration(const Sample<3>& sample, const ThinRod<3>& rod) {
-  return turning_of_line<3>(direction(sample, rod), direction_acceleration(sample, rod));
 }
 
 }  // namespace dalembert

@@ -16,15 +16,10 @@ namespace detail {
 /// As in the scene that was run: it may have been stated anew since the body was added.
 template <int D>
 [[nodiscard]] double mass(const Sample<D>& sample, Particle<D> particle) {
+  sample.layout().require(particle);
   return sample.layout().particles[static_cast<std::size_t>(particle.index)].mass;
 }
 }  // namespace detail
-
-/// A RigidBody, Lamina or ThinRod.
-template <class B, int D>
-concept BodyIn = requires(const B& body) {
-  { body.particles[0] } -> std::convertible_to<Particle<D>>;
-};
 
 /// Of the body's first axis against that of the plane, between -pi and pi [rad].
 [[nodiscard]] double angle(const Sample<2>& sample, const RigidBody<2>& body);
@@ -52,7 +47,7 @@ concept BodyIn = requires(const B& body) {
 [[nodiscard]] Vec<3> angular_acceleration(const Sample<3>& sample, const ThinRod<3>& rod);
 
 /// Of its motion and its turning together.
-template <int D, BodyIn<D> Body>
+template <int D, MadeOfParticles<D> Body>
 [[nodiscard]] double kinetic_energy(const Sample<D>& sample, const Body& body) {
   double T = 0.0;
   for (std::size_t i = 0; i < body.particles.size(); ++i)
@@ -61,7 +56,7 @@ template <int D, BodyIn<D> Body>
 }
 
 /// Mass times velocity of the centre.
-template <int D, BodyIn<D> Body>
+template <int D, MadeOfParticles<D> Body>
 [[nodiscard]] Vec<D> momentum(const Sample<D>& sample, const Body& body) {
   Vec<D> p = Vec<D>::Zero();
   for (std::size_t i = 0; i < body.particles.size(); ++i)
@@ -70,7 +65,7 @@ template <int D, BodyIn<D> Body>
 }
 
 /// About a point of space.
-template <int D, BodyIn<D> Body>
+template <int D, MadeOfParticles<D> Body>
 [[nodiscard]] MomentOf<D> angular_momentum(const Sample<D>& sample, const Body& body,
                                            const std::type_identity_t<Vec<D>>& about) {
   const Vec<D> zero = Vec<D>::Zero();
@@ -82,7 +77,7 @@ template <int D, BodyIn<D> Body>
   return L;
 }
 /// About the centre of mass.
-template <int D, BodyIn<D> Body>
+template <int D, MadeOfParticles<D> Body>
 [[nodiscard]] MomentOf<D> angular_momentum(const Sample<D>& sample, const Body& body) {
   return angular_momentum(sample, body, sample.position(body.centre()));
 }

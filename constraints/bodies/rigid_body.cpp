@@ -1,9 +1,8 @@
 #include "dalembert/constraints/bodies/rigid_body.h"
 
 #include <dalembert/constraints/bodies/equimomental.h>
+#include <dalembert/constraints/bodies/orthonormal.h>
 #include <dalembert/core/errors.h>
-
-#include <Eigen/LU>
 
 #include <cmath>
 #include <numeric>
@@ -120,9 +119,7 @@ template <int D>
 RigidBody<D> add_body(Scene<D>& scene, const BodyState<D>& state, const std::string& name) {
   require(std::isfinite(state.mass) && state.mass > 0.0, name, "mass must be finite and > 0");
   const Eigen::Matrix<double, D, D> axes = axes_of(state);
-  require((axes.transpose() * axes - Eigen::Matrix<double, D, D>::Identity()).norm() < 1e-8 &&
-              axes.determinant() > 0.0,
-          name, "axes must be right-handed and of unit length");
+  require(detail::orthonormal<D>(axes), name, "axes must be right-handed and of unit length");
   RigidBody<D> body;
   body.arms = arms_of(state, name);
   body.stated_centre = state.centre;

@@ -54,7 +54,7 @@ struct RigidBody {
 
   std::array<Particle<D>, static_cast<std::size_t>(particle_count)> particles;
   std::array<Constraint<1>, static_cast<std::size_t>(rod_count)> rods;
-  Vec<D> arms;  ///< (rho, rho) or (a, b, c): roots of the second moments over the mass
+  Vec<D> arms = Vec<D>::Zero();  ///< (rho, rho) or (a, b, c): roots of the second moments over the mass
   std::array<double, static_cast<std::size_t>(particle_count)> masses{};  ///< of the particles
   Vec<D> stated_centre = Vec<D>::Zero();                                  ///< where it was added, and how:
   Axes stated_axes = Axes::Identity();                                    ///< columns

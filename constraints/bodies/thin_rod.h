@@ -31,7 +31,7 @@ template <int D>
 struct ThinRod {
   std::array<Particle<D>, 2> particles;
   Constraint<1> distance;  ///< between the particles
-  double length;           ///< from start to end
+  double length = 0.0;     ///< from start to end
 
   /// The point at a fraction of the way from start (0) to end (1).
   [[nodiscard]] BodyPoint<D, 2> point(double fraction) const;

@@ -23,11 +23,7 @@ struct Cylindrical {
   Cylindrical(const A& a, const B& b, const Vec<3>& point, const Vec<3>& axis)
       : frames(a, b, point, detail::joint_axes(axis)) {}
 
-  auto points() const {
-    const auto& a = frames.a;
-    const auto& b = frames.b;
-    return std::tie(a.origin, a.axes[0], a.axes[1], b.origin, b.axes[2]);
-  }
+  auto points() const { return frames.axis(); }
   auto operator()(const auto& c_a, const auto& x_a, const auto& y_a, const auto& c_b, const auto& z_b) const {
     const auto d = (c_b - c_a).eval();
     const double l = frames.length, l2 = l * l;

@@ -3,36 +3,41 @@
 #include <dalembert/constraints/joints/equations.h>
 #include <dalembert/constraints/joints/frames.h>
 
-/// Joints driven in time: `add_joint(scene, AngleDrive{hinge, [](auto t) { return 2.0 * t; }}, "motor")`.
+/// Joints driven in time.
 namespace dalembert {
 
-/// The angle of a joint about its axis follows a function of time, over as many turns as it likes.
+/// A motor: the angle of a joint about its axis follows a function of time, over as many turns as it likes.
 ///
-///   g = phi - angle(t)   mod 2 pi      [rad]
+///   const Rotor armature = scene.add_rotor({.inertia = 1e-4, .angular_velocity = 2.0});
+///   add_joint(scene, AngleDrive{hinge, armature, [](auto t) { return 2.0 * t; }}, "motor");
 ///
-/// with phi the angle by which b has turned against a since they were added. The multiplier is the torque of
-/// the motor, on b about the axis; the opposite is on a.
+///   g = (phi - phi_r  mod 2 pi,   phi_r - angle(t))      [rad]
+///
+/// with phi the angle by which b has turned against a since they were added, phi_r that of the rotor. The
+/// first multiplier is the torque of the motor's shaft, on b about the axis; the opposite is on a. The second
+/// is what drives the armature: besides the shaft's torque its inertia times its angular acceleration. (The
+/// bodies' positions alone do not say how often b has turned: without the rotor, whose angle does, a law that
+/// turns fast by whole turns and rests again would be obeyed by not turning.)
 template <class A, class B, class Angle>
 struct AngleDrive {
   static constexpr std::string_view kind = "AngleDrive";
   JointFrames<A, B> frames;
-  Angle angle;  ///< of time [rad]; the bodies start where it does
+  Rotor rotor;
+  Angle angle;  ///< of time [rad]; bodies and rotor start where it does
 
   /// Of a joint that turns about its axis, or what add_joint returned for it.
   template <class J>
-  AngleDrive(const J& of, Angle law) : frames(detail::frames_of(of)), angle(std::move(law)) {
-    static_assert(detail::turns<J>,
-                  "its joint must turn about its axis: Revolute, Cylindrical, Planar, Screw");
-  }
+  AngleDrive(const J& of, Rotor armature, Angle law)
+      : frames(detail::turning_frames(of)), rotor(armature), angle(std::move(law)) {}
 
-  auto points() const { return std::tie(frames.a.axes[0], frames.a.axes[1], frames.b.axes[0]); }
-  auto operator()(const auto& t, const auto& x_a, const auto& y_a, const auto& x_b) const {
-    return detail::out_of_mesh(detail::angle_between(x_a, y_a, x_b) - angle(t));
+  auto points() const { return std::tuple_cat(frames.turning(), std::tie(rotor)); }
+  auto operator()(const auto& t, const auto& x_a, const auto& y_a, const auto& x_b, const auto& phi_r) const {
+    return vec(detail::out_of_mesh(detail::angle_between(x_a, y_a, x_b) - phi_r[0]), phi_r[0] - angle(t));
   }
   [[nodiscard]] std::string fault() const { return frames.fault("the axis of its joint must be one"); }
 };
 template <class J, class Angle>
-AngleDrive(const J&, Angle) -> AngleDrive<detail::BodyA<J>, detail::BodyB<J>, Angle>;
+AngleDrive(const J&, Rotor, Angle) -> AngleDrive<detail::BodyA<J>, detail::BodyB<J>, Angle>;
 
 /// The travel of a joint along its axis follows a function of time.
 ///
@@ -47,9 +52,7 @@ struct PathDrive {
 
   /// Of a joint that slides along its axis, or what add_joint returned for it.
   template <class J>
-  PathDrive(const J& of, Path law) : frames(detail::frames_of(of)), path(std::move(law)) {
-    static_assert(detail::slides<J>, "its joint must slide along its axis: Prismatic, Cylindrical, Screw");
-  }
+  PathDrive(const J& of, Path law) : frames(detail::sliding_frames(of)), path(std::move(law)) {}
 
   auto points() const {
     return std::tie(frames.a.origin, frames.a.axes[detail::along<A::dimension>], frames.b.origin);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/constraints/bodies/orthonormal.h>
 #include <dalembert/constraints/bodies/rigid_body.h>
 #include <dalembert/core/equations/constraint.h>
 
@@ -7,6 +8,9 @@
 
 #include <array>
 #include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
 
 /// What all joints have in common: how two bodies carry the frame of a joint.
 namespace dalembert {
@@ -110,6 +114,8 @@ struct JointFrames {
   static constexpr int dimension = A::dimension;
   static_assert(A::dimension == B::dimension, "the bodies of a joint have the dimension of its scene");
   static_assert(detail::moves<A> || detail::moves<B>, "a joint needs a body that can move");
+  using First = A;
+  using Second = B;
   using Axes = Eigen::Matrix<double, dimension, dimension>;
 
   Vec<dimension> place;  ///< of b's frame, when the bodies were added
@@ -128,11 +134,25 @@ struct JointFrames {
         a(JointFrame<A>::at(body_a, at_a, length * axes)),
         b(JointFrame<B>::at(body_b, at_b, length * axes)) {}
 
+  // What equations of joints act on.
+  /// x_a, y_a, x_b, of which the angle about the axis is made.
+  auto turning() const { return std::tie(a.axes[0], a.axes[1], b.axes[0]); }
+  /// In space c_a, x_a, y_a, c_b, z_b: the places, and the directions that keep z_b along z_a.
+  auto axis() const { return std::tie(a.origin, a.axes[0], a.axes[1], b.origin, b.axes[2]); }
+  /// In space c_a, x_a, y_a, c_b, x_b, z_b, in the plane c_a, y_a, c_b, x_b: besides, those that keep x_b
+  /// along x_a.
+  auto whole() const {
+    if constexpr (dimension == 2) {
+      return std::tie(a.origin, a.axes[1], b.origin, b.axes[0]);
+    } else {
+      return std::tie(a.origin, a.axes[0], a.axes[1], b.origin, b.axes[0], b.axes[2]);
+    }
+  }
+
   /// What is wrong with it, if anything is; `axes` says what its user stated them by.
   [[nodiscard]] std::string fault(const char* axes) const {
-    constexpr double rounding_of_the_user = 1e-8;
     if (!place.allFinite()) return "its point must be finite";
-    if (!((stated.transpose() * stated - Axes::Identity()).norm() < rounding_of_the_user)) return axes;
+    if (!detail::orthonormal<dimension>(stated)) return axes;
     if constexpr (detail::moves<A> && detail::moves<B>) {
       if (a.origin.particles == b.origin.particles) return "joins a body with itself";
     }
@@ -178,17 +198,24 @@ inline constexpr bool slides = requires {
   requires JointType<J>::slides;
 };
 
-template <class Frames>
-struct BodiesOf;
-template <class A, class B>
-struct BodiesOf<JointFrames<A, B>> {
-  using First = A;
-  using Second = B;
-};
+/// The frames of a joint that turns, that slides.
 template <class J>
-using BodyA = typename BodiesOf<std::remove_cvref_t<decltype(frames_of(std::declval<const J&>()))>>::First;
+[[nodiscard]] const auto& turning_frames(const J& of) {
+  static_assert(turns<J>, "its joint must turn about its axis: Revolute, Cylindrical, Planar, Screw");
+  return frames_of(of);
+}
 template <class J>
-using BodyB = typename BodiesOf<std::remove_cvref_t<decltype(frames_of(std::declval<const J&>()))>>::Second;
+[[nodiscard]] const auto& sliding_frames(const J& of) {
+  static_assert(slides<J>, "its joint must slide along its axis: Prismatic, Cylindrical, Screw");
+  return frames_of(of);
+}
+
+template <class J>
+using FramesOf = std::remove_cvref_t<decltype(frames_of(std::declval<const J&>()))>;
+template <class J>
+using BodyA = typename FramesOf<J>::First;
+template <class J>
+using BodyB = typename FramesOf<J>::Second;
 
 }  // namespace detail
 

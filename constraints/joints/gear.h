@@ -24,21 +24,22 @@ struct Gear {
   static constexpr std::string_view kind = "Gear";
   static constexpr std::string_view singular = "the centres of its gears coincide";
   JointFrames<A, B> frames;  ///< at the centres, x along the line of centres
+  double distance;           ///< of the centres across the axis [length]
   int teeth_a, teeth_b;      ///< not 0; negative of an internal gear
 
   /// Centres and the direction of the axes are those in space when the bodies are added.
   Gear(const A& a, const B& b, const Vec<3>& centre_a, const Vec<3>& centre_b, const Vec<3>& axis,
        int teeth_of_a, int teeth_of_b) requires(A::dimension == 3)
       : frames(a, centre_a, b, centre_b, detail::axes_across(axis, centre_b - centre_a)),
+        distance(frames.stated.col(0).dot(centre_b - centre_a)),
         teeth_a(teeth_of_a),
-        teeth_b(teeth_of_b),
-        radius_per_tooth(frames.stated.col(0).dot(centre_b - centre_a) / (teeth_a + teeth_b)) {}
+        teeth_b(teeth_of_b) {}
   Gear(const A& a, const B& b, const Vec<2>& centre_a, const Vec<2>& centre_b, int teeth_of_a,
        int teeth_of_b) requires(A::dimension == 2)
       : frames(a, centre_a, b, centre_b, detail::joint_axes(Vec<2>(centre_b - centre_a))),
+        distance(frames.stated.col(0).dot(centre_b - centre_a)),
         teeth_a(teeth_of_a),
-        teeth_b(teeth_of_b),
-        radius_per_tooth(frames.stated.col(0).dot(centre_b - centre_a) / (teeth_a + teeth_b)) {}
+        teeth_b(teeth_of_b) {}
 
   auto points() const {
     const auto& a = frames.a;
@@ -51,7 +52,7 @@ struct Gear {
     const int common = std::gcd(teeth_a, teeth_b);
     const auto phase = (teeth_a / common) * detail::angle_between(x_a, y_a, line) +
                        (teeth_b / common) * detail::angle_between(x_b, y_b, line);
-    return radius_per_tooth * common * detail::out_of_mesh(phase);
+    return distance / (teeth_a + teeth_b) * common * detail::out_of_mesh(phase);
   }
   [[nodiscard]] std::string fault() const {
     if (teeth_a == 0 || teeth_b == 0 || teeth_a + teeth_b == 0 || (teeth_a < 0 && teeth_b < 0)) {
@@ -60,9 +61,6 @@ struct Gear {
     }
     return frames.fault("its centres and axis must be finite, the centres apart across the axis");
   }
-
- private:
-  double radius_per_tooth;
 };
 
 }  // namespace dalembert

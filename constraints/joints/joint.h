@@ -54,32 +54,26 @@ template <int D, class J>
 /// pi [rad].
 template <int D, class J>
 [[nodiscard]] double angle(const Sample<D>& sample, const Joint<J>& joint) {
-  static_assert(detail::turns<J>, "its joint must turn about its axis: Revolute, Cylindrical, Planar, Screw");
-  const auto& a = joint.joint.frames.a;
-  const auto& b = joint.joint.frames.b;
-  return detail::angle_between(sample.position(a.axes[0]), sample.position(a.axes[1]),
-                               sample.position(b.axes[0]));
+  return std::apply([&](const auto&... axes) { return detail::angle_between(sample.position(axes)...); },
+                    detail::turning_frames(joint).turning());
 }
 
 /// The rate of that angle [rad / time].
 template <int D, class J>
 [[nodiscard]] double angular_velocity(const Sample<D>& sample, const Joint<J>& joint) {
-  static_assert(detail::turns<J>, "its joint must turn about its axis: Revolute, Cylindrical, Planar, Screw");
-  const auto& a = joint.joint.frames.a;
-  const auto& b = joint.joint.frames.b;
-  return detail::rate_of_angle(sample.position(a.axes[0]), sample.position(a.axes[1]),
-                               sample.position(b.axes[0]), sample.velocity(a.axes[0]),
-                               sample.velocity(a.axes[1]), sample.velocity(b.axes[0]));
+  return std::apply(
+      [&](const auto&... axes) {
+        return detail::rate_of_angle(sample.position(axes)..., sample.velocity(axes)...);
+      },
+      detail::turning_frames(joint).turning());
 }
 
 /// How far b's point has moved from a's along the joint's axis (in the plane its direction) [length].
 template <int D, class J>
 [[nodiscard]] double travel(const Sample<D>& sample, const Joint<J>& joint) {
-  static_assert(detail::slides<J>, "its joint must slide along its axis: Prismatic, Cylindrical, Screw");
-  const auto& a = joint.joint.frames.a;
-  const auto& b = joint.joint.frames.b;
-  const Vec<D> along = sample.position(a.axes[detail::along<D>]);
-  return along.dot(sample.position(b.origin) - sample.position(a.origin)) / joint.joint.frames.length;
+  const auto& frames = detail::sliding_frames(joint);
+  const Vec<D> along = sample.position(frames.a.axes[detail::along<D>]);
+  return along.dot(sample.position(frames.b.origin) - sample.position(frames.a.origin)) / frames.length;
 }
 
 }  // namespace dalembert

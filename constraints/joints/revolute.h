@@ -27,12 +27,10 @@ struct Revolute {
       : frames(a, b, point, Eigen::Matrix2d::Identity()) {}
 
   auto points() const {
-    const auto& a = frames.a;
-    const auto& b = frames.b;
     if constexpr (A::dimension == 2) {
-      return std::tie(a.origin, b.origin);
+      return std::tie(frames.a.origin, frames.b.origin);
     } else {
-      return std::tie(a.origin, a.axes[0], a.axes[1], b.origin, b.axes[2]);
+      return frames.axis();
     }
   }
   auto operator()(const auto& c_a, const auto& c_b) const { return (c_b - c_a).eval(); }

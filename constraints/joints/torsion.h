@@ -25,12 +25,9 @@ struct TorsionSpring {
   /// Of a joint that turns about its axis, or what add_joint returned for it.
   template <class J>
   TorsionSpring(const J& of, double its_stiffness, double its_relaxed_angle = 0.0)
-      : frames(detail::frames_of(of)), stiffness(its_stiffness), relaxed_angle(its_relaxed_angle) {
-    static_assert(detail::turns<J>,
-                  "its joint must turn about its axis: Revolute, Cylindrical, Planar, Screw");
-  }
+      : frames(detail::turning_frames(of)), stiffness(its_stiffness), relaxed_angle(its_relaxed_angle) {}
 
-  auto points() const { return std::tie(frames.a.axes[0], frames.a.axes[1], frames.b.axes[0]); }
+  auto points() const { return frames.turning(); }
   auto energy(const auto& x_a, const auto& y_a, const auto& x_b) const {
     using std::atan2;
     using std::cos;
@@ -74,12 +71,9 @@ struct TorsionDamper {
   /// Of a joint that turns about its axis, or what add_joint returned for it.
   template <class J>
   TorsionDamper(const J& of, double its_coefficient)
-      : frames(detail::frames_of(of)), coefficient(its_coefficient) {
-    static_assert(detail::turns<J>,
-                  "its joint must turn about its axis: Revolute, Cylindrical, Planar, Screw");
-  }
+      : frames(detail::turning_frames(of)), coefficient(its_coefficient) {}
 
-  auto points() const { return std::tie(frames.a.axes[0], frames.a.axes[1], frames.b.axes[0]); }
+  auto points() const { return frames.turning(); }
   auto force(const auto& x_a, const auto& y_a, const auto& x_b, const auto& x_a_rate, const auto& y_a_rate,
              const auto& x_b_rate) const {
     using V = std::remove_cvref_t<decltype(x_b)>;

@@ -22,15 +22,7 @@ struct Weld {
   Weld(const A& a, const B& b, const Vec<A::dimension>& point)
       : frames(a, b, point, JointFrames<A, B>::Axes::Identity()) {}
 
-  auto points() const {
-    const auto& a = frames.a;
-    const auto& b = frames.b;
-    if constexpr (A::dimension == 2) {
-      return std::tie(a.origin, a.axes[1], b.origin, b.axes[0]);
-    } else {
-      return std::tie(a.origin, a.axes[0], a.axes[1], b.origin, b.axes[0], b.axes[2]);
-    }
-  }
+  auto points() const { return frames.whole(); }
   auto operator()(const auto& c_a, const auto& y_a, const auto& c_b, const auto& x_b) const {
     const auto d = (c_b - c_a).eval();
     return vec(d.x(), d.y(), y_a.dot(x_b) / (frames.length * frames.length));

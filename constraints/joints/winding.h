@@ -26,12 +26,9 @@ struct Winding {
 
   /// Of a joint that turns about its axis, or what add_joint returned for it.
   template <class J>
-  Winding(const J& of, Rotor turning) : frames(detail::frames_of(of)), rotor(turning) {
-    static_assert(detail::turns<J>,
-                  "its joint must turn about its axis: Revolute, Cylindrical, Planar, Screw");
-  }
+  Winding(const J& of, Rotor turning) : frames(detail::turning_frames(of)), rotor(turning) {}
 
-  auto points() const { return std::tie(frames.a.axes[0], frames.a.axes[1], frames.b.axes[0], rotor); }
+  auto points() const { return std::tuple_cat(frames.turning(), std::tie(rotor)); }
   auto operator()(const auto& x_a, const auto& y_a, const auto& x_b, const auto& angle) const {
     return detail::out_of_mesh(detail::angle_between(x_a, y_a, x_b) - angle[0]);
   }

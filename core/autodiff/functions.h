@@ -9,8 +9,11 @@
 namespace dalembert {
 
 /// For equations that are evaluated with plain numbers, too: without these a number finds no max and min, and
-/// of abs perhaps C's, which is one of int.
-using std::abs, std::max, std::min;
+/// of abs perhaps C's, which is one of int. What is not a number wins, or a fault of an equation would be
+/// lost in max(0.0, sqrt(x)).
+[[nodiscard]] inline double abs(double a) { return std::abs(a); }
+[[nodiscard]] inline double max(double a, double b) { return a < b || std::isnan(b) ? b : a; }
+[[nodiscard]] inline double min(double a, double b) { return b < a || std::isnan(b) ? b : a; }
 
 /// The functions of <cmath> for a number D that carries derivatives, each with its first and second one; see
 /// Dual::chain. They are called without std::.
@@ -134,8 +137,8 @@ struct Functions {
   friend D erfc(const D& a) { return error_function(a, std::erfc(a.value), -1.0); }
 
   friend D fabs(const D& a) { return abs(a); }
-  friend D max(const D& a, const D& b) { return a < b ? b : a; }
-  friend D min(const D& a, const D& b) { return b < a ? b : a; }
+  friend D max(const D& a, const D& b) { return a < b || std::isnan(b.value) ? b : a; }
+  friend D min(const D& a, const D& b) { return b < a || std::isnan(b.value) ? b : a; }
   friend D fmax(const D& a, const D& b) { return max(a, b); }
   friend D fmin(const D& a, const D& b) { return min(a, b); }
   /// a - b where that is positive, else 0.
@@ -170,7 +173,7 @@ struct Functions {
   }
   /// A constant, between two jumps.
   [[nodiscard]] static D piece(double f) {
-    Branches::choose(f);
+    Branches::choose(f + 0.0);  // -0 is no other piece than 0
     return D(f);
   }
 };

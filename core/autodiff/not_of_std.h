@@ -54,9 +54,11 @@ DALEMBERT_NOT_OF_STD(fmin, const dalembert::Dual<N, Order>&, const dalembert::Du
 DALEMBERT_NOT_OF_STD(fdim, const dalembert::Dual<N, Order>&, const dalembert::Dual<N, Order>&);
 DALEMBERT_NOT_OF_STD(copysign, const dalembert::Dual<N, Order>&, const dalembert::Dual<N, Order>&);
 DALEMBERT_NOT_OF_STD(fmod, const dalembert::Dual<N, Order>&, const dalembert::Dual<N, Order>&);
-DALEMBERT_NOT_OF_STD(max, const dalembert::Dual<N, Order>&, double);  // of two Duals it is right
+DALEMBERT_NOT_OF_STD(max, const dalembert::Dual<N, Order>&, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(max, const dalembert::Dual<N, Order>&, double);
 DALEMBERT_NOT_OF_STD(max, double, const dalembert::Dual<N, Order>&);
-DALEMBERT_NOT_OF_STD(min, const dalembert::Dual<N, Order>&, double);  // of two Duals it is right
+DALEMBERT_NOT_OF_STD(min, const dalembert::Dual<N, Order>&, const dalembert::Dual<N, Order>&);
+DALEMBERT_NOT_OF_STD(min, const dalembert::Dual<N, Order>&, double);
 DALEMBERT_NOT_OF_STD(min, double, const dalembert::Dual<N, Order>&);
 
 }  // namespace std

@@ -146,8 +146,9 @@ class MultiplierForceBatch {
                          std::span<double> damping) const = 0;
   /// F . v of each force.
   virtual void power(const Instant& at, const Multipliers& lambda, std::span<double> out) const = 0;
-  /// The force of one element on each of the `width` coordinates that it acts on.
-  virtual void force(std::size_t element, const Instant& at, const Multipliers& lambda,
+  /// The force of one element on each of the `width` coordinates that it acts on; `lambda` are the `rows`
+  /// multipliers that it reads.
+  virtual void force(std::size_t element, const Instant& at, std::span<const double> lambda,
                      std::span<double> out) const = 0;
 };
 
@@ -163,21 +164,30 @@ struct BatchOf {
   static bool replace(Batch& batch, std::size_t i, const Element& element);
 };
 
-/// The elements of a batch and the coordinates they read.
+/// The elements of a batch and the coordinates they read. Whatever throws as an element is copied, nothing
+/// has changed.
 template <class Element>
 class Elements {
  public:
   static constexpr int width = PointFacts<Element>::coordinates;
 
   void add(Element element) {
-    coordinates_.resize(coordinates_.size() + width);
-    read_coordinates(element, std::span(coordinates_).last(width));
-    all_.push_back(std::move(element));
+    std::array<int, width> read{};
+    read_coordinates(element, read);
+    coordinates_.insert(coordinates_.end(), read.begin(), read.end());
+    try {
+      all_.push_back(std::move(element));
+    } catch (...) {
+      coordinates_.resize(coordinates_.size() - width);
+      throw;
+    }
   }
   void replace(std::size_t i, const Element& element) {
-    if constexpr (std::is_copy_assignable_v<Element>) {
-      all_[i] = element;
-    } else {  // a lambda that captures can only be copied
+    if constexpr (std::is_nothrow_move_constructible_v<Element>) {
+      Element copy(element);  // a lambda that captures cannot be assigned
+      std::destroy_at(&all_[i]);
+      std::construct_at(&all_[i], std::move(copy));
+    } else {
       std::vector<Element> all;
       all.reserve(all_.size());
       for (std::size_t k = 0; k < all_.size(); ++k) all.push_back(k == i ? element : all_[k]);

@@ -21,11 +21,16 @@ class FrictionBatch final : public MultiplierForceBatch {
 
   void add(E element) {
     constraints_.push_back(element.constraint().index);
-    elements_.add(std::move(element));
+    try {
+      elements_.add(std::move(element));
+    } catch (...) {
+      constraints_.pop_back();
+      throw;
+    }
   }
   void replace(std::size_t i, const E& element) {
-    constraints_[i] = element.constraint().index;
     elements_.replace(i, element);
+    constraints_[i] = element.constraint().index;
   }
 
   [[nodiscard]] std::unique_ptr<MultiplierForceBatch> clone() const override {
@@ -40,7 +45,7 @@ class FrictionBatch final : public MultiplierForceBatch {
 
   void add_force(const Instant& at, const Multipliers& lambda, std::span<double> F) const override {
     for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      const Vec<inputs> f = forces<double>(e, at, lambda, i, AsNumber{}, AsNumber{}, AsNumber{});
+      const Vec<inputs> f = forces<double>(e, at, own(lambda, i), AsNumber{}, AsNumber{}, AsNumber{});
       detail::require_finite(f.allFinite(), i, "is not a finite number");
       detail::scatter<width>(pull_back(e, f), elements_.coordinates(i), F);
     });
@@ -48,15 +53,15 @@ class FrictionBatch final : public MultiplierForceBatch {
 
   void power(const Instant& at, const Multipliers& lambda, std::span<double> out) const override {
     for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      out[i] =
-          forces<double>(e, at, lambda, i, AsNumber{}, AsNumber{}, AsNumber{}).dot(gather_inputs(e, at.v));
+      out[i] = forces<double>(e, at, own(lambda, i), AsNumber{}, AsNumber{}, AsNumber{})
+                   .dot(gather_inputs(e, at.v));
     });
   }
 
-  void force(std::size_t element, const Instant& at, const Multipliers& lambda,
+  void force(std::size_t element, const Instant& at, std::span<const double> lambda,
              std::span<double> out) const override {
     for_each_element(elements_.all(), element, element + 1, [&](const E& e, std::size_t) {
-      const Vec<inputs> f = forces<double>(e, at, lambda, element, AsNumber{}, AsNumber{}, AsNumber{});
+      const Vec<inputs> f = forces<double>(e, at, lambda, AsNumber{}, AsNumber{}, AsNumber{});
       detail::require_finite(f.allFinite(), element, "is not a finite number");
       Eigen::Map<Vec<width>>(out.data()) = pull_back(e, f);
     });
@@ -65,7 +70,7 @@ class FrictionBatch final : public MultiplierForceBatch {
   void slope(const Instant& at, const Multipliers& lambda, std::span<double> out) const override {
     using S = Dual<rows, 1>;
     for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      const VecOf<S, inputs> f = forces<S>(e, at, lambda, i, Held<S>{}, Held<S>{}, AsInput<S>{});
+      const VecOf<S, inputs> f = forces<S>(e, at, own(lambda, i), Held<S>{}, Held<S>{}, AsInput<S>{});
       for (int r = 0; r < rows; ++r) {
         Vec<inputs> f_lambda;
         for (int k = 0; k < inputs; ++k) f_lambda[k] = f[k].gradient[r];
@@ -81,7 +86,7 @@ class FrictionBatch final : public MultiplierForceBatch {
     using S = Dual<2 * inputs, 1>;
     using Block = Eigen::Matrix<double, width, width, Eigen::RowMajor>;
     for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      const VecOf<S, inputs> f = forces<S>(e, at, lambda, i, AsInput<S>{}, AsInput<S>{}, Held<S>{});
+      const VecOf<S, inputs> f = forces<S>(e, at, own(lambda, i), AsInput<S>{}, AsInput<S>{}, Held<S>{});
       Eigen::Matrix<double, inputs, inputs> F_r, F_v;
       for (int k = 0; k < inputs; ++k) {
         detail::require_finite(isfinite(f[k]), i, "has no finite derivative");
@@ -100,17 +105,20 @@ class FrictionBatch final : public MultiplierForceBatch {
     S operator()(double x, double /*rate*/, int /*k*/) const { return S(x); }
   };
 
-  /// The force of element i on each of its inputs.
+  /// The multipliers that element i reads.
+  [[nodiscard]] static std::span<const double> own(const Multipliers& lambda, std::size_t i) {
+    return lambda.all.subspan(lambda.first_row[i], rows);
+  }
+  /// The force of an element on each of its inputs, by the multipliers that it reads.
   template <class S, class LiftPosition, class LiftVelocity, class LiftMultiplier>
-  [[nodiscard]] static VecOf<S, inputs> forces(const E& e, const Instant& at, const Multipliers& lambda,
-                                               std::size_t i, const LiftPosition& lift_r,
-                                               const LiftVelocity& lift_v, const LiftMultiplier& lift) {
-    const auto own = lambda.all.subspan(lambda.first_row[i], rows);
+  [[nodiscard]] static VecOf<S, inputs> forces(const E& e, const Instant& at, std::span<const double> lambda,
+                                               const LiftPosition& lift_r, const LiftVelocity& lift_v,
+                                               const LiftMultiplier& lift) {
     detail::MultiplierOf<S, rows> multiplier;
     if constexpr (rows == 1) {
-      multiplier = lift(own[0], 0.0, 0);
+      multiplier = lift(lambda[0], 0.0, 0);
     } else {
-      for (int r = 0; r < rows; ++r) multiplier[r] = lift(own[static_cast<std::size_t>(r)], 0.0, r);
+      for (int r = 0; r < rows; ++r) multiplier[r] = lift(lambda[static_cast<std::size_t>(r)], 0.0, r);
     }
     const S t(at.t);
     const auto arguments = std::tuple_cat(std::make_tuple(multiplier), positions<S>(e, t, at, lift_r),

@@ -33,9 +33,7 @@ bool AppliedForces::on(std::size_t number, const Instant& at, std::span<const do
     const auto read = lambda.subspan(place.first_row, static_cast<std::size_t>(shape.rows));
     if (std::ranges::any_of(read, [](double x) { return std::isnan(x); })) return false;
     std::vector<double> force(width);
-    // Of all first rows of the batch only that of this element is looked at.
-    const std::vector<std::size_t> first_row(place.element + 1, place.first_row);
-    place.friction->force(place.element, at, {lambda, first_row}, force);
+    place.friction->force(place.element, at, read, force);
     gather(place.friction->coordinates().subspan(place.element * width, width), force, first, out);
   } else {
     for (std::size_t k = 0; k < out.size(); ++k) out[k] = mass * place.acceleration[k];

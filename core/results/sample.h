@@ -32,8 +32,9 @@ concept MadeOfParticles = requires(const B& body) {
 /// One instant of a run, read by handle. A view: valid while the Trajectory or Simulation it comes
 /// from is alive and unchanged, inside an observer until it returns.
 ///
-/// Every function throws InvalidArgument for a handle that is not one of this scene's, and those that give a
-/// force or an acceleration UndeterminedForce where `is_determined` of a constraint says no.
+/// Every function throws InvalidArgument for a handle that is not one of this scene's. Where the state does
+/// not determine them forces of constraint throw UndeterminedForce, see `is_determined`, and so do
+/// accelerations: those that it may determine though the forces which share them are not.
 ///
 /// What is added here is given on in Readings.
 template <int D>
@@ -170,8 +171,8 @@ class Sample {
   }
 
   /// What an applied force (gravity, a spring, a drag, friction) exerts on a particle, or on a body: the
-  /// resultant; zero if it does not act on it [force]. Its equation is evaluated here; throws EquationFault
-  /// if that goes wrong.
+  /// resultant; zero if it does not act on it [force]. Its equation is evaluated here, not in the run: what a
+  /// law needs it captures by value, or it would be another one now. Throws EquationFault if it goes wrong.
   [[nodiscard]] Vec<D> force(Force force, Particle<D> particle) const;
   template <MadeOfParticles<D> Body>
   [[nodiscard]] Vec<D> force(Force applied, const Body& body) const {

@@ -52,7 +52,7 @@ Trajectory<D>::Trajectory(std::shared_ptr<const Record> record) : record_(std::m
 }
 
 template <int D>
-Sample<D> Trajectory<D>::sample(std::size_t i) const {
+Sample<D> Trajectory<D>::sample(std::size_t i) const& {
   if (i >= size()) {
     throw InvalidArgument("There is no sample " + std::to_string(i) + ": this run has " +
                           std::to_string(size()) + ", counted from 0");

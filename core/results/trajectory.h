@@ -87,11 +87,12 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   explicit Trajectory(std::shared_ptr<const Record> record);
 
   [[nodiscard]] std::size_t size() const { return record_->times.size(); }
-  [[nodiscard]] std::span<const double> times() const { return record_->times; }
-  [[nodiscard]] Sample<D> sample(std::size_t i) const;
+  [[nodiscard]] std::span<const double> times() const& { return record_->times; }
+  [[nodiscard]] Sample<D> sample(std::size_t i) const&;
   [[nodiscard]] Iterator begin() const { return {*record_, 0}; }
   [[nodiscard]] Iterator end() const { return {*record_, size()}; }
-  [[nodiscard]] const Statistics& statistics() const { return record_->statistics; }
+  [[nodiscard]] const Statistics& statistics() const& { return record_->statistics; }
+  [[nodiscard]] Statistics statistics() const&& { return record_->statistics; }
 
   /// Of a particle at all times: D rows and a column per sample. Views, valid as long as a copy of this run
   /// lives. NaN where a force of constraint, and so an acceleration, is not determined.
@@ -115,6 +116,8 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
     return all<Rows>(of(constraint));
   }
   // No views into a run that is gone when they are looked at: keep the run.
+  void times() const&& = delete;
+  void sample(std::size_t) const&& = delete;
   void positions(Particle<D>) const&& = delete;
   void velocities(Particle<D>) const&& = delete;
   void accelerations(Particle<D>) const&& = delete;

@@ -98,14 +98,14 @@ std::string IdaStepper::State::explain(int code) const {
 }
 
 std::string IdaStepper::State::advice() const {
-  return "stiff: " + newton.stiffest_force() +
+  return "stiff: " + system.force_of_stiffness(newton.fastest().stiffest) +
          " makes vibrations much faster than the motion; if it is a spring, state it as a constraint with "
          "compliance 1/stiffness, as in compliant(Distance{a, b, length}, 1.0 / stiffness)";
 }
 
 /// Whether most steps were longer than the vibration of a force, or shorter because of it.
 bool IdaStepper::State::has_stiff_force() const {
-  return 2 * unresolved_steps > steps || newton.fastest_of_forces() * scales.time > stiff_rate;
+  return 2 * unresolved_steps > steps || newton.fastest().of_forces * scales.time > stiff_rate;
 }
 
 /// After a step: changes the highest order if the guard says so. IDA has no way down but to begin anew
@@ -114,8 +114,8 @@ void IdaStepper::State::watch_order() {
   double h = 0.0;
   check(IDAGetLastStep(ida.get(), &h), "IDAGetLastStep");
   const int before = guard.order();
-  order_changed = guard.watch(h, newton.fastest_compliant());
-  if (h * newton.fastest_of_forces() > unresolved) ++unresolved_steps;
+  order_changed = guard.watch(h, newton.fastest().of_compliance);
+  if (h * newton.fastest().of_forces > unresolved) ++unresolved_steps;
   begin_anew = order_changed && guard.order() < before;
 }
 

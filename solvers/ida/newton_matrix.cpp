@@ -106,38 +106,9 @@ void NewtonMatrix::judge(double c) {
   }
 }
 
-/// A force whose own damping is beyond critical does not vibrate; the stiffness of a damper that turns is
-/// one.
-void NewtonMatrix::find_fastest_vibration() {
-  std::ranges::fill(p_, 0.0);
-  for (std::size_t k = 0; k < linear_.damping.size(); ++k) {
-    double& most = p_[system_->damping_pattern()[k].row];
-    most = std::max(most, std::abs(linear_.damping[k]));
-  }
-  double square = 0.0;
-  for (std::size_t k = first_force_entry_; k < linear_.stiffness.size(); ++k) {
-    const auto row = system_->stiffness_pattern()[k].row;
-    const double own = std::abs(linear_.stiffness[k]) / system_->masses()[row];
-    const double damped = p_[row] / system_->masses()[row];
-    if (damped * damped > 4.0 * own) continue;
-    if (own > square) stiffest_ = k;
-    square = std::max(square, own);
-  }
-  rho_forces_ = std::sqrt(square);
-
-  square = 0.0;
-  for (std::size_t r = 0; r < s_.size(); ++r) {
-    if (system_->compliance()[r] > 0.0)
-      square = std::max(square, inverse_effective_mass(*system_, w_, r) / system_->compliance()[r]);
-  }
-  rho_compliant_ = std::sqrt(square);
-}
-
 void NewtonMatrix::converged_badly() {
   if (soft()) still_soft_ = 0.0;
 }
-
-std::string NewtonMatrix::stiffest_force() const { return system_->force_of_stiffness(stiffest_); }
 
 void NewtonMatrix::leave_out_soft_forces() {
   const auto soft = [this](const System::Entry& entry) { return !stiff_[islands_.of_coordinate[entry.row]]; };
@@ -153,7 +124,7 @@ bool NewtonMatrix::factorise(const Instant& at, const System::Evaluation& e, std
   judge(c);
   std::ranges::copy(e.w, w_.begin());
   if (!k2_.factorise(w_)) return false;
-  find_fastest_vibration();
+  fastest_ = fastest_vibrations(*system_, w_, linear_, p_);
   k1_in_use_ = false;
   for (std::size_t i = 0; i < stiff_.size(); ++i) {
     if (!stiff_[i] && !needs_k1_[i]) continue;

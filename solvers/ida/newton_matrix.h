@@ -3,6 +3,7 @@
 #include <dalembert/core/analysis/islands.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/ida/vibrations.h>
 #include <dalembert/solvers/linear/saddle.h>
 
 #include <algorithm>
@@ -80,11 +81,8 @@ class NewtonMatrix {
   /// Brings the factors up to date with W; what forces and multipliers contribute stays as it was.
   /// False if singular.
   [[nodiscard]] bool refresh(const System::Evaluation& e, double c);
-  /// The fastest vibration of compliant rows, by the size of their entries [1 / time]; 0 if there are none.
-  [[nodiscard]] double fastest_compliant() const { return rho_compliant_; }
-  /// That of the forces' stiffness, and which force has it.
-  [[nodiscard]] double fastest_of_forces() const { return rho_forces_; }
-  [[nodiscard]] std::string stiffest_force() const;
+  /// Of the state at which the matrix was made.
+  [[nodiscard]] const Vibrations& fastest() const { return fastest_; }
   /// The sine of the smallest angle that a holonomic row makes with others, see SaddleMatrix.
   [[nodiscard]] double sine() const { return k2_.sine(); }
   /// After an iteration that did not converge: if forces were left out then for being soft, none will be.
@@ -110,7 +108,6 @@ class NewtonMatrix {
   void add_along(std::size_t row, double factor);
   [[nodiscard]] double dlambda(std::size_t active, double c) const;
   void judge(double c);
-  void find_fastest_vibration();
   void leave_out_soft_forces();
   void include(const std::vector<char>& islands);
   [[nodiscard]] bool factorise_stiff(double c);
@@ -141,8 +138,7 @@ class NewtonMatrix {
   bool k1_in_use_ = false;
   long factorisations_of_earlier_ = 0;  // matrices K1, of fewer islands
   std::size_t first_force_entry_;       // of the stiffness: constraints come first
-  std::size_t stiffest_ = 0;            // entry
-  double rho_compliant_ = 0.0, rho_forces_ = 0.0;
+  Vibrations fastest_;
 };
 
 }  // namespace dalembert

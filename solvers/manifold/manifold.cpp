@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dalembert {
 
 namespace {
 
-/// s over the inverse_effective_mass w M^-1 w of a row whose multiplier is given: beyond round-off.
-constexpr double rigid = 1e20;
+/// s over the inverse_effective_mass w M^-1 w of a row whose multiplier is given: what it still yields is
+/// round-off of round-off.
+constexpr double rigid =
+    1.0 / (std::numeric_limits<double>::epsilon() * std::numeric_limits<double>::epsilon());
 
 Violation largest(const System& system, std::span<const double> residual, std::span<const double> w,
                   std::span<const double> lengths) {

@@ -93,7 +93,7 @@ void Recovery::mark_accelerations(Moment& m) const {
   }
   for (std::size_t i = 0; i < a_.size(); ++i) largest = std::max(largest, std::abs(m.a[i]) * lengths_[i]);
   for (std::size_t i = 0; i < a_.size(); ++i) {
-    if (std::abs(a_[i] - m.a[i]) * lengths_[i] > std::sqrt(tolerance_) * largest) m.a[i] = undetermined;
+    if (!(std::abs(a_[i] - m.a[i]) * lengths_[i] <= std::sqrt(tolerance_) * largest)) m.a[i] = undetermined;
   }
 }
 
@@ -122,7 +122,7 @@ void Recovery::mark_undetermined(Manifold& manifold, Moment& m) {
   for (const Layout::Constraint& c : system_->layout()->constraints) {
     for (int k = 0; k < c.rows; ++k) {
       const auto r = static_cast<std::size_t>(c.first_row + k);
-      if (!(force(r, lambda_[r] - m.lambda[r]) > std::sqrt(tolerance_) * largest)) continue;
+      if (force(r, lambda_[r] - m.lambda[r]) <= std::sqrt(tolerance_) * largest) continue;
       m.lambda[r] = undetermined;
       std::fill_n(m.forces.begin() + c.first_slot, c.width, undetermined);
     }

@@ -1,3 +1,4 @@
+#include "../both_steppers.h"
 #include <dalembert/dalembert.h>
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@ namespace {
 constexpr double gravity = 9.81;
 
 class GearTrain : public testing::TestWithParam<Stepper> {};
-INSTANTIATE_TEST_SUITE_P(Steppers, GearTrain, testing::Values(Stepper::ida, Stepper::erk));
+INSTANTIATE_TEST_SUITE_P(Steppers, GearTrain, both_steppers, stepper_name);
 
 // In space: a rack of mass m falls and turns a pinion of radius r_1, to which a wheel of z_1 teeth is welded,
 // which turns one of z_2 teeth. All axes lie along x; the line of centres, of length d, along y.
@@ -115,6 +116,44 @@ TEST_P(GearTrain, PlanetsObeyWillisAndFeelTheirTeeth) {
     const Vec<2> of_pin = mp * (R * w_rate * n - R * w * w * e) - (S + Q) * n;
     EXPECT_LT((reaction(now, pin).force - of_pin).norm(), promised);
     EXPECT_LT((reaction(now, bearing).force - of_pin).norm(), promised);
+  }
+}
+
+TEST(Gear, MayBeGivenOtherTeeth) {
+  Scene<2> scene;
+  const auto a = add_body<2>(scene, {.mass = 1.0, .inertia = 0.1}, "a");
+  const auto b = add_body<2>(scene, {.mass = 1.0, .inertia = 0.1, .centre = {0.6, 0}}, "b");
+  Gear mesh{a, b, {0, 0}, {0.6, 0}, 10, 20};
+  mesh.teeth_a = 20;
+  const Gear stated{a, b, {0, 0}, {0.6, 0}, 20, 20};
+  // Turned by 0.1 out of mesh, by as much of the pitch circle.
+  const Vec<2> O(0, 0), P(0.6, 0), x(1, 0), y(0, 1), turned(std::cos(0.1), std::sin(0.1)),
+      left(-turned.y(), turned.x());
+  EXPECT_EQ(mesh(O, x, y, P, turned, left), stated(O, x, y, P, turned, left));
+  EXPECT_NEAR(std::abs(mesh(O, x, y, P, turned, left)), 0.3 * 0.1, 1e-15);
+}
+
+// A drive that rests, turns round once within much less than a step, and rests again: the pinion ends as it
+// began, and the wheel of twice as many teeth half a turn on.
+TEST_P(GearTrain, AnIndexingDriveLosesNoTurn) {
+  for (const double within : {0.1, 0.03, 0.01, 0.001}) {
+    for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+      Scene<2> scene;
+      const Vec<2> O(0, 0), P(0.3, 0);
+      const auto pinion = add_body<2>(scene, {.mass = 1.0, .inertia = 0.1}, "pinion");
+      const auto wheel = add_body<2>(scene, {.mass = 1.0, .inertia = 0.3, .centre = P}, "wheel");
+      const auto pin = add_joint(scene, Revolute{Ground<2>{}, pinion, O}, "pin");
+      add_joint(scene, Revolute{Ground<2>{}, wheel, P}, "bearing");
+      add_joint(scene, Gear{pinion, wheel, O, P, 20, 40}, "mesh");
+      const auto round = [within](auto t) { return std::numbers::pi * (1.0 + tanh((t - 4.23) / within)); };
+      const Rotor armature = scene.add_rotor({.inertia = 1e-3});
+      add_joint(scene, AngleDrive{pin, armature, round}, "motor");
+      const auto run =
+          simulate(scene, {.t_end = 10.0, .samples = 101, .tolerance = tolerance, .stepper = GetParam()});
+      // Both are put onto their constraints, to some hundred roundings.
+      EXPECT_NEAR(run.angle(armature, 100), 2.0 * std::numbers::pi, 1e-11) << within << ' ' << tolerance;
+      EXPECT_NEAR(std::cos(angle(run.sample(100), wheel)), -1.0, 1e-11) << within << ' ' << tolerance;
+    }
   }
 }
 

@@ -1,3 +1,4 @@
+#include "../both_steppers.h"
 #include <dalembert/dalembert.h>
 
 #include <gtest/gtest.h>
@@ -21,7 +22,7 @@ constexpr double pitch = 0.02, kappa = pitch / (2.0 * std::numbers::pi), J = 4e-
 constexpr double gravity = 9.81, k = 2000.0, c = 0.1;
 
 class ScrewPress : public testing::TestWithParam<Stepper> {};
-INSTANTIATE_TEST_SUITE_P(Steppers, ScrewPress, testing::Values(Stepper::ida, Stepper::erk));
+INSTANTIATE_TEST_SUITE_P(Steppers, ScrewPress, both_steppers, stepper_name);
 
 TEST_P(ScrewPress, OscillatesAsItsReducedMass) {
   Scene<3> scene;

@@ -1,3 +1,4 @@
+#include "../both_steppers.h"
 #include <dalembert/dalembert.h>
 
 #include <gtest/gtest.h>
@@ -51,7 +52,7 @@ struct Driving {
 };
 
 class UniversalShaft : public testing::TestWithParam<Stepper> {};
-INSTANTIATE_TEST_SUITE_P(Steppers, UniversalShaft, testing::Values(Stepper::ida, Stepper::erk));
+INSTANTIATE_TEST_SUITE_P(Steppers, UniversalShaft, both_steppers, stepper_name);
 
 TEST_P(UniversalShaft, HasTheClassicalRatioAndTheTorqueOfItsCross) {
   const Vec<3> e1(1.0, 0.0, 0.0), e2(std::cos(b), std::sin(b), 0.0), across(-std::sin(b), std::cos(b), 0.0);

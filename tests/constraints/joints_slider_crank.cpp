@@ -1,3 +1,4 @@
+#include "../both_steppers.h"
 #include "newton_euler.h"
 #include <dalembert/dalembert.h>
 
@@ -42,7 +43,7 @@ Matrix coupler_axes(Real t) {
 }
 
 class SpatialSliderCrank : public testing::TestWithParam<Stepper> {};
-INSTANTIATE_TEST_SUITE_P(Steppers, SpatialSliderCrank, testing::Values(Stepper::ida, Stepper::erk));
+INSTANTIATE_TEST_SUITE_P(Steppers, SpatialSliderCrank, both_steppers, stepper_name);
 
 TEST_P(SpatialSliderCrank, HasTheForcesOfNewtonAndEuler) {
   // The statement, in double precision; positions at the start from the formulas above.
@@ -61,7 +62,9 @@ TEST_P(SpatialSliderCrank, HasTheForcesOfNewtonAndEuler) {
   const auto at_B = scene.add(Coincident{crank.point_at(B0), coupler.point_at(B0)}, "ball");
   const auto cross = add_joint(scene, Universal{coupler, block, C0, axes.col(1), {0, 1, 0}}, "cross");
   const auto guide = add_joint(scene, Prismatic{Ground<3>{}, block, C0, {1, 0, 0}}, "guide");
-  const auto motor = add_joint(scene, AngleDrive{hinge, [](auto t) { return phi(t) - 0.4; }}, "motor");
+  const auto armature = scene.add_rotor({.inertia = 0.01}, "armature");
+  const auto motor =
+      add_joint(scene, AngleDrive{hinge, armature, [](auto t) { return phi(t) - 0.4; }}, "motor");
   const auto run = simulate(
       scene, {.t_end = 3.0, .samples = 13, .tolerance = 1e-10, .stepper = GetParam(), .assemble = true});
   ASSERT_EQ(run.statistics().degrees_of_freedom, 0);
@@ -114,7 +117,9 @@ TEST_P(SpatialSliderCrank, HasTheForcesOfNewtonAndEuler) {
     const Reaction<3> of_hinge = reaction(now, hinge), of_motor = reaction(now, motor);
     EXPECT_LT((of_hinge.force - F_A.cast<double>()).norm(), promised);
     EXPECT_LT((of_hinge.torque + of_motor.torque - T_A.cast<double>()).norm(), promised);
-    EXPECT_NEAR(now.multiplier(motor), static_cast<double>(T_A.x()), promised);
+    EXPECT_NEAR(now.multiplier(motor)[0], static_cast<double>(T_A.x()), promised);
+    EXPECT_NEAR(now.multiplier(motor)[1],
+                now.multiplier(motor)[0] + 0.01 * now.angular_acceleration(armature), promised);
     EXPECT_LT(std::abs(of_hinge.torque.x()), promised);
     EXPECT_LT(of_motor.force.norm(), promised);
   }

@@ -133,11 +133,14 @@ void expect_no_preferred_place(const Case<D>& c) {
   const Placement<D> there = laws::elsewhere<D>();
   const Built<D> here(c), moved(c, there);
   State s = stated(here), t = s;
-  Eigen::MatrixXd turn = Eigen::MatrixXd::Zero(s.q.size(), s.q.size());
-  for (Eigen::Index p = 0; p < s.q.size(); p += D) {
-    turn.block<D, D>(p, p) = there.turn;
-    t.q.segment<D>(p) = there.turn * s.q.segment<D>(p) + there.shift;
-    t.v.segment<D>(p) = there.turn * s.v.segment<D>(p);
+  Eigen::MatrixXd turn = Eigen::MatrixXd::Identity(s.q.size(), s.q.size());  // rotors stay as they are
+  for (const auto& body : here.bodies) {
+    for (const auto& particle : body.particles) {
+      const Eigen::Index p = particle.coordinate;
+      turn.block<D, D>(p, p) = there.turn;
+      t.q.segment<D>(p) = there.turn * s.q.segment<D>(p) + there.shift;
+      t.v.segment<D>(p) = there.turn * s.v.segment<D>(p);
+    }
   }
   const Values a = values(here.system, s), b = values(moved.system, t);
   const OfRigidBodies<D> at_rest(a, 2 * RigidBody<D>::rod_count), elsewhere(b, 2 * RigidBody<D>::rod_count);

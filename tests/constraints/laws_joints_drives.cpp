@@ -6,11 +6,12 @@ namespace {
 /// A drive of an angle with its hinge: without one, bodies that tilt have no angle to speak of.
 template <int D, class J>
 void driven_joint(const std::string& type, int rows, const J& joint) {
-  const Case<D> c{type, rows, [joint](Scene<D>& scene, const Placement<D>& at, const Bodies<D>& b) {
-                    const auto hinge = joint(at, b[0], b[1]);
-                    scene.add(hinge);
-                    scene.add(AngleDrive{hinge, [](auto t) { return sin(t); }});
-                  }};
+  const Case<D> c{
+      type, rows, [joint](Scene<D>& scene, const Placement<D>& at, const Bodies<D>& b) {
+        const auto hinge = joint(at, b[0], b[1]);
+        scene.add(hinge);
+        scene.add(AngleDrive{hinge, scene.add_rotor({.inertia = 0.2}), [](auto t) { return sin(t); }});
+      }};
   register_case<D>("ActsOnBothBodiesAlike", c, expect_action_is_reaction<D>);
   register_laws(c);
 }
@@ -55,8 +56,11 @@ void sprung_joint() {
 
 // clang-format off: one line for each joint
 const bool registered = [] {
-  driven_joint<3>("AngleDrive", 6, [](auto& at, auto a, auto b) {
+  driven_joint<3>("AngleDrive", 7, [](auto& at, auto a, auto b) {
     return Revolute{a, b, at.point(0.1, 0.3, 0.7), at.direction(1.0, -2.0, 0.5)};
+  });
+  driven_joint<2>("AngleDrive", 4, [](auto& at, auto a, auto b) {
+    return Revolute{a, b, at.point(0.1, 0.3)};
   });
   joint_of_bodies<3>("PathDrive", 1, [](auto& at, auto a, auto b) {
     return PathDrive{Prismatic{a, b, at.point(0.1, 0.3, 0.7), at.direction(1.0, -2.0, 0.5)},

@@ -24,9 +24,6 @@ const bool registered = [] {
   joint_of_bodies<2>("RackAndPinion", 1, [](auto& at, auto a, auto b) {
     return RackAndPinion{a, b, at.point(0.1, 0.3), at.point(1.1, -1.7)};
   });
-  joint_of_bodies<2>("AngleDrive", 1, [](auto& at, auto a, auto b) {
-    return AngleDrive{Revolute{a, b, at.point(0.1, 0.3)}, [](auto t) { return sin(t); }};
-  });
   joint_of_bodies<2>("PathDrive", 1, [](auto& at, auto a, auto b) {
     return PathDrive{Prismatic{a, b, at.point(0.1, 0.3), at.direction(1.0, -2.0)},
                      [](auto t) { return sin(t); }};

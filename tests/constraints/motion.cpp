@@ -1,3 +1,4 @@
+#include "../both_steppers.h"
 #include <dalembert/dalembert.h>
 
 #include <Eigen/Geometry>
@@ -133,12 +134,24 @@ TEST(AngularAcceleration, OfARodInSpaceIsAcrossIt) {
   EXPECT_LT((alpha - Vec<3>(-1.5 * 9.81 / 2.0, 0.0, 0.0)).norm(), 10 * round_off);
 }
 
+TEST(Motion, OfABodyOfAnotherSceneCannotBeRead) {
+  Scene<3> mine, other;
+  const BodyState<3> s{.mass = 2.0, .inertia = {0.5, 0.6, 0.7}};
+  add_body(other, s, "first");
+  const auto body = add_body(other, s, "second");
+  mine.add_particle({.mass = 1.0});
+  const Simulation<3> at(mine, {.t_end = 1.0});
+  EXPECT_THROW((void)kinetic_energy(at.sample(), body), InvalidArgument);
+  EXPECT_THROW((void)momentum(at.sample(), body), InvalidArgument);
+  EXPECT_THROW((void)angular_momentum(at.sample(), body, {0.0, 0.0, 0.0}), InvalidArgument);
+}
+
 /// A free top with moments A, A, C turns about its angular momentum L, which stands still, by |L| t/A, and
 /// about its own axis by n t, n = omega_3 (A - C)/A (Landau, Lifshitz, Mechanics, 33):
 ///
 ///   R(t) = Rot(L, |L| t/A) R(0) Rot(e_3, n t),   omega(t) = Rot(L, |L| t/A) omega(0)
 class FreeTop : public testing::TestWithParam<Stepper> {};
-INSTANTIATE_TEST_SUITE_P(Steppers, FreeTop, testing::Values(Stepper::ida, Stepper::erk));
+INSTANTIATE_TEST_SUITE_P(Steppers, FreeTop, both_steppers, stepper_name);
 
 TEST_P(FreeTop, TurnsAsItsClosedFormDoes) {
   constexpr double A = 0.5, C = 0.8, tolerance = 1e-10;

@@ -219,6 +219,13 @@ TEST(Dual, SignedZerosAndTiesGoAsInStd) {
   using S = Dual<1, 1>;
   EXPECT_EQ(copysign(S(2.0), S(-0.0)).value, std::copysign(2.0, -0.0));
   EXPECT_EQ(copysign(S(2.0), S(0.0)).value, 2.0);
+  // What is not a number is never lost.
+  const S none(std::numeric_limits<double>::quiet_NaN());
+  for (const S& m : {max(none, S(0.0)), max(S(0.0), none), min(none, S(0.0)), min(S(0.0), none)})
+    EXPECT_TRUE(std::isnan(m.value));
+  for (const double m : {dalembert::max(none.value, 0.0), dalembert::max(0.0, none.value),
+                         dalembert::min(none.value, 0.0), dalembert::min(0.0, none.value)})
+    EXPECT_TRUE(std::isnan(m));
   // std::max and std::min return their first argument where both are equal.
   EXPECT_EQ(max(S::input(1.0, 0), S(1.0)).gradient[0], 1.0);
   EXPECT_EQ(max(S(1.0), S::input(1.0, 0)).gradient[0], 0.0);

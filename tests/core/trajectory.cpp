@@ -216,6 +216,14 @@ TEST_F(TwoSamples, SayWhenTheyCannotBeWritten) {
 }
 
 // A comma in a name must not make a column of its own.
+/// No view into a run that is gone.
+template <class T>
+concept GivesViews = requires(T run) {
+  std::forward<T>(run).sample(0);
+}
+|| requires(T run) { std::forward<T>(run).times(); };
+static_assert(GivesViews<const Trajectory<2>&> && !GivesViews<Trajectory<2>>);
+
 TEST(Trajectory, NamesWithACommaAreQuotedInCsv) {
   Scene<2> scene;
   scene.add_particle({.mass = 1.0}, "upper, left");

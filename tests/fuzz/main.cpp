@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   std::uint64_t seed = 1, count = 300;
   std::string steppers = "both", family = "all", file;
   std::vector<std::uint64_t> only;
+  int longest = 60;
   bool list = false;
   app.add_option("--scenes", count, "number of scenes")->capture_default_str();
   app.add_option("--seed", seed, "of the first; the next has the next number")->capture_default_str();
@@ -51,6 +52,8 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"any", "redundant", "kinked", "all"}))
       ->capture_default_str();
   app.add_option("--corpus", file, "run the scenes of this file first");
+  app.add_option("--longest", longest, "a scene that takes more processor time hangs [s]; the slowest take 4")
+      ->capture_default_str();
   app.add_flag("--list", list, "a line for every scene");
   CLI11_PARSE(app, argc, argv);
 
@@ -75,5 +78,5 @@ int main(int argc, char** argv) {
     for (const Task& task : tasks) print(task);
     return 0;
   }
-  return run_all(tasks, list) == 0 ? 0 : 1;
+  return run_all(tasks, longest, list) == 0 ? 0 : 1;
 }

@@ -16,9 +16,6 @@ namespace dalembert::fuzz {
 
 namespace {
 
-/// A scene that takes longer hangs [s of processor time, so that a busy machine does not count]:
-/// the slowest take 4 s, and ten times that under sanitizers.
-constexpr int longest = 60;
 /// Scenes per process: starting one costs as much as a scene.
 constexpr std::size_t batch = 100;
 
@@ -33,7 +30,7 @@ void tell(std::FILE* out, const Verdict& v) {
   std::fflush(out);
 }
 
-[[noreturn]] void work(const std::vector<Task>& tasks, std::size_t first, std::FILE* out) {
+[[noreturn]] void work(const std::vector<Task>& tasks, std::size_t first, int longest, std::FILE* out) {
   for (std::size_t i = first; i < std::min(first + batch, tasks.size()); ++i) {
     const itimerval limit{{0, 0}, {longest, 0}};
     setitimer(ITIMER_PROF, &limit, nullptr);  // its signal ends the process
@@ -45,7 +42,7 @@ void tell(std::FILE* out, const Verdict& v) {
   std::exit(0);  // and with it the search for leaks
 }
 
-std::string ending(int status) {
+std::string ending(int status, int longest) {
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGPROF) {
     return "hangs: more than " + std::to_string(longest) + " s";
   }
@@ -80,7 +77,7 @@ class Tally {
 };
 
 /// Runs tasks from `first` on in a child until a batch or the child ends; returns where to go on.
-std::size_t run_some(const std::vector<Task>& tasks, std::size_t first, Tally& tally) {
+std::size_t run_some(const std::vector<Task>& tasks, std::size_t first, int longest, Tally& tally) {
   int ends[2];
   if (pipe(ends) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   std::cout.flush();
@@ -88,7 +85,7 @@ std::size_t run_some(const std::vector<Task>& tasks, std::size_t first, Tally& t
   if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
   if (child == 0) {
     close(ends[0]);
-    work(tasks, first, fdopen(ends[1], "w"));
+    work(tasks, first, longest, fdopen(ends[1], "w"));
   }
   close(ends[1]);
   std::FILE* in = fdopen(ends[0], "r");
@@ -111,15 +108,15 @@ std::size_t run_some(const std::vector<Task>& tasks, std::size_t first, Tally& t
   const std::size_t end = std::min(first + batch, tasks.size());
   if (status == 0 && i == end) return end;
   const Task& at_fault = tasks[std::min(i, end - 1)];  // all told: what was found at the end, a leak
-  tally.add(at_fault, "died", "", "", ending(status));
+  tally.add(at_fault, "died", "", "", ending(status, longest));
   return std::min(i + 1, end);
 }
 
 }  // namespace
 
-int run_all(const std::vector<Task>& tasks, bool list) {
+int run_all(const std::vector<Task>& tasks, int longest, bool list) {
   Tally tally(list);
-  for (std::size_t i = 0; i < tasks.size();) i = run_some(tasks, i, tally);
+  for (std::size_t i = 0; i < tasks.size();) i = run_some(tasks, i, longest, tally);
   return tally.report();
 }
 

@@ -1,3 +1,4 @@
+#include "../both_steppers.h"
 #include <dalembert/core/autodiff/branches.h>
 #include <dalembert/core/autodiff/dual.h>
 #include <dalembert/dalembert.h>
@@ -170,8 +171,7 @@ class Friction : public testing::TestWithParam<Stepper> {
     return {.t_end = 1.0, .samples = 11, .tolerance = tolerance, .stepper = GetParam()};
   }
 };
-INSTANTIATE_TEST_SUITE_P(InBothSteppers, Friction, testing::Values(Stepper::ida, Stepper::erk),
-                         [](const auto& info) { return std::string(name(info.param)); });
+INSTANTIATE_TEST_SUITE_P(InBothSteppers, Friction, both_steppers, stepper_name);
 
 // mu = 0.7 > tan(0.5) = 0.546: it stops after v/(g (sin + mu cos)).
 TEST_P(Friction, ThatSticksStopsTheRunWhenItDoes) {

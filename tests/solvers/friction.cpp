@@ -1,3 +1,4 @@
+#include "../both_steppers.h"
 #include <dalembert/dalembert.h>
 
 #include <gmock/gmock.h>
@@ -29,8 +30,7 @@ class Sliding : public testing::TestWithParam<Stepper> {
     return {.t_end = t_end, .samples = 21, .tolerance = tolerance, .stepper = GetParam()};
   }
 };
-INSTANTIATE_TEST_SUITE_P(ByBothSteppers, Sliding, testing::Values(Stepper::ida, Stepper::erk),
-                         [](const auto& info) { return std::string(name(info.param)); });
+INSTANTIATE_TEST_SUITE_P(ByBothSteppers, Sliding, both_steppers, stepper_name);
 
 /// A bead that slides down an incline: N = m g cos(alpha), a = g (sin(alpha) - mu cos(alpha)). The plane is
 /// rigid, or a spring already as far compressed as N compresses it.

@@ -223,5 +223,41 @@ TEST(Simulation, ALoneParticleHasTheLengthOfItsPath) {
   }
 }
 
+/// Both say the same, and neither has moved anything.
+TEST(Simulation, StepAndAdvanceEndAlike) {
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    const Pendulum pendulum;
+    Simulation<2> simulation(pendulum.scene, {.t_end = 1.0, .stepper = stepper});
+    simulation.advance_to(1.0);
+    simulation.advance_to(1.0);
+    const double energy = simulation.energy();
+    EXPECT_THROW(simulation.step(), InvalidArgument);
+    EXPECT_THROW(simulation.advance_to(1.5), InvalidArgument);
+    EXPECT_EQ(simulation.time(), 1.0);
+    EXPECT_EQ(simulation.energy(), energy);
+  }
+}
+
+/// The stepper may have reached t_end while the simulation stands before it.
+TEST(Simulation, StepsToTheEndFromAnywhereBefore) {
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    const Pendulum pendulum;
+    Simulation<2> simulation(pendulum.scene, {.t_end = 0.5, .stepper = stepper});
+    simulation.advance_to(std::nextafter(0.5, 0.0));
+    simulation.step();
+    EXPECT_EQ(simulation.time(), 0.5);
+    EXPECT_THROW(simulation.step(), InvalidArgument);
+  }
+}
+
+/// It is no fault of the run.
+TEST(Simulation, WhatAnObserverThrowsIsItsOwn) {
+  const Pendulum pendulum;
+  const auto late = driven([](auto t) { return vec(1.0 / (t - 0.5), 0.0); });
+  EXPECT_THROW((void)simulate(pendulum.scene, {.t_end = 1.0, .samples = 11},
+                              [&](const Sample<2>& now) { (void)now.position(late); }),
+               EquationFault);
+}
+
 }  // namespace
 }  // namespace dalembert
