@@ -41,8 +41,9 @@ class EquationFault : public Error {
   using Error::Error;
 };
 
-/// A force of constraint was asked for at an instant at which the constraints are so close to dependent that
-/// the state does not determine it. Motion can be read there; Sample::is_determined tells beforehand.
+/// A force of constraint was asked for at an instant at which the state does not determine it: the
+/// constraints are close to dependent, or one yields so little that positions do not tell how far. Motion can
+/// be read there; Sample::is_determined tells beforehand.
 class UndeterminedForce : public Error {
   using Error::Error;
 };

@@ -71,7 +71,7 @@ void Stepping::step(double wanted) {
   // Before a step, so that all output within the last has been read from the stepper that took it.
   exchange_rows();
   if (options_.stepper == Stepper::ida) watch_sine();
-  if (!std::exchange(begun_, true)) watch_sliding();
+  if (steps_++ == 0) watch_sliding();
   try {
     stepper_->step(wanted);
   } catch (const StepFailure&) {
@@ -91,10 +91,10 @@ void Stepping::read(double t, Moment& m) {
   if (const auto rows = better_rows({t, m.q, m.v})) {
     Manifold other(*system_, *rows, lengths_);
     follow_springs(t, other);
-    recovery_.recover(other, m);
+    recovery_.recover(other, m, steps_);
     count(other, past_);
   } else {
-    recovery_.recover(*manifold_, m);
+    recovery_.recover(*manifold_, m, steps_);
   }
   past_.residual_position = std::max(past_.residual_position, m.position.size);
   past_.residual_velocity = std::max(past_.residual_velocity, m.velocity.size);

@@ -65,7 +65,7 @@ class Stepping {
   Recovery recovery_;
   double best_sine_ = 1.0;  // of any rows, where they were compared last
 
-  bool begun_ = false;
+  long steps_ = 0;
   Angle angle_;               // at the last step
   bool handed_over_ = false;  // to the explicit stepper, close to a singular position
   double sine_at_handover_ = 0.0;

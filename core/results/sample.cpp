@@ -29,8 +29,7 @@ void Sample<D>::refuse_path() const {
 template <int D>
 void Sample<D>::refuse_acceleration() const {
   throw UndeterminedForce("This acceleration is not determined" + at_time(flat_.time) +
-                          ", because the force of a constraint on it is not: the constraints are close to "
-                          "dependent there; read it at another time");
+                          ", because the force of a constraint on it is not; ask for that to read why");
 }
 
 template <int D>
@@ -72,9 +71,11 @@ bool Sample<D>::determined(const Layout::Constraint& constraint) const {
 
 template <int D>
 void Sample<D>::refuse(const Layout::Constraint& constraint) const {
-  throw UndeterminedForce("The force of " + constraint.label() + " is not determined" + at_time(flat_.time) +
-                          ": the constraints are so close to dependent there that an error of the state, "
-                          "however small, changes it; read it at another time, or ask is_determined before");
+  throw UndeterminedForce(
+      "The force of " + constraint.label() + " is not determined" + at_time(flat_.time) +
+      ": an error of the state as small as round-off changes it, for the constraints are so "
+      "close to dependent there, or it yields so little that positions do not tell how far; "
+      "read it at another time, a stiff spring with Stepper::ida, or ask is_determined before");
 }
 
 template <int D>

@@ -98,7 +98,7 @@ std::string IdaStepper::State::explain(int code) const {
 }
 
 std::string IdaStepper::State::advice() const {
-  return "stiff: " + system.force_of_stiffness(newton.fastest().stiffest) +
+  return "stiff: " + system->force_of_stiffness(newton.fastest().stiffest) +
          " makes vibrations much faster than the motion; if it is a spring, state it as a constraint with "
          "compliance 1/stiffness, as in compliant(Distance{a, b, length}, 1.0 / stiffness)";
 }

@@ -52,6 +52,7 @@ class Manifold {
 
   /// From here on the multipliers of compliant rows are these, and projected with the state.
   void follow(const Springs& springs);
+  [[nodiscard]] bool following() const { return following_; }
 
   /// (1), with steps halved until they bring the state closer, until the distance is at most
   /// `tolerance` or no longer shrinks. Returns what is left. Throws EquationFault.

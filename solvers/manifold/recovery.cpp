@@ -129,7 +129,28 @@ void Recovery::mark_undetermined(Manifold& manifold, Moment& m) {
   }
 }
 
-void Recovery::recover(Manifold& manifold, Moment& m) {
+/// Each step displaces a spring by a rounding of positions, and nothing damps the vibration: after n steps it
+/// may have wandered sqrt(n) of them.
+void Recovery::mark_springs(const Manifold& manifold, Moment& m, long steps) const {
+  const auto C = system_->compliance();
+  const auto& w = manifold.equations().w;
+  const double wandered = scales_.largest_rounding(m.q) * std::sqrt(static_cast<double>(std::max(steps, 1L)));
+  double largest = 0.0;
+  for (std::size_t r = 0; r < m.lambda.size(); ++r)
+    largest = std::max(largest, std::abs(m.lambda[r]) * gradient_length(*system_, w, lengths_, r));
+  for (const Layout::Constraint& c : system_->layout()->constraints) {
+    for (int k = 0; k < c.rows; ++k) {
+      const auto r = static_cast<std::size_t>(c.first_row + k);
+      const double gradient = gradient_length(*system_, w, lengths_, r);
+      if (C[r] == 0.0 || wandered * gradient * gradient <= std::sqrt(tolerance_) * largest * C[r]) continue;
+      m.lambda[r] = undetermined;
+      std::fill_n(m.forces.begin() + c.first_slot, c.width, undetermined);
+      for (const std::size_t j : system_->row(r)) m.a[system_->w_columns()[j]] = undetermined;
+    }
+  }
+}
+
+void Recovery::recover(Manifold& manifold, Moment& m, long steps) {
   std::ranges::copy(m.q, q_given_.begin());
   std::ranges::copy(m.v, v_given_.begin());
   const bool known = project(manifold, m);
@@ -155,6 +176,7 @@ void Recovery::recover(Manifold& manifold, Moment& m) {
   }
   if (!known) return leave_forces_out(m);
   if (manifold.sine() <= constants.well_conditioned) mark_undetermined(manifold, m);
+  if (system_->compliant() && !manifold.following()) mark_springs(manifold, m, steps);
 }
 
 }  // namespace dalembert

@@ -32,12 +32,15 @@ struct Moment {
 /// state, as far off along n as the constraints cannot tell, shows what that does: a multiplier that differs
 /// by more than the root of the tolerance, relative to the largest force, is not determined. It is
 /// NaN here, and Sample refuses to read it. So are accelerations.
+///
+/// Nor is that of a compliant constraint if it is read from positions, lambda = -g/C, and C is so small that
+/// these do not tell it.
 class Recovery {
  public:
   Recovery(const System& system, const Start& start, double tolerance);
 
-  /// At m.t, from the stepper's m.q and m.v. Throws StepFailure, EquationFault.
-  void recover(Manifold& manifold, Moment& m);
+  /// At m.t, from the stepper's m.q and m.v after so many steps. Throws StepFailure, EquationFault.
+  void recover(Manifold& manifold, Moment& m, long steps);
 
  private:
   [[nodiscard]] bool project(Manifold& manifold, Moment& m);
@@ -45,6 +48,7 @@ class Recovery {
   void require_agreement(const Moment& m) const;
   void mark_undetermined(Manifold& manifold, Moment& m);
   void mark_accelerations(Moment& m) const;
+  void mark_springs(const Manifold& manifold, Moment& m, long steps) const;
   void leave_forces_out(Moment& m) const;
 
   const System* system_;

@@ -7,12 +7,14 @@
 
 namespace dalembert {
 
-double Scales::rounding(std::span<const double> q) const {
+double Scales::largest_rounding(std::span<const double> q) const {
   double farthest = 0.0;
   for (std::size_t i = 0; i < q.size(); ++i)
     farthest = std::max(farthest, std::abs(q[i]) * length / coordinate[i]);
-  return 10.0 * std::numeric_limits<double>::epsilon() * farthest;
+  return std::numeric_limits<double>::epsilon() * farthest;
 }
+
+double Scales::rounding(std::span<const double> q) const { return 10.0 * largest_rounding(q); }
 
 std::vector<double> Scales::lengths() const {
   auto lengths = coordinate;

@@ -51,6 +51,8 @@ struct Scales {
   [[nodiscard]] Way further(std::span<const double> q, std::span<const double> v, double h,
                             double tolerance) const;
   void take(const Way& next);
+  /// A rounding of the coordinate that is farthest from 0.
+  [[nodiscard]] double largest_rounding(std::span<const double> q) const;
   /// How far from its constraints round-off alone may leave a state.
   [[nodiscard]] double rounding(std::span<const double> q) const;
   /// Of each coordinate the length that a unit of it counts for: 1, or `length` for an angle.
