@@ -129,20 +129,26 @@ void Recovery::mark_undetermined(Manifold& manifold, Moment& m) {
   }
 }
 
-/// Each step displaces a spring by a rounding of positions, and nothing damps the vibration: after n steps it
-/// may have wandered sqrt(n) of them.
+/// The force of a spring of stiffness 1/C is off by dx/C where positions are off by dx. That is a rounding of
+/// what was stated; each step adds some more, and as nothing damps the vibration they wander, sqrt(n) steps'
+/// far after n steps. As elsewhere a force may be wrong by the root of the tolerance, relative to the largest
+/// of constraint or inertia.
 void Recovery::mark_springs(const Manifold& manifold, Moment& m, long steps) const {
   const auto C = system_->compliance();
   const auto& w = manifold.equations().w;
-  const double wandered = scales_.largest_rounding(m.q) * std::sqrt(static_cast<double>(std::max(steps, 1L)));
+  const double dx =
+      scales_.largest_rounding(m.q) + std::sqrt(static_cast<double>(steps)) * scales_.rounding(m.q);
   double largest = 0.0;
   for (std::size_t r = 0; r < m.lambda.size(); ++r)
     largest = std::max(largest, std::abs(m.lambda[r]) * gradient_length(*system_, w, lengths_, r));
+  for (std::size_t i = 0; i < m.a.size(); ++i)
+    largest = std::max(largest, system_->masses()[i] * std::abs(m.a[i]) / lengths_[i]);
   for (const Layout::Constraint& c : system_->layout()->constraints) {
     for (int k = 0; k < c.rows; ++k) {
       const auto r = static_cast<std::size_t>(c.first_row + k);
+      if (C[r] == 0.0) continue;
       const double gradient = gradient_length(*system_, w, lengths_, r);
-      if (C[r] == 0.0 || wandered * gradient * gradient <= std::sqrt(tolerance_) * largest * C[r]) continue;
+      if (gradient * gradient * dx <= std::sqrt(tolerance_) * largest * C[r]) continue;
       m.lambda[r] = undetermined;
       std::fill_n(m.forces.begin() + c.first_slot, c.width, undetermined);
       for (const std::size_t j : system_->row(r)) m.a[system_->w_columns()[j]] = undetermined;

@@ -67,6 +67,27 @@ TEST(Compliant, StiffSpringsTensionIsThatOfARodUpToOneOverStiffness) {
   }
 }
 
+// The explicit stepper reads it from positions, whose roundings a vibration gathers: right to the root of the
+// tolerance, of forces up to 3 m g, or not at all.
+TEST(Compliant, AForceThatPositionsDoNotTellCannotBeRead) {
+  const double tolerance = 1e-8;
+  for (const double k : {1e6, 1e8, 1e10, 1e12}) {
+    SpringPendulum s(k, {1.0, 0.0});
+    const auto run =
+        simulate(s.scene, {.t_end = 1.0, .samples = 11, .tolerance = tolerance, .stepper = Stepper::erk});
+    for (const auto& now : run) {
+      if (!now.is_determined(s.rod)) {
+        EXPECT_GE(k, 1e10) << "told to 2e-16 sqrt(2e4 steps) k, 3e-6 N";
+        EXPECT_THROW((void)now.acceleration(s.bob), UndeterminedForce);
+        continue;
+      }
+      EXPECT_TRUE(k < 1e12 || now.time() == 0.0);
+      const double tension = -3.0 * g * now.position(s.bob).y();
+      EXPECT_NEAR(-now.multiplier(s.rod), tension, 100.0 * g * g / k + std::sqrt(tolerance) * 3.0 * g);
+    }
+  }
+}
+
 TEST(Compliant, WithoutComplianceItIsTheRigidConstraint) {
   SpringPendulum s(std::numeric_limits<double>::infinity(), {1.0, 0.0});
   Scene<2> plain;
