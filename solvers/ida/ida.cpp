@@ -14,6 +14,9 @@ namespace {
 
 /// Below this tolerance round-off comes into question where Newton's iteration fails.
 constexpr double tight = 1e-9;
+constexpr const char* too_tight =
+    "the tolerance asks for more than double precision can deliver here; ask for one ten times as large, or "
+    "look for a discontinuous force";
 
 /// Steps longer than this over a force's own rate do not follow its vibration.
 constexpr double unresolved = 0.45;
@@ -84,9 +87,7 @@ std::string IdaStepper::State::explain(int code) const {
              "ask for a looser tolerance, or look for a discontinuous or very stiff force";
     case IDA_CONV_FAIL:
       return fault_or(
-          asked_for < tight
-              ? "Newton's iteration does not converge: the tolerance asks for more than double precision can "
-                "deliver here; ask for one ten times as large, or look for a discontinuous force"
+          asked_for < tight ? std::string("Newton's iteration does not converge: ") + too_tight
           : sine() < constants.close_to_dependent
               ? "Newton's iteration does not converge; the constraints are close to dependent here"
               : "Newton's iteration does not converge; look for a discontinuous or very stiff force");
@@ -158,8 +159,10 @@ void IdaStepper::step(double /*wanted*/) {
   s.watch_convergence();
   // In front of a fault IDA would halve and double such steps for ever.
   if (code == IDA_SUCCESS && s.t - before <= 4.0 * std::numeric_limits<double>::epsilon() * std::abs(s.t)) {
-    throw StepFailure{
-        s.fault_or("the step has become too short to advance time; look for a discontinuous force"), s.t};
+    throw StepFailure{s.fault_or("the step has become too short to advance time" +
+                                 (s.asked_for < tight ? std::string(": ") + too_tight
+                                                      : "; look for a discontinuous force")),
+                      s.t};
   }
   s.watch_order();
 }

@@ -95,7 +95,7 @@ struct IdaStepper::State {
   [[nodiscard]] std::string explain(int code) const;
   [[nodiscard]] bool has_stiff_force() const;
   [[nodiscard]] std::string advice() const;
-  [[nodiscard]] std::string fault_or(const char* otherwise) const {
+  [[nodiscard]] std::string fault_or(const std::string& otherwise) const {
     return !fault.empty() && fault_time >= t ? fault : otherwise;
   }
 };
