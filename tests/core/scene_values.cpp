@@ -9,8 +9,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
-#include <stdexcept>
 
 namespace dalembert {
 namespace {
@@ -160,41 +158,6 @@ TEST(SceneValues, ASceneThatWasMovedFromStartsAnew) {
   EXPECT_NE(bob, other);
   EXPECT_THROW(first.replace(bob, {.mass = 1.0}), InvalidArgument);
   EXPECT_NO_THROW(second.replace(bob, {.mass = 1.0}));
-}
-
-/// A parameter whose copies fail when it is told so.
-struct Fragile {
-  std::shared_ptr<bool> broken;
-
-  explicit Fragile(std::shared_ptr<bool> its) : broken(std::move(its)) {}
-  Fragile(const Fragile& other) : broken(other.broken) {
-    if (*broken) throw std::runtime_error("cannot be copied");
-  }
-  Fragile(Fragile&& other) noexcept(false) : Fragile(static_cast<const Fragile&>(other)) {}
-  Fragile& operator=(const Fragile&) = delete;
-  Fragile& operator=(Fragile&&) = delete;
-  ~Fragile() = default;
-};
-
-TEST(SceneValues, AnElementThatCannotBeCopiedLeavesNoTrace) {
-  const auto broken = std::make_shared<bool>(false);
-  Scene<2> scene;
-  const auto a = scene.add_particle({.mass = 1.0}, "a"), b = scene.add_particle({.mass = 1.0}, "b");
-  const auto pull = [](const Particle<2>& on, double size, const Fragile& fragile) {
-    return force_law(points(on), [size, fragile](auto, auto) { return Vec<2>{size, 0.0}; });
-  };
-  const Fragile fragile(broken);
-  const auto first = scene.add(pull(a, 1.0, fragile));
-  auto second = pull(b, 2.0, fragile), other = pull(b, 3.0, fragile);
-  *broken = true;
-  EXPECT_THROW(scene.add(second), std::runtime_error);
-  EXPECT_THROW(scene.replace(first, other), std::runtime_error);
-  *broken = false;
-  scene.add(second);
-  const System system = scene.system();
-  auto e = system.evaluation();
-  system.evaluate({0.0, scene.initial_positions(), scene.initial_velocities()}, e);
-  EXPECT_EQ(e.force, (std::vector<double>{1.0, 0.0, 2.0, 0.0}));
 }
 
 TEST(SceneValues, WhatIsRefusedAsAddedIsRefusedAsReplacedAndLeavesNoTrace) {
