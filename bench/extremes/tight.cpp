@@ -83,8 +83,8 @@ Result rise(const models::Model<D>& model, Stepper stepper) {
     try {
       m = models::measure<D>(model, {.t_end = model.t_end, .tolerance = tolerance, .stepper = stepper});
     } catch (const IntegrationFailure& stop) {
-      // A step of ida is allowed a twentieth of that, 22 epsilon, which close to a singular position is below
-      // the error of its state: to be told so is what is due.
+      // A step of ida may err by a twentieth of that, 22 epsilon. Close to a singular position (four-bar,
+      // sine 0.12) its state's round-off is more: to be told so is what is due.
       if (tolerance > 1e-13 ||
           std::string_view(stop.what()).find("more than double precision") == std::string_view::npos)
         throw;

@@ -109,6 +109,12 @@ bool IdaStepper::State::has_stiff_force() const {
   return 2 * unresolved_steps > steps || newton.fastest().of_forces * scales.time > stiff_rate;
 }
 
+/// Whether round-off, which the constraints turn into 1/sine of it, is more than a step may err.
+bool IdaStepper::State::asks_for_too_much() const {
+  return constants.share_of_a_step * asked_for * scales.length * sine() <
+         scales.rounding(instant(t, y.get()).q);
+}
+
 /// After a step: changes the highest order if the guard says so. IDA has no way down but to begin anew
 /// at order 1.
 void IdaStepper::State::watch_order() {
@@ -159,10 +165,11 @@ void IdaStepper::step(double /*wanted*/) {
   s.watch_convergence();
   // In front of a fault IDA would halve and double such steps for ever.
   if (code == IDA_SUCCESS && s.t - before <= 4.0 * std::numeric_limits<double>::epsilon() * std::abs(s.t)) {
-    throw StepFailure{s.fault_or("the step has become too short to advance time" +
-                                 (s.asked_for < tight ? std::string(": ") + too_tight
-                                                      : "; look for a discontinuous force")),
-                      s.t};
+    throw StepFailure{
+        s.fault_or(s.asks_for_too_much()
+                       ? std::string("the step has become too short to advance time: ") + too_tight
+                       : "the step has become too short to advance time; look for a discontinuous force"),
+        s.t};
   }
   s.watch_order();
 }

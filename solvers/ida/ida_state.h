@@ -95,6 +95,7 @@ struct IdaStepper::State {
   [[nodiscard]] std::string explain(int code) const;
   [[nodiscard]] bool has_stiff_force() const;
   [[nodiscard]] std::string advice() const;
+  [[nodiscard]] bool asks_for_too_much() const;
   [[nodiscard]] std::string fault_or(const std::string& otherwise) const {
     return !fault.empty() && fault_time >= t ? fault : otherwise;
   }

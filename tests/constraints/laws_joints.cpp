@@ -5,21 +5,19 @@ namespace {
 
 const bool registered = [] {
   const auto weld = [](auto& at, auto a, auto b) { return Weld{a, b, at.point(0.1, 0.3, 0.7)}; };
-  const auto revolute = [](auto& at, auto a, auto b) {
-    return Revolute{a, b, at.point(0.1, 0.3, 0.7), at.direction(1.0, -2.0, 0.5)};
+  // Of a point and an axis.
+  const auto about = [](auto make) {
+    return [make](auto& at, auto a, auto b) {
+      return make(a, b, at.point(0.1, 0.3, 0.7), at.direction(1.0, -2.0, 0.5));
+    };
   };
-  const auto prismatic = [](auto& at, auto a, auto b) {
-    return Prismatic{a, b, at.point(0.1, 0.3, 0.7), at.direction(1.0, -2.0, 0.5)};
-  };
-  const auto cylindrical = [](auto& at, auto a, auto b) {
-    return Cylindrical{a, b, at.point(0.1, 0.3, 0.7), at.direction(1.0, -2.0, 0.5)};
-  };
+  const auto revolute = about([](auto... stated) { return Revolute{stated...}; });
+  const auto prismatic = about([](auto... stated) { return Prismatic{stated...}; });
+  const auto cylindrical = about([](auto... stated) { return Cylindrical{stated...}; });
+  const auto planar = about([](auto... stated) { return Planar{stated...}; });
   const auto universal = [](auto& at, auto a, auto b) {
     return Universal{a, b, at.point(0.1, 0.3, 0.7), at.direction(1.0, -2.0, 0.5),
                      at.direction(2.0, 1.0, 0.0)};
-  };
-  const auto planar = [](auto& at, auto a, auto b) {
-    return Planar{a, b, at.point(0.1, 0.3, 0.7), at.direction(1.0, -2.0, 0.5)};
   };
   joint_of_bodies<3>("Weld", 6, weld);
   joint_of_ground<3>("Weld", 6, weld);
