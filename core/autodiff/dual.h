@@ -5,11 +5,18 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
 
 namespace dalembert {
+
+namespace detail {
+[[nodiscard]] bool all_finite(const auto& matrix) {
+  return std::all_of(matrix.data(), matrix.data() + matrix.size(), [](double x) { return std::isfinite(x); });
+}
+}  // namespace detail
 
 /// A number that carries its exact first (Order 1) or first and second (Order 2) derivatives with
 /// respect to N inputs: forward automatic differentiation.
@@ -48,36 +55,44 @@ class Dual : Functions<Dual<N, Order>> {
     return x;
   }
 
-  /// Equation (1): f of a, given f and its derivatives there.
-  [[nodiscard]] static Dual chain(const Dual& a, double f, double f_a, [[maybe_unused]] double f_aa) {
-    Dual r(f);
-    r.gradient = f_a * a.gradient;
+  /// From a value and the entries of its derivatives. (Loops: an Eigen expression costs a compiler four types
+  /// and a dozen functions for every N.)
+  [[nodiscard]] static Dual derived(double value, const auto& gradient,
+                                    [[maybe_unused]] const auto& hessian) {
+    Dual r(value);
+    for (int i = 0; i < N; ++i) r.gradient[i] = gradient(i);
     if constexpr (Order == 2) {
-      r.hessian = f_a * a.hessian;
-      r.hessian.noalias() += (f_aa * a.gradient) * a.gradient.transpose();
+      for (int j = 0; j < N; ++j) {
+        for (int i = 0; i < N; ++i) r.hessian(i, j) = hessian(i, j);
+      }
     }
     return r;
   }
 
-  Dual& operator+=(const Dual& b) {
-    value += b.value;
-    gradient += b.gradient;
-    if constexpr (Order == 2) hessian += b.hessian;
-    return *this;
+  /// Equation (1): f of a, given f and its derivatives there.
+  [[nodiscard]] static Dual chain(const Dual& a, double f, double f_a, double f_aa) {
+    return derived(
+        f, [&](auto i) { return f_a * a.gradient[i]; },
+        [&](auto i, auto j) { return f_a * a.hessian(i, j) + (f_aa * a.gradient[i]) * a.gradient[j]; });
   }
-  Dual& operator-=(const Dual& b) {
-    value -= b.value;
-    gradient -= b.gradient;
-    if constexpr (Order == 2) hessian -= b.hessian;
-    return *this;
-  }
+
+  Dual& operator+=(const Dual& b) { return *this = *this + b; }
+  Dual& operator-=(const Dual& b) { return *this = *this - b; }
   Dual& operator*=(const Dual& b) { return *this = *this * b; }
   Dual& operator/=(const Dual& b) { return *this = *this / b; }
 
   friend Dual operator+(const Dual& a) { return a; }
   friend Dual operator-(const Dual& a) { return chain(a, -a.value, -1.0, 0.0); }
-  friend Dual operator+(Dual a, const Dual& b) { return a += b; }
-  friend Dual operator-(Dual a, const Dual& b) { return a -= b; }
+  friend Dual operator+(const Dual& a, const Dual& b) {
+    return derived(
+        a.value + b.value, [&](auto i) { return a.gradient[i] + b.gradient[i]; },
+        [&](auto i, auto j) { return a.hessian(i, j) + b.hessian(i, j); });
+  }
+  friend Dual operator-(const Dual& a, const Dual& b) {
+    return derived(
+        a.value - b.value, [&](auto i) { return a.gradient[i] - b.gradient[i]; },
+        [&](auto i, auto j) { return a.hessian(i, j) - b.hessian(i, j); });
+  }
   friend Dual operator+(Dual a, double b) { return a.value += b, a; }
   friend Dual operator+(double a, Dual b) { return b.value += a, b; }
   friend Dual operator-(Dual a, double b) { return a.value -= b, a; }
@@ -86,14 +101,12 @@ class Dual : Functions<Dual<N, Order>> {
   friend Dual operator*(const Dual& a, double b) { return scaled(a, b, a.value * b); }
   friend Dual operator*(double a, const Dual& b) { return b * a; }
   friend Dual operator*(const Dual& a, const Dual& b) {
-    Dual r(a.value * b.value);
-    r.gradient = b.value * a.gradient + a.value * b.gradient;
-    if constexpr (Order == 2) {
-      r.hessian = b.value * a.hessian + a.value * b.hessian;
-      r.hessian.noalias() += a.gradient * b.gradient.transpose();
-      r.hessian.noalias() += b.gradient * a.gradient.transpose();
-    }
-    return r;
+    return derived(
+        a.value * b.value, [&](auto i) { return b.value * a.gradient[i] + a.value * b.gradient[i]; },
+        [&](auto i, auto j) {
+          return b.value * a.hessian(i, j) + a.value * b.hessian(i, j) + a.gradient[i] * b.gradient[j] +
+                 b.gradient[i] * a.gradient[j];
+        });
   }
   friend Dual operator/(const Dual& a, double b) { return scaled(a, 1.0 / b, a.value / b); }
   friend Dual operator/(double a, const Dual& b) {
@@ -110,7 +123,7 @@ class Dual : Functions<Dual<N, Order>> {
     return a.value <=> b;
   }
 
-  friend bool isfinite(const Dual& a) { return std::isfinite(a.value) && a.gradient.allFinite(); }
+  friend bool isfinite(const Dual& a) { return std::isfinite(a.value) && detail::all_finite(a.gradient); }
 
  private:
   [[nodiscard]] static Hessian zero_hessian() {
@@ -121,10 +134,9 @@ class Dual : Functions<Dual<N, Order>> {
     }
   }
   [[nodiscard]] static Dual scaled(const Dual& a, double factor, double value) {
-    Dual r(value);
-    r.gradient = factor * a.gradient;
-    if constexpr (Order == 2) r.hessian = factor * a.hessian;
-    return r;
+    return derived(
+        value, [&](auto i) { return factor * a.gradient[i]; },
+        [&](auto i, auto j) { return factor * a.hessian(i, j); });
   }
 };
 

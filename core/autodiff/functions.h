@@ -89,16 +89,15 @@ struct Functions {
     const double r2 = x.value * x.value + y.value * y.value;
     const double f_y = x.value / r2;
     const double f_x = -y.value / r2;
-    D r(std::atan2(y.value, x.value));
-    r.gradient = f_y * y.gradient + f_x * x.gradient;
-    if constexpr (D::order == 2) {
-      const double f_xx = -2.0 * f_x * f_y;  // = -f_yy
-      const double f_xy = f_x * f_x - f_y * f_y;
-      r.hessian = f_y * y.hessian + f_x * x.hessian;
-      r.hessian += f_xx * (x.gradient * x.gradient.transpose() - y.gradient * y.gradient.transpose());
-      r.hessian += f_xy * (x.gradient * y.gradient.transpose() + y.gradient * x.gradient.transpose());
-    }
-    return r;
+    const double f_xx = -2.0 * f_x * f_y;  // = -f_yy
+    const double f_xy = f_x * f_x - f_y * f_y;
+    return D::derived(
+        std::atan2(y.value, x.value), [&](auto i) { return f_y * y.gradient[i] + f_x * x.gradient[i]; },
+        [&](auto i, auto j) {
+          return f_y * y.hessian(i, j) + f_x * x.hessian(i, j) +
+                 f_xx * (x.gradient[i] * x.gradient[j] - y.gradient[i] * y.gradient[j]) +
+                 f_xy * (x.gradient[i] * y.gradient[j] + y.gradient[i] * x.gradient[j]);
+        });
   }
   friend D hypot(const D& a, const D& b) { return sqrt(a * a + b * b); }
   friend D exp2(const D& a) {

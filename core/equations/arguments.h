@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/core/autodiff/dual.h>
+#include <dalembert/core/equations/point_maps.h>
 #include <dalembert/core/points/points.h>
 
 #include <algorithm>
@@ -209,47 +210,49 @@ template <class Element>
   return inputs;
 }
 
-/// L, the constant matrix with inputs = L coordinates.
+namespace detail {
+
+/// The maps of all points that have inputs.
 template <class Element>
-[[nodiscard]] auto input_map(const Element& element) {
-  using Facts = PointFacts<Element>;
-  Eigen::Matrix<double, Facts::inputs, Facts::coordinates> L = decltype(L)::Zero();
-  int row = 0, column = 0;
-  for_each_moving_point(element, [&]<class P>(const P& point) {
+[[nodiscard]] auto point_maps(const Element& element) {
+  constexpr std::size_t moving = []<class... P>(std::type_identity<std::tuple<P...>>) {
+    return (std::size_t{0} + ... + (P::inputs > 0));
+  }(std::type_identity<PointTuple<Element>>{});
+  std::array<PointMap, moving> maps;
+  auto next = maps.begin();
+  for_each_moving_point(element, [&next]<class P>(const P& point) {
     if constexpr (P::inputs == P::coordinates) {
-      L.template block<P::inputs, P::coordinates>(row, column).setIdentity();
+      *next++ = {nullptr, P::inputs, P::coordinates};
     } else {
-      L.template block<P::inputs, P::coordinates>(row, column) = point.map();
+      *next++ = {point.map().data(), P::inputs, P::coordinates};
     }
-    row += P::inputs;
-    column += P::coordinates;
   });
-  return L;
+  return maps;
 }
 
-/// A gradient with respect to the inputs, as one with respect to the coordinates: L^T g.
-template <class Element, class Gradient>
-[[nodiscard]] Vec<PointFacts<Element>::coordinates> pull_back(const Element& element,
-                                                              const Gradient& gradient) {
+}  // namespace detail
+
+/// A gradient with respect to the inputs of an element, as one with respect to its coordinates.
+template <class Element>
+void pull_back(const Element& element, const double* gradient, double* out) {
   if constexpr (PointFacts<Element>::direct) {
-    return gradient;
+    std::copy_n(gradient, PointFacts<Element>::coordinates, out);
   } else {
-    return input_map(element).transpose() * gradient;
+    detail::pull_back(detail::point_maps(element), gradient, out);
   }
 }
 
-/// A matrix of second derivatives likewise: L^T B L.
-template <class Element, class Block>
-[[nodiscard]] auto pull_back_block(const Element& element, const Block& block) {
-  constexpr int width = PointFacts<Element>::coordinates;
-  Eigen::Matrix<double, width, width> pulled;
+/// A matrix of second derivatives likewise; `block` by columns, `out` by rows.
+template <class Element>
+void pull_back_block(const Element& element, const double* block, double* out) {
   if constexpr (PointFacts<Element>::direct) {
-    pulled = block;
+    constexpr int n = PointFacts<Element>::coordinates;
+    for (int row = 0; row < n; ++row) {
+      for (int column = 0; column < n; ++column) out[row * n + column] = block[column * n + row];
+    }
   } else {
-    const auto L = input_map(element);
-    pulled = L.transpose() * block * L;
+    detail::pull_back_block(detail::point_maps(element), block, out);
   }
-  return pulled;
 }
 
 }  // namespace dalembert

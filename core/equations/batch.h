@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/core/equations/forces_at_points.h>
+#include <dalembert/core/equations/arguments.h>
 
 #include <cstddef>
 #include <exception>
@@ -70,7 +70,7 @@ class ConstraintBatch {
 
   virtual void evaluate(const Instant& at, const ConstraintValues& out) const = 0;
   /// Per constraint `rows x inputs` numbers U, one row after the other, out of its part of w: lambda has
-  /// the size |U^T lambda|, that of the force at one of its points. See ForcesAtPoints.
+  /// the size |U^T lambda|, that of the force at one of its points. See detail::forces_at_points.
   virtual void forces_at_points(std::span<const double> w, std::span<const double> lengths,
                                 std::span<double> out) const = 0;
   /// The compliance of each row [length / force, at unit gradient]: 0 if it is rigid.
@@ -195,15 +195,13 @@ class Elements {
     }
     read_coordinates(element, std::span(coordinates_).subspan(i * width, width));
   }
-  /// `rows` rows of w and of `out` per element; see ForcesAtPoints.
-  template <int rows>
-  void forces_at_points(std::span<const double> w, std::span<const double> lengths,
+  /// See detail::forces_at_points; `rows` rows of w and of `out` per element.
+  void forces_at_points(int rows, std::span<const double> w, std::span<const double> lengths,
                         std::span<double> out) const {
-    using Force = ForcesAtPoints<Element, rows>;
+    const auto n = static_cast<std::size_t>(rows);
     for (std::size_t i = 0; i < all_.size(); ++i) {
-      const typename Force::Given own(w.data() + i * rows * width);
-      Eigen::Map<typename Force::Matrix>(out.data() + i * Force::Matrix::SizeAtCompileTime) =
-          Force::of(all_[i], own, coordinates(i), lengths);
+      detail::forces_at_points(detail::point_maps(all_[i]), rows, w.data() + i * n * width, coordinates(i),
+                               lengths, out.data() + i * n * PointFacts<Element>::inputs);
     }
   }
   [[nodiscard]] const std::vector<Element>& all() const { return all_; }

@@ -92,6 +92,14 @@ template <class C>
   return out.str();
 }
 
+/// Adds `factor` times the N x N block of a matrix whose rows begin at `first`; the sum by columns.
+template <int N>
+void add_block(double factor, const auto& matrix, int first, double* sum) {
+  for (int column = 0; column < N; ++column) {
+    for (int row = 0; row < N; ++row) *sum++ += factor * matrix(first + row, column);
+  }
+}
+
 inline void require_finite(bool finite, std::size_t element, const char* what) {
   if (!finite) throw ElementFault{element, what};
 }

@@ -39,17 +39,15 @@ class HolonomicBatch final : public ConstraintBatch {
       for (int k = 0; k < rows; ++k) {
         const S g_k = detail::row_of<S>(g, k);
         detail::require_finite(std::isfinite(g_k.value), i, "is not a finite number");
-        if (!g_k.gradient.allFinite()) {
+        if (!detail::all_finite(g_k.gradient)) {
           throw ElementFault{i, "has no gradient: " + std::string(detail::singular_hint_of<C>())};
         }
         const std::size_t row = i * rows + static_cast<std::size_t>(k);
         double psi = 0.0;
         if constexpr (timed) psi = g_k.gradient[inputs];
-        const Vec<width> w = pull_back(c, g_k.gradient.template head<inputs>());
-        for (std::size_t j = 0; j < width; ++j) {
-          out.w[row * width + j] = w[static_cast<int>(j)];
-          psi += w[static_cast<int>(j)] * at.v[static_cast<std::size_t>(coordinate[j])];
-        }
+        const auto w = out.w.subspan(row * width, width);
+        pull_back(c, g_k.gradient.data(), w.data());
+        for (std::size_t j = 0; j < width; ++j) psi += w[j] * at.v[static_cast<std::size_t>(coordinate[j])];
         out.g[row] = g_k.value;
         out.psi[row] = psi;
       }
@@ -58,7 +56,7 @@ class HolonomicBatch final : public ConstraintBatch {
 
   void forces_at_points(std::span<const double> w, std::span<const double> lengths,
                         std::span<double> out) const override {
-    elements_.template forces_at_points<rows>(w, lengths, out);
+    elements_.forces_at_points(rows, w, lengths, out);
   }
 
   void compliance(std::span<double> out) const override {
@@ -83,22 +81,25 @@ class HolonomicBatch final : public ConstraintBatch {
   void linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
                  std::span<double> stiffness) const override {
     using S = Dual<inputs + timed, 2>;
-    using Block = Eigen::Matrix<double, width, width, Eigen::RowMajor>;
     for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
       const auto g = residual<S>(c, time<S>(at.t), at, AsInput<S>{});
-      Vec<inputs + timed> motion;
-      motion.template head<inputs>() = gather_inputs(c, at.v);
-      if constexpr (timed) motion[inputs] = 1.0;
-      Eigen::Matrix<double, inputs, inputs> curvature = decltype(curvature)::Zero();
+      const auto v = gather_inputs(c, at.v);
+      std::array<double, inputs * inputs> curvature{};
       for (int k = 0; k < rows; ++k) {
         const std::size_t row = i * rows + static_cast<std::size_t>(k);
         const S g_k = detail::row_of<S>(g, k);
-        detail::require_finite(g_k.hessian.allFinite(), i, "has no finite second derivative");
-        Eigen::Map<Vec<width>>(psi_q.data() + row * width) =
-            pull_back(c, (g_k.hessian * motion).template head<inputs>());
-        curvature += lambda[row] * g_k.hessian.template topLeftCorner<inputs, inputs>();
+        detail::require_finite(detail::all_finite(g_k.hessian), i, "has no finite second derivative");
+        std::array<double, inputs> psi_r;
+        for (int a = 0; a < inputs; ++a) {
+          double sum = 0.0;
+          for (int b = 0; b < inputs; ++b) sum += g_k.hessian(b, a) * v[b];
+          if constexpr (timed) sum += g_k.hessian(inputs, a);
+          psi_r[static_cast<std::size_t>(a)] = sum;
+        }
+        pull_back(c, psi_r.data(), psi_q.data() + row * width);
+        detail::add_block<inputs>(lambda[row], g_k.hessian, 0, curvature.data());
       }
-      Eigen::Map<Block>(stiffness.data() + i * width * width) = pull_back_block(c, curvature);
+      pull_back_block(c, curvature.data(), stiffness.data() + i * width * width);
     });
   }
 

@@ -35,17 +35,17 @@ class NonholonomicBatch final : public ConstraintBatch {
       for (int k = 0; k < rows; ++k) {
         const S a_k = detail::row_of<S>(a, k);
         detail::require_finite(std::isfinite(a_k.value), i, "is not a finite number");
-        detail::require_finite(a_k.gradient.allFinite(), i, "has no finite gradient");
+        detail::require_finite(detail::all_finite(a_k.gradient), i, "has no finite gradient");
         const std::size_t row = i * rows + static_cast<std::size_t>(k);
         out.psi[row] = a_k.value;
-        Eigen::Map<Vec<width>>(out.w.data() + row * width) = pull_back(c, a_k.gradient);
+        pull_back(c, a_k.gradient.data(), out.w.data() + row * width);
       }
     });
   }
 
   void forces_at_points(std::span<const double> w, std::span<const double> lengths,
                         std::span<double> out) const override {
-    elements_.template forces_at_points<rows>(w, lengths, out);
+    elements_.forces_at_points(rows, w, lengths, out);
   }
 
   void compliance(std::span<double> out) const override { std::ranges::fill(out, 0.0); }
@@ -65,21 +65,19 @@ class NonholonomicBatch final : public ConstraintBatch {
   void linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
                  std::span<double> stiffness) const override {
     using S = Dual<2 * inputs, 2>;
-    using Block = Eigen::Matrix<double, width, width, Eigen::RowMajor>;
     for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
       const auto a = residual<S>(c, S(at.t), at, AsInput<S>{}, AsInput<S>{}, inputs);
-      Eigen::Matrix<double, inputs, inputs> turning = decltype(turning)::Zero();
+      std::array<double, inputs * inputs> turning{};
       for (int k = 0; k < rows; ++k) {
         const std::size_t row = i * rows + static_cast<std::size_t>(k);
         const S a_k = detail::row_of<S>(a, k);
-        detail::require_finite(a_k.gradient.allFinite() && a_k.hessian.allFinite(), i,
+        detail::require_finite(detail::all_finite(a_k.gradient) && detail::all_finite(a_k.hessian), i,
                                "has no finite second derivative");
         require_linear(a_k, gather_inputs(c, at.v), i);
-        Eigen::Map<Vec<width>>(psi_q.data() + row * width) =
-            pull_back(c, a_k.gradient.template head<inputs>());
-        turning += lambda[row] * a_k.hessian.template bottomLeftCorner<inputs, inputs>();
+        pull_back(c, a_k.gradient.data(), psi_q.data() + row * width);
+        detail::add_block<inputs>(lambda[row], a_k.hessian, inputs, turning.data());
       }
-      Eigen::Map<Block>(stiffness.data() + i * width * width) = pull_back_block(c, turning);
+      pull_back_block(c, turning.data(), stiffness.data() + i * width * width);
     });
   }
 

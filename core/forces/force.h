@@ -55,10 +55,31 @@ template <class Function, bool takes_time, class E, class Arguments>
 using ForceResult = std::remove_cvref_t<decltype(call<takes_time>(
     std::declval<const Function&>(), std::declval<const Probe<E>&>(), std::declval<const Arguments&>()))>;
 
-/// Adds the entries of `f` to those of F at the given places.
-template <int N>
-void scatter(const Vec<N>& f, std::span<const int> places, std::span<double> F) {
-  for (int k = 0; k < N; ++k) F[static_cast<std::size_t>(places[static_cast<std::size_t>(k)])] += f[k];
+/// Adds the force of an element, given on its inputs, to F at its coordinates.
+template <class E>
+void scatter(const E& element, const Vec<PointFacts<E>::inputs>& f, std::span<const int> places,
+             std::span<double> F) {
+  std::array<double, static_cast<std::size_t>(PointFacts<E>::coordinates)> own;
+  pull_back(element, f.data(), own.data());
+  for (std::size_t k = 0; k < own.size(); ++k) F[static_cast<std::size_t>(places[k])] += own[k];
+}
+
+/// Writes dF/dq and dF/dv of one element, given its forces as functions of r and v.
+template <class E, class S>
+void write_slopes(const E& element, std::size_t i, const VecOf<S, PointFacts<E>::inputs>& f,
+                  std::span<double> stiffness, std::span<double> damping) {
+  constexpr int n = PointFacts<E>::inputs, width = PointFacts<E>::coordinates;
+  std::array<double, n * n> F_r, F_v;
+  for (int row = 0; row < n; ++row) {
+    detail::require_finite(isfinite(f[row]), i, "has no finite derivative");
+    for (int column = 0; column < n; ++column) {
+      const auto at = static_cast<std::size_t>(column * n + row);
+      F_r[at] = f[row].gradient[column];
+      F_v[at] = f[row].gradient[n + column];
+    }
+  }
+  pull_back_block(element, F_r.data(), stiffness.data() + i * width * width);
+  pull_back_block(element, F_v.data(), damping.data() + i * width * width);
 }
 
 }  // namespace detail
@@ -107,7 +128,7 @@ class PotentialBatch final : public ForceBatch {
     for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
       const S V = potential<S>(e, at, AsInput<S>{});
       detail::require_finite(isfinite(V), i, "is not a finite number or has no finite gradient");
-      detail::scatter<width>(-pull_back(e, V.gradient), elements_.coordinates(i), F);
+      detail::scatter(e, -V.gradient, elements_.coordinates(i), F);
     });
   }
 
@@ -123,9 +144,9 @@ class PotentialBatch final : public ForceBatch {
     using S = Dual<inputs, 2>;
     for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
       const S V = potential<S>(e, at, AsInput<S>{});
-      detail::require_finite(V.hessian.allFinite(), i, "has no finite second derivative");
-      using Block = Eigen::Matrix<double, width, width, Eigen::RowMajor>;
-      Eigen::Map<Block>(stiffness.data() + i * width * width) = pull_back_block(e, -V.hessian);
+      detail::require_finite(detail::all_finite(V.hessian), i, "has no finite second derivative");
+      const decltype(V.hessian) F_r = -V.hessian;
+      pull_back_block(e, F_r.data(), stiffness.data() + i * width * width);
     });
   }
 
@@ -134,7 +155,8 @@ class PotentialBatch final : public ForceBatch {
     for_each_element(elements_.all(), element, element + 1, [&](const E& e, std::size_t) {
       const S V = potential<S>(e, at, AsInput<S>{});
       detail::require_finite(isfinite(V), element, "is not a finite number or has no finite gradient");
-      Eigen::Map<Vec<width>>(out.data()) = -pull_back(e, V.gradient);
+      const Vec<inputs> f = -V.gradient;
+      pull_back(e, f.data(), out.data());
     });
   }
 
@@ -184,8 +206,8 @@ class LawBatch final : public ForceBatch {
   void add_force(const Instant& at, std::span<double> F) const override {
     for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
       const Vec<inputs> f = forces<double>(e, at, AsNumber{}, AsNumber{});
-      detail::require_finite(f.allFinite(), i, "is not a finite number");
-      detail::scatter<width>(pull_back(e, f), elements_.coordinates(i), F);
+      detail::require_finite(detail::all_finite(f), i, "is not a finite number");
+      detail::scatter(e, f, elements_.coordinates(i), F);
     });
   }
 
@@ -197,25 +219,17 @@ class LawBatch final : public ForceBatch {
 
   void linearise(const Instant& at, std::span<double> stiffness, std::span<double> damping) const override {
     using S = Dual<2 * inputs, 1>;
-    using Block = Eigen::Matrix<double, width, width, Eigen::RowMajor>;
     for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
       const VecOf<S, inputs> f = forces<S>(e, at, AsInput<S>{}, AsInput<S>{});
-      Eigen::Matrix<double, inputs, inputs> F_r, F_v;
-      for (int k = 0; k < inputs; ++k) {
-        detail::require_finite(isfinite(f[k]), i, "has no finite derivative");
-        F_r.row(k) = f[k].gradient.template head<inputs>();
-        F_v.row(k) = f[k].gradient.template tail<inputs>();
-      }
-      Eigen::Map<Block>(stiffness.data() + i * width * width) = pull_back_block(e, F_r);
-      Eigen::Map<Block>(damping.data() + i * width * width) = pull_back_block(e, F_v);
+      detail::write_slopes<E, S>(e, i, f, stiffness, damping);
     });
   }
 
   void force(std::size_t element, const Instant& at, std::span<double> out) const override {
     for_each_element(elements_.all(), element, element + 1, [&](const E& e, std::size_t) {
       const Vec<inputs> f = forces<double>(e, at, AsNumber{}, AsNumber{});
-      detail::require_finite(f.allFinite(), element, "is not a finite number");
-      Eigen::Map<Vec<width>>(out.data()) = pull_back(e, f);
+      detail::require_finite(detail::all_finite(f), element, "is not a finite number");
+      pull_back(e, f.data(), out.data());
     });
   }
 

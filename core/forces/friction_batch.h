@@ -46,8 +46,8 @@ class FrictionBatch final : public MultiplierForceBatch {
   void add_force(const Instant& at, const Multipliers& lambda, std::span<double> F) const override {
     for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
       const Vec<inputs> f = forces<double>(e, at, own(lambda, i), AsNumber{}, AsNumber{}, AsNumber{});
-      detail::require_finite(f.allFinite(), i, "is not a finite number");
-      detail::scatter<width>(pull_back(e, f), elements_.coordinates(i), F);
+      detail::require_finite(detail::all_finite(f), i, "is not a finite number");
+      detail::scatter(e, f, elements_.coordinates(i), F);
     });
   }
 
@@ -62,8 +62,8 @@ class FrictionBatch final : public MultiplierForceBatch {
              std::span<double> out) const override {
     for_each_element(elements_.all(), element, element + 1, [&](const E& e, std::size_t) {
       const Vec<inputs> f = forces<double>(e, at, lambda, AsNumber{}, AsNumber{}, AsNumber{});
-      detail::require_finite(f.allFinite(), element, "is not a finite number");
-      Eigen::Map<Vec<width>>(out.data()) = pull_back(e, f);
+      detail::require_finite(detail::all_finite(f), element, "is not a finite number");
+      pull_back(e, f.data(), out.data());
     });
   }
 
@@ -74,9 +74,8 @@ class FrictionBatch final : public MultiplierForceBatch {
       for (int r = 0; r < rows; ++r) {
         Vec<inputs> f_lambda;
         for (int k = 0; k < inputs; ++k) f_lambda[k] = f[k].gradient[r];
-        detail::require_finite(f_lambda.allFinite(), i, "has no finite derivative");
-        Eigen::Map<Vec<width>>(out.data() + (i * rows + static_cast<std::size_t>(r)) * width) =
-            pull_back(e, f_lambda);
+        detail::require_finite(detail::all_finite(f_lambda), i, "has no finite derivative");
+        pull_back(e, f_lambda.data(), out.data() + (i * rows + static_cast<std::size_t>(r)) * width);
       }
     });
   }
@@ -84,17 +83,9 @@ class FrictionBatch final : public MultiplierForceBatch {
   void linearise(const Instant& at, const Multipliers& lambda, std::span<double> stiffness,
                  std::span<double> damping) const override {
     using S = Dual<2 * inputs, 1>;
-    using Block = Eigen::Matrix<double, width, width, Eigen::RowMajor>;
     for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
       const VecOf<S, inputs> f = forces<S>(e, at, own(lambda, i), AsInput<S>{}, AsInput<S>{}, Held<S>{});
-      Eigen::Matrix<double, inputs, inputs> F_r, F_v;
-      for (int k = 0; k < inputs; ++k) {
-        detail::require_finite(isfinite(f[k]), i, "has no finite derivative");
-        F_r.row(k) = f[k].gradient.template head<inputs>();
-        F_v.row(k) = f[k].gradient.template tail<inputs>();
-      }
-      Eigen::Map<Block>(stiffness.data() + i * width * width) = pull_back_block(e, F_r);
-      Eigen::Map<Block>(damping.data() + i * width * width) = pull_back_block(e, F_v);
+      detail::write_slopes<E, S>(e, i, f, stiffness, damping);
     });
   }
 

@@ -31,8 +31,10 @@ struct BodyPoint {
     Vec<D> r = Vec<D>::Zero();
     int column = 0;
     for (const auto& particle : particles) {
-      r += L.template middleCols<D>(column) * particle.gather(x);
-      column += D;
+      const Vec<D> p = particle.gather(x);
+      for (int k = 0; k < D; ++k, ++column) {
+        for (int i = 0; i < D; ++i) r[i] += L(i, column) * p[k];
+      }
     }
     return r;
   }
