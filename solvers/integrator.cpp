@@ -37,9 +37,9 @@ struct DALEMBERT_HIDDEN Integrator::State {
   State(System s, std::span<const double> q0, std::span<const double> v0, const Options& o) try
       : options(o),
         times(sample_times(o)),
-        system(std::move(s)),
+        system(std::make_shared<const System>(std::move(s))),
         stepping(system, q0, v0, o),
-        now(system, stepping.start()),
+        now(*system, stepping.start()),
         next(now) {
     visit(o.t_start);
   } catch (const StepFailure& failure) {  // before the first step it is a fault of the start
@@ -52,10 +52,6 @@ struct DALEMBERT_HIDDEN Integrator::State {
   void visit(double time) {
     stepping.read(time, next);
     std::swap(now, next);
-  }
-
-  [[nodiscard]] FlatSample sample() const {
-    return {now.t, now.q, now.v, now.a, now.lambda, now.forces, now.energy, now.unique};
   }
 
   void step_once(double wanted) {
@@ -89,9 +85,10 @@ struct DALEMBERT_HIDDEN Integrator::State {
     const std::string suspect = stepping.suspect();
     auto kept = std::make_shared<Record>(record);
     kept->statistics = statistics();
+    kept->dense = stepping.dense();
     std::ostringstream what;
     what.precision(10);
-    what << "Scene \"" << system.layout()->scene << "\" stopped at t = " << time << ": " << why;
+    what << "Scene \"" << system->layout()->scene << "\" stopped at t = " << time << ": " << why;
     for (const auto& more : {suspect, coarse_time(stepping.start().scales, time), kept->statistics.advice})
       if (!more.empty()) what << "; " << more;
     throw IntegrationFailure(what.str(), time, std::move(kept));
@@ -104,18 +101,19 @@ struct DALEMBERT_HIDDEN Integrator::State {
   }
 
   [[nodiscard]] Record empty_record() const {
-    return {.layout = system.layout(),
+    return {.layout = system->layout(),
             .stepper = name(options.stepper),
             .tolerance = options.tolerance,
             .times = {},
             .values = {},
             .unique = {},
-            .statistics = {}};
+            .statistics = {},
+            .dense = {}};
   }
 
   Options options;
   std::vector<double> times;
-  System system;
+  std::shared_ptr<const System> system;
   Stepping stepping;
   Moment now, next;
   long steps = 0;
@@ -129,8 +127,8 @@ Integrator::Integrator(System system, std::span<const double> q, std::span<const
 Integrator::Integrator(Integrator&&) noexcept = default;
 Integrator::~Integrator() = default;
 
-FlatSample Integrator::sample() const { return state_->sample(); }
-const System& Integrator::system() const { return state_->system; }
+FlatSample Integrator::sample() const { return state_->now.flat(); }
+const System& Integrator::system() const { return *state_->system; }
 Statistics Integrator::statistics() const { return state_->statistics(); }
 
 void Integrator::step() {
@@ -162,18 +160,19 @@ void Integrator::run(const std::function<void(const FlatSample&)>& observe) {
   for (const double t : s.times) {
     if (t < s.now.t) continue;
     if (t > s.now.t) s.guarded([&] { s.go_to(t); });
-    observe(s.sample());
+    observe(s.now.flat());
   }
 }
 
 std::shared_ptr<const Record> Integrator::run() {
   State& s = *state_;
   s.record.clear();
-  s.record.reserve(s.times.size(), s.sample());
+  s.record.reserve(s.times.size(), s.now.flat());
   run([&s](const FlatSample& sample) { s.record.append(sample); });
   // The samples are handed over, not copied: they may be most of the memory.
   auto record = std::make_shared<Record>(std::exchange(s.record, s.empty_record()));
   record->statistics = s.statistics();
+  record->dense = s.stepping.dense();
   return record;
 }
 

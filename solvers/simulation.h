@@ -71,6 +71,14 @@ Statistics simulate(const Scene<D>& scene, const Options& options, const Observe
   return simulation.statistics();
 }
 
+template <int D, class Observe>
+Statistics simulate(const Scene<D>& scene, const Sample<D>& start, const Options& options,
+                    const Observe& observe) {
+  Simulation<D> simulation(scene, start, options);
+  simulation.run(observe);
+  return simulation.statistics();
+}
+
 extern template class Simulation<2>;
 extern template class Simulation<3>;
 

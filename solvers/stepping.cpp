@@ -35,36 +35,36 @@ Start first_start(const System& system, std::span<const double> q, std::span<con
   return start;
 }
 
-void count(const Manifold& manifold, Statistics& statistics) {
-  statistics.evaluations += manifold.evaluations();
-  statistics.factorisations += manifold.factorisations();
-}
-
 }  // namespace
 
-Stepping::Stepping(const System& system, std::span<const double> q, std::span<const double> v,
+Stepping::Stepping(std::shared_ptr<const System> system, std::span<const double> q, std::span<const double> v,
                    const Options& options)
-    : system_(&system),
+    : system_(std::move(system)),
       options_(options),
-      start_(first_start(system, q, v, options)),
+      start_(first_start(*system_, q, v, options)),
       lambda_at_start_(start_.lambda),
-      lengths_(start_.scales.lengths()),
-      manifold_(std::in_place, system, start_.rows, lengths_),
-      stepper_(make_stepper(system, start_, options)),
-      recovery_(system, start_, options.tolerance),
-      angle_{options.t_start, 1.0},
       state_{start_.q, start_.v} {
-  if (system.compliant()) {
+  if (system_->compliant()) {
     for (auto* numbers : {&springs_.lambda, &springs_.rate, &springs_.second})
       numbers->resize(start_.lambda.size());
   }
-  if (system.frictional() && options.stepper == Stepper::ida)
-    sticking_.emplace(system, start_, options.t_start, options.tolerance);
   const auto number = [](std::size_t equations) { return static_cast<int>(equations); };
   past_.degrees_of_freedom =
-      number(system.coordinates() + system.compliant_rows()) - number(start_.rows.size());
-  past_.redundant_equations = number(system.rows() - start_.rows.size());
-  compare_rows_from(options.t_start);
+      number(system_->coordinates() + system_->compliant_rows()) - number(start_.rows.size());
+  past_.redundant_equations = number(system_->rows() - start_.rows.size());
+  if (options.dense) kept_ = std::make_shared<KeptSteps>(system_, options.tolerance);
+  begin(options_);
+}
+
+/// At options.t_start, from start_.
+void Stepping::begin(const Options& options) {
+  reader_.emplace(*system_, start_, options.t_start, options_.tolerance);
+  stepper_ = make_stepper(*system_, start_, options);
+  // The explicit stepper finds itself where friction sticks, but for close to a singular position.
+  if (system_->frictional() && options_.stepper == Stepper::ida)
+    sticking_.emplace(*system_, start_, options.t_start, options_.tolerance);
+  angle_ = {options.t_start, 1.0};
+  if (kept_) kept_->begin(start_, options.t_start);
 }
 
 void Stepping::step(double wanted) {
@@ -73,7 +73,9 @@ void Stepping::step(double wanted) {
   if (options_.stepper == Stepper::ida) watch_sine();
   if (steps_++ == 0) watch_sliding();
   try {
+    const double from = time();
     stepper_->step(wanted);
+    if (kept_) kept_->add(*stepper_, from, steps_);
   } catch (const StepFailure&) {
     // Newton's iteration may fail anywhere; where the constraints are close to dependent the explicit
     // stepper goes on.
@@ -87,15 +89,7 @@ void Stepping::step(double wanted) {
 void Stepping::read(double t, Moment& m) {
   m.t = t;
   stepper_->interpolate(t, m.q, m.v);
-  follow_springs(t, *manifold_);
-  if (const auto rows = better_rows({t, m.q, m.v})) {
-    Manifold other(*system_, *rows, lengths_);
-    follow_springs(t, other);
-    recovery_.recover(other, m, steps_);
-    count(other, past_);
-  } else {
-    recovery_.recover(*manifold_, m, steps_);
-  }
+  reader_->read(m, springs_at(t), steps_);
   past_.residual_position = std::max(past_.residual_position, m.position.size);
   past_.residual_velocity = std::max(past_.residual_velocity, m.velocity.size);
   past_.correction = std::max(past_.correction, m.correction);
@@ -104,37 +98,21 @@ void Stepping::read(double t, Moment& m) {
 /// The stepper's state, with the forces that it has found for compliant constraints.
 const Stepping::State& Stepping::interpolate(double t) {
   stepper_->interpolate(t, state_.q, state_.v);
-  follow_springs(t, *manifold_);
+  if (const Springs* const springs = springs_at(t)) reader_->manifold().follow(*springs);
   return state_;
 }
 
-void Stepping::follow_springs(double t, Manifold& follower) {
-  if (system_->compliant() && stepper_->springs(t, springs_)) follower.follow(springs_);
-}
-
-void Stepping::compare_rows_from(double t) {
-  if (redundant()) best_sine_ = manifold_->sine({t, start_.q, start_.v});
-}
-
-/// Rows that make much larger angles at a state than those in use. They are looked for where the angle of
-/// these is much less than the best was when last looked for.
-std::optional<ActiveRows> Stepping::better_rows(const Instant& at) {
-  if (!redundant()) return std::nullopt;
-  const double own = manifold_->sine(at);
-  if (own >= constants.worn * best_sine_) return std::nullopt;
-  ActiveRows rows = independent_rows(*system_, manifold_->equations().w, start_.rows);
-  const double best = Manifold(*system_, rows, lengths_).sine(at);
-  if (own < constants.worn * best) return rows;
-  best_sine_ = std::max(own, best);
-  return std::nullopt;
+/// If they are part of the stepper's state.
+const Springs* Stepping::springs_at(double t) {
+  return system_->compliant() && stepper_->springs(t, springs_) ? &springs_ : nullptr;
 }
 
 /// The rows in use are independent at the start of the run; on the way they may come to depend on each
 /// other while others do not.
 void Stepping::exchange_rows() {
-  if (!redundant()) return;
+  if (start_.rows.size() == system_->rows()) return;
   const State& now = interpolate(time());
-  if (better_rows({time(), now.q, now.v})) restart(handed_over_ ? Stepper::erk : options_.stepper);
+  if (reader_->better_rows({time(), now.q, now.v})) restart(handed_over_ ? Stepper::erk : options_.stepper);
 }
 
 /// Isolated singular positions are passed by the explicit stepper (see ErkStepper), from where they come in
@@ -171,7 +149,7 @@ void Stepping::restart(Stepper kind) {
   State now = interpolate(t);
   // The explicit stepper takes -g/C for the forces of compliant constraints: g must be as exact.
   if (system_->compliant())
-    manifold_->project_positions(t, now.q, now.v, 0.1 * start_.scales.rounding(now.q));
+    reader_->manifold().project_positions(t, now.q, now.v, 0.1 * start_.scales.rounding(now.q));
   past_ = statistics();
   past_.advice.clear();  // of a crossing it would be about the wrong stepper
   Options from_here = options_;
@@ -181,17 +159,13 @@ void Stepping::restart(Stepper kind) {
   if (kind != options_.stepper)
     from_here.tolerance = std::max(constants.share_of_a_step * options_.tolerance, smallest_tolerance);
   start_ = begin_anew(*system_, start_, t, now.q, now.v);
-  manifold_.emplace(*system_, start_.rows, lengths_);
-  compare_rows_from(t);
-  stepper_ = make_stepper(*system_, start_, from_here);
-  if (sticking_) sticking_.emplace(*system_, start_, t, options_.tolerance);
-  angle_ = {t, 1.0};
+  begin(from_here);
 }
 
 Statistics Stepping::statistics() const {
   Statistics s = past_;
   stepper_->count(s);
-  count(*manifold_, s);
+  reader_->count(s);
   if (handed_over_) s.advice.clear();
   return s;
 }
@@ -200,8 +174,9 @@ std::string Stepping::suspect() {
   try {
     State now = interpolate(time());
     std::vector<double> a(now.q.size()), lambda(lambda_at_start_.size());
-    if (!manifold_->solve_motion(time(), now.q, now.v, a, lambda)) return {};
-    return unbounded_multiplier(*system_, start_.scales, manifold_->equations().w, lambda, lambda_at_start_);
+    Manifold& manifold = reader_->manifold();
+    if (!manifold.solve_motion(time(), now.q, now.v, a, lambda)) return {};
+    return unbounded_multiplier(*system_, start_.scales, manifold.equations().w, lambda, lambda_at_start_);
   } catch (const std::exception&) {
     return {};  // the run is stopping: what stops it is known already
   }

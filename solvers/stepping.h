@@ -1,7 +1,7 @@
 #pragma once
 
-#include <dalembert/solvers/manifold/manifold.h>
-#include <dalembert/solvers/manifold/recovery.h>
+#include <dalembert/solvers/run/kept_steps.h>
+#include <dalembert/solvers/run/reader.h>
 #include <dalembert/solvers/run/singularity.h>
 #include <dalembert/solvers/run/sticking.h>
 #include <dalembert/solvers/run/time_stepper.h>
@@ -17,8 +17,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// What is read from it lies on the constraints.
 class Stepping {
  public:
-  /// The system must outlive it. Throws InconsistentStart; StepFailure and EquationFault at the start.
-  Stepping(const System& system, std::span<const double> q, std::span<const double> v,
+  /// Throws InconsistentStart; StepFailure and EquationFault at the start.
+  Stepping(std::shared_ptr<const System> system, std::span<const double> q, std::span<const double> v,
            const Options& options);
 
   [[nodiscard]] double time() const { return stepper_->time(); }
@@ -33,6 +33,8 @@ class Stepping {
   /// The constraint whose force has grown without bound where the last step ended, in words; empty if there
   /// is none.
   [[nodiscard]] std::string suspect();
+  /// All steps, if the options ask to keep them; else null.
+  [[nodiscard]] std::shared_ptr<const DenseOutput> dense() const { return kept_; }
   /// Of all its steppers, without the run time.
   [[nodiscard]] Statistics statistics() const;
 
@@ -42,11 +44,9 @@ class Stepping {
     std::vector<double> q, v;
   };
   const State& interpolate(double t);
-  void follow_springs(double t, Manifold& follower);
+  [[nodiscard]] const Springs* springs_at(double t);
 
-  [[nodiscard]] bool redundant() const { return start_.rows.size() < system_->rows(); }
-  void compare_rows_from(double t);
-  [[nodiscard]] std::optional<ActiveRows> better_rows(const Instant& at);
+  void begin(const Options& options);
   void exchange_rows();
 
   void watch_sine();
@@ -54,16 +54,14 @@ class Stepping {
   void watch_sliding();
   void restart(Stepper kind);
 
-  const System* system_;
+  std::shared_ptr<const System> system_;
   Options options_;
   Start start_;
   std::vector<double> lambda_at_start_;
-  std::vector<double> lengths_;       // see Scales
-  std::optional<Manifold> manifold_;  // of the rows in use
+  std::optional<Reader> reader_;
   std::unique_ptr<TimeStepper> stepper_;
   std::optional<Sticking> sticking_;  // for the implicit stepper, if there is friction
-  Recovery recovery_;
-  double best_sine_ = 1.0;  // of any rows, where they were compared last
+  std::shared_ptr<KeptSteps> kept_;   // if the options ask for it
 
   long steps_ = 0;
   Angle angle_;               // at the last step
@@ -72,7 +70,7 @@ class Stepping {
 
   Springs springs_;  // of the implicit stepper's state, if any constraint is compliant
   State state_;
-  Statistics past_;  // of the steppers and manifolds before
+  Statistics past_;  // of the steppers and readers before
 };
 
 }  // namespace dalembert

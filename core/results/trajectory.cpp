@@ -60,6 +60,23 @@ Sample<D> Trajectory<D>::sample(std::size_t i) const& {
   return {*record_->layout, record_->sample(i)};
 }
 
+template <int D>
+Trajectory<D> Trajectory<D>::at(const std::vector<double>& times) const {
+  if (!record_->dense) {
+    throw InvalidArgument(
+        "at(): this run kept its samples only; run it with the option .dense = true, or with "
+        "the times wanted, .times = {..}");
+  }
+  auto other = std::make_shared<Record>();
+  other->layout = record_->layout;
+  other->stepper = record_->stepper;
+  other->tolerance = record_->tolerance;
+  other->statistics = record_->statistics;
+  other->dense = record_->dense;
+  other->dense->read(times, *other);
+  return Trajectory(std::move(other));
+}
+
 template class Trajectory<2>;
 template class Trajectory<3>;
 

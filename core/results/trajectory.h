@@ -14,6 +14,16 @@
 
 namespace dalembert {
 
+struct Record;
+
+/// A run at all times, by the polynomials of its stepper (dense output).
+class DenseOutput {
+ public:
+  virtual ~DenseOutput() = default;
+  /// Appends the samples at these times. Throws InvalidArgument outside the run.
+  virtual void read(std::span<const double> times, Record& out) const = 0;
+};
+
 /// A run as flat arrays: what a stepper fills and a Trajectory reads.
 struct Record {
   std::shared_ptr<const Layout> layout;
@@ -23,6 +33,7 @@ struct Record {
   std::vector<double> values;  ///< per sample: q, v, a, lambda, constraint forces, energy
   std::vector<char> unique;    ///< per sample and row, see FlatSample; empty if all are
   Statistics statistics;
+  std::shared_ptr<const DenseOutput> dense;  ///< if the option `dense` asks for it
 
   /// Makes room, so that `append` allocates nothing for this many samples.
   void reserve(std::size_t samples, const FlatSample& like);
@@ -89,6 +100,14 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   [[nodiscard]] std::size_t size() const { return record_->times.size(); }
   [[nodiscard]] std::span<const double> times() const& { return record_->times; }
   [[nodiscard]] Sample<D> sample(std::size_t i) const&;
+  /// The same run at other times, anywhere within it and in any order: no less exact than at its samples.
+  /// Needs the option `dense`.
+  ///
+  ///   const auto run = simulate(scene, {.t_end = 10.0, .dense = true});
+  ///   run.at({1.234}).position(bob, 0);
+  ///
+  /// Throws InvalidArgument without that option, and outside the run; EquationFault.
+  [[nodiscard]] Trajectory at(const std::vector<double>& times) const;
   [[nodiscard]] Iterator begin() const { return {*record_, 0}; }
   [[nodiscard]] Iterator end() const { return {*record_, size()}; }
   [[nodiscard]] const Statistics& statistics() const& { return record_->statistics; }

@@ -33,6 +33,8 @@ struct Options {
   /// benchmarks show how much.
   double tolerance = 1e-6;
   Stepper stepper = Stepper::ida;
+  /// Keep the motion between the samples too, for Trajectory::at: 18 numbers for each coordinate and step.
+  bool dense = false;
   long max_steps = 10'000'000;  ///< give up after so many steps
 
   /// False: an initial state that violates a constraint is an error. True: it is moved onto the

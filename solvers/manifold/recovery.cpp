@@ -16,10 +16,6 @@ namespace {
 
 constexpr double undetermined = std::numeric_limits<double>::quiet_NaN();
 
-bool finite(std::span<const double> x) {
-  return std::ranges::all_of(x, [](double value) { return std::isfinite(value); });
-}
-
 }  // namespace
 
 Moment::Moment(const System& system, const Start& start)
@@ -36,6 +32,8 @@ Recovery::Recovery(const System& system, const Start& start, double tolerance)
       scales_(start.scales),
       lengths_(start.scales.lengths()),
       tolerance_(tolerance),
+      islands_(islands(system)),
+      left_out_(islands_.count),
       q_given_(start.q.size()),
       v_given_(start.q.size()),
       q_(start.q),
@@ -46,23 +44,33 @@ Recovery::Recovery(const System& system, const Start& start, double tolerance)
       w_(system.w_columns().size()) {}
 
 /// A state moved by more than the tolerance is not better for it.
-bool Recovery::moved_too_far(const Moment& m) const {
+void Recovery::find_moved_too_far(const Moment& m) {
   for (std::size_t i = 0; i < m.q.size(); ++i) {
     const double speed = scales_.coordinate[i] / scales_.time + std::abs(v_given_[i]);
     if (std::abs(m.q[i] - q_given_[i]) > scales_.position_error(i, q_given_[i], tolerance_) ||
         std::abs(m.v[i] - v_given_[i]) > tolerance_ * speed)
-      return true;
+      left_out_[islands_.of_coordinate[i]] = 1;
   }
-  return false;
 }
 
-/// False if the constraints do not tell the motion here.
-bool Recovery::project(Manifold& manifold, Moment& m) {
+/// What the constraints do not tell here stays as it was given.
+void Recovery::project(Manifold& manifold, Moment& m) {
   const double L = scales_.length;
+  std::ranges::copy(m.q, q_given_.begin());
+  std::ranges::copy(m.v, v_given_.begin());
+  std::ranges::fill(left_out_, 0);
   m.position = manifold.project_positions(
       m.t, m.q, m.v, std::max(constants.output_distance * L, 0.1 * scales_.rounding(m.q)));
-  if (!manifold.solve_motion(m.t, m.q, m.v, m.a, m.lambda)) return false;
-  return manifold.sine() > constants.well_conditioned || !moved_too_far(m);
+  if (!manifold.solve_motion(m.t, m.q, m.v, m.a, m.lambda)) {
+    std::ranges::fill(left_out_, 1);
+  } else if (manifold.sine() <= constants.well_conditioned) {
+    find_moved_too_far(m);
+  }
+  for (std::size_t i = 0; i < m.q.size(); ++i) {
+    if (!left_out_[islands_.of_coordinate[i]]) continue;
+    m.q[i] = q_given_[i];
+    m.v[i] = v_given_[i];
+  }
 }
 
 void Recovery::require_agreement(const Moment& m) const {
@@ -76,10 +84,31 @@ void Recovery::require_agreement(const Moment& m) const {
   if (m.position.size > constants.tolerated_contradiction * L + scales_.rounding(m.q)) refuse(m.position, "");
 }
 
+void Recovery::require_finite(const Moment& m) const {
+  const auto& coordinates = system_->layout()->slot_coordinate;
+  bool finite = std::isfinite(m.energy);
+  for (std::size_t slot = 0; slot < coordinates.size(); ++slot) {
+    const auto i = static_cast<std::size_t>(coordinates[slot]);
+    finite = finite && (left_out_[islands_.of_coordinate[i]] || std::isfinite(m.forces[slot]));
+  }
+  if (finite) return;
+  throw StepFailure{
+      "the energy or a force of constraint exceeds what double precision holds; choose units in which "
+      "masses, lengths and speeds are closer to 1",
+      m.t};
+}
+
+/// Those of the islands that are left out.
 void Recovery::leave_forces_out(Moment& m) const {
-  std::ranges::fill(m.lambda, undetermined);
-  std::ranges::fill(m.forces, undetermined);
-  std::ranges::fill(m.a, undetermined);
+  const auto coordinate = [this](std::size_t i) { return left_out_[islands_.of_coordinate[i]] != 0; };
+  for (std::size_t i = 0; i < m.a.size(); ++i)
+    if (coordinate(i)) m.a[i] = undetermined;
+  for (std::size_t r = 0; r < m.lambda.size(); ++r)
+    if (left_out_[islands_.of_row(*system_, r)]) m.lambda[r] = undetermined;
+  for (std::size_t slot = 0; slot < m.forces.size(); ++slot) {
+    if (coordinate(static_cast<std::size_t>(system_->layout()->slot_coordinate[slot])))
+      m.forces[slot] = undetermined;
+  }
 }
 
 /// Those that differ by as much as a force may not, relative to the largest that there is or that a force of
@@ -112,7 +141,10 @@ void Recovery::mark_undetermined(Manifold& manifold, Moment& m) {
   } catch (const EquationFault&) {
     known = false;
   }
-  if (!known) return leave_forces_out(m);
+  if (!known) {
+    std::ranges::fill(left_out_, 1);
+    return leave_forces_out(m);
+  }
   mark_accelerations(m);
   double largest = 0.0;
   const auto force = [&](std::size_t r, double lambda) {
@@ -157,30 +189,19 @@ void Recovery::mark_springs(const Manifold& manifold, Moment& m, long steps) con
 }
 
 void Recovery::recover(Manifold& manifold, Moment& m, long steps) {
-  std::ranges::copy(m.q, q_given_.begin());
-  std::ranges::copy(m.v, v_given_.begin());
-  const bool known = project(manifold, m);
-  if (known) {
-    require_agreement(m);
-    if (!m.unique.empty()) std::ranges::copy(manifold.unique(), m.unique.begin());
-    system_->constraint_forces(manifold.equations().w, m.lambda, m.forces);
-  } else {
-    std::ranges::copy(q_given_, m.q.begin());
-    std::ranges::copy(v_given_, m.v.begin());
-  }
+  project(manifold, m);
+  if (!std::ranges::count(left_out_, 1)) require_agreement(m);
+  if (!m.unique.empty()) std::ranges::copy(manifold.unique(), m.unique.begin());
+  system_->constraint_forces(manifold.equations().w, m.lambda, m.forces);
   m.velocity = velocity_violation(*system_, manifold.equations(), lengths_);
   m.correction = 0.0;
   for (std::size_t i = 0; i < q_given_.size(); ++i)
     m.correction = std::max(m.correction, std::abs(m.q[i] - q_given_[i]) * lengths_[i]);
   m.energy = system_->kinetic_energy(m.v) + system_->potential_energy({m.t, m.q, m.v});
   if (system_->compliant()) m.energy += system_->elastic_energy(m.lambda);
-  if (!std::isfinite(m.energy) || (known && !finite(m.forces))) {
-    throw StepFailure{
-        "the energy or a force of constraint exceeds what double precision holds; choose units in which "
-        "masses, lengths and speeds are closer to 1",
-        m.t};
-  }
-  if (!known) return leave_forces_out(m);
+  require_finite(m);
+  leave_forces_out(m);
+  if (!std::ranges::count(left_out_, 0)) return;
   if (manifold.sine() <= constants.well_conditioned) mark_undetermined(manifold, m);
   if (system_->compliant() && !manifold.following()) mark_springs(manifold, m, steps);
 }

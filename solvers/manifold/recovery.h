@@ -1,5 +1,7 @@
 #pragma once
 
+#include <dalembert/core/analysis/islands.h>
+#include <dalembert/core/results/sample.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/manifold/manifold.h>
 #include <dalembert/solvers/manifold/start.h>
@@ -19,13 +21,16 @@ struct Moment {
   // How well the state keeps the constraints, and how far it was moved for that.
   Violation position, velocity;
   double correction = 0.0;
+
+  [[nodiscard]] FlatSample flat() const { return {t, q, v, a, lambda, forces, energy, unique}; }
 };
 
 /// Puts a stepper's state onto the constraints and finds the forces of constraint there.
 ///
 /// A state that is right to the tolerance is moved by about as much, except where the constraints are so
 /// close to dependent that they turn its error e into e/sin: there the stepper's own state is the better one
-/// and stays as it is, and no force is determined.
+/// and stays as it is, and no force is determined. That is said of each island (see Islands): a pendulum's
+/// force does not depend on a linkage beside it.
 ///
 /// Where they are close to dependent the forces of a state on the constraints, too, may be those of its
 /// round-off. What the constraints hold least is one direction n (see Manifold::weakest_direction). A second
@@ -43,18 +48,21 @@ class Recovery {
   void recover(Manifold& manifold, Moment& m, long steps);
 
  private:
-  [[nodiscard]] bool project(Manifold& manifold, Moment& m);
-  [[nodiscard]] bool moved_too_far(const Moment& m) const;
+  void project(Manifold& manifold, Moment& m);
+  void find_moved_too_far(const Moment& m);
   void require_agreement(const Moment& m) const;
   void mark_undetermined(Manifold& manifold, Moment& m);
   void mark_accelerations(Moment& m) const;
   void mark_springs(const Manifold& manifold, Moment& m, long steps) const;
+  void require_finite(const Moment& m) const;
   void leave_forces_out(Moment& m) const;
 
   const System* system_;
   Scales scales_;
   std::vector<double> lengths_;
   double tolerance_;
+  Islands islands_;
+  std::vector<char> left_out_;                  // per island, whether its state stays as it is
   std::vector<double> q_given_, v_given_;       // before projection
   std::vector<double> q_, v_, a_, lambda_, n_;  // of the second state
   std::vector<double> w_;

@@ -1,0 +1,126 @@
+#include "dalembert/solvers/run/kept_steps.h"
+
+#include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/run/reader.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+namespace dalembert {
+
+namespace {
+
+constexpr int degree = 8;
+using Weights = std::array<double, degree + 1>;
+
+/// The ends of a step are nodes.
+double node(double from, double to, int j) {
+  if (j == 0) return from;
+  if (j == degree) return to;
+  return 0.5 * (from + to) - 0.5 * (to - from) * std::cos(j * std::numbers::pi / degree);
+}
+
+/// Lagrange's polynomials of the nodes, at t.
+Weights lagrange(double from, double to, double t) {
+  Weights l{};
+  double sum = 0.0;
+  for (int j = 0; j <= degree; ++j) {
+    double& own = l[static_cast<std::size_t>(j)];
+    const double distance = t - node(from, to, j);
+    if (distance == 0.0) {
+      l.fill(0.0);
+      own = 1.0;
+      return l;
+    }
+    own = (j % 2 == 0 ? 1.0 : -1.0) / distance;
+    if (j == 0 || j == degree) own *= 0.5;
+    sum += own;
+  }
+  for (double& own : l) own /= sum;
+  return l;
+}
+
+[[noreturn]] void refuse(double t, const std::string& why) {
+  std::ostringstream what;
+  what.precision(10);
+  what << "at(" << t << "): " << why;
+  throw InvalidArgument(what.str());
+}
+
+}  // namespace
+
+void KeptSteps::begin(const Start& start, double t) { legs_.push_back({start, t, steps_.size()}); }
+
+void KeptSteps::add(TimeStepper& stepper, double from, long number) {
+  const std::size_t n = system_->coordinates(), m = system_->compliant() ? system_->rows() : 0;
+  Step step{from, stepper.time(), number, values_.size(), 0.0};
+  Springs springs{std::vector<double>(m), std::vector<double>(m), std::vector<double>(m)};
+  for (int j = 0; j <= degree; ++j) {
+    const double t = node(step.from, step.to, j);
+    const std::size_t first = values_.size();
+    values_.resize(first + 2 * n);
+    stepper.interpolate(t, std::span(values_).subspan(first, n), std::span(values_).subspan(first + n, n));
+    if (m == 0 || !stepper.springs(t, springs)) continue;
+    step.c = springs.c;
+    for (const auto* numbers : {&springs.lambda, &springs.rate, &springs.second})
+      values_.insert(values_.end(), numbers->begin(), numbers->end());
+  }
+  steps_.push_back(step);
+}
+
+const KeptSteps::Step& KeptSteps::step_at(double t) const {
+  if (steps_.empty()) refuse(t, "the run took no step");
+  if (!(t >= steps_.front().from && t <= steps_.back().to)) {
+    std::ostringstream why;
+    why << "must lie within the run, between " << steps_.front().from << " and " << steps_.back().to;
+    refuse(t, why.str());
+  }
+  return *std::ranges::lower_bound(steps_, t, {}, &Step::to);
+}
+
+void KeptSteps::interpolate(const Step& step, double t, Moment& m, Springs& springs) const {
+  const Weights l = lagrange(step.from, step.to, t);
+  std::vector<std::vector<double>*> parts{&m.q, &m.v};
+  springs.c = step.c;
+  if (step.c > 0.0) parts.insert(parts.end(), {&springs.lambda, &springs.rate, &springs.second});
+  for (auto* part : parts) std::ranges::fill(*part, 0.0);
+  const double* next = values_.data() + step.first;
+  for (const double weight : l) {
+    for (auto* part : parts) {
+      for (double& x : *part) x += weight * *next++;
+    }
+  }
+  m.t = t;
+}
+
+void KeptSteps::read(std::span<const double> times, Record& out) const {
+  const std::size_t m = system_->rows();
+  Springs springs{std::vector<double>(m), std::vector<double>(m), std::vector<double>(m)};
+  const Leg* leg = nullptr;
+  std::optional<Reader> reader;
+  std::optional<Moment> now;
+  for (const double t : times) {
+    const Step& step = step_at(t);
+    const auto number = static_cast<std::size_t>(&step - steps_.data());
+    const Leg& own = *std::prev(std::ranges::upper_bound(legs_, number, {}, &Leg::first_step));
+    if (std::exchange(leg, &own) != &own) {
+      reader.emplace(*system_, own.start, own.t, tolerance_);
+      now.emplace(*system_, own.start);
+    }
+    interpolate(step, t, *now, springs);
+    try {
+      reader->read(*now, step.c > 0.0 ? &springs : nullptr, step.number);
+    } catch (const StepFailure& failure) {
+      refuse(t, failure.what);
+    }
+    out.append(now->flat());
+  }
+}
+
+}  // namespace dalembert

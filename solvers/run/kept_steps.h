@@ -1,0 +1,55 @@
+#pragma once
+
+#include <dalembert/core/results/trajectory.h>
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/manifold/recovery.h>
+#include <dalembert/solvers/manifold/springs.h>
+#include <dalembert/solvers/manifold/start.h>
+#include <dalembert/solvers/run/time_stepper.h>
+
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// The motion at every time of a run: of each step the stepper's own polynomial, kept as its values at the
+/// extrema of the Chebyshev polynomial of degree 8, the highest degree of a step, of `erk`. Evaluated by
+/// Lagrange's formula in its barycentric form, whose error is a few roundings (Berrut, Trefethen, SIAM Review
+/// 46 (2004) 501).
+class KeptSteps final : public DenseOutput {
+ public:
+  KeptSteps(std::shared_ptr<const System> system, double tolerance)
+      : system_(std::move(system)), tolerance_(tolerance) {}
+
+  /// From here on the steps are those of a run that begins, or begins anew, with `start` at time t.
+  void begin(const Start& start, double t);
+  /// The last step, the so many-th of the run, and where it began.
+  void add(TimeStepper& stepper, double from, long number);
+
+  void read(std::span<const double> times, Record& out) const override;
+
+ private:
+  struct Leg {
+    Start start;
+    double t;
+    std::size_t first_step;
+  };
+  struct Step {
+    double from, to;
+    long number;
+    std::size_t first;  // of its values
+    double c;           // see Springs; 0 if the state has none
+  };
+  [[nodiscard]] const Step& step_at(double t) const;
+  void interpolate(const Step& step, double t, Moment& m, Springs& springs) const;
+
+  std::shared_ptr<const System> system_;
+  double tolerance_;
+  std::vector<Leg> legs_;
+  std::vector<Step> steps_;
+  std::vector<double> values_;  // per step and node: q, v, and of springs lambda and its derivatives
+};
+
+}  // namespace dalembert
