@@ -1,7 +1,8 @@
 #pragma once
 
-#include "finite_differences.h"
 #include <dalembert/core/scene/system.h>
+
+#include <Eigen/Core>
 
 #include <string>
 #include <vector>
@@ -25,105 +26,28 @@ inline Eigen::VectorXd vector(std::span<const double> x) {
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
 }
 
-inline Eigen::MatrixXd by_rows(const System& system, std::span<const double> w) {
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(index(system.rows()), index(system.coordinates()));
-  for (std::size_t r = 0; r < system.rows(); ++r) {
-    for (const std::size_t k : system.row(r)) dense(index(r), index(system.w_columns()[k])) += w[k];
-  }
-  return dense;
-}
+Eigen::MatrixXd by_rows(const System& system, std::span<const double> w);
 
-inline Eigen::MatrixXd by_entries(Eigen::Index n, std::span<const System::Entry> pattern,
-                                  std::span<const double> values) {
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
-  for (std::size_t k = 0; k < pattern.size(); ++k)
-    dense(index(pattern[k].row), index(pattern[k].column)) += values[k];
-  return dense;
-}
+Eigen::MatrixXd by_entries(Eigen::Index n, std::span<const System::Entry> pattern,
+                           std::span<const double> values);
 
 struct Values {
   Eigen::VectorXd F, g, psi, gamma;
   Eigen::MatrixXd W;
 };
 
-inline Values values(const System& system, const State& s) {
-  auto e = system.evaluation();
-  std::vector<double> gamma(system.rows());
-  system.evaluate(s.instant(), e);
-  system.bias(s.instant(), gamma);
-  return {vector(e.force), vector(e.g), vector(e.psi), vector(gamma), by_rows(system, e.w)};
-}
+Values values(const System& system, const State& s);
 
 /// The forces that read multipliers.
-inline Eigen::VectorXd friction(const System& system, const State& s, const Eigen::VectorXd& lambda) {
-  Eigen::VectorXd F = Eigen::VectorXd::Zero(index(system.coordinates()));
-  system.add_friction(s.instant(), {lambda.data(), static_cast<std::size_t>(lambda.size())},
-                      {F.data(), static_cast<std::size_t>(F.size())});
-  return F;
-}
+Eigen::VectorXd friction(const System& system, const State& s, const Eigen::VectorXd& lambda);
 
 struct Derivatives {
   Eigen::MatrixXd psi_q, stiffness, damping, friction;
 };
 
-inline Derivatives derivatives(const System& system, const State& s, const Eigen::VectorXd& lambda) {
-  auto d = system.linearisation();
-  system.linearise(s.instant(), {lambda.data(), static_cast<std::size_t>(lambda.size())}, d);
-  const Eigen::Index n = index(system.coordinates());
-  Eigen::MatrixXd by_lambda = Eigen::MatrixXd::Zero(n, index(system.rows()));
-  for (std::size_t k = 0; k < d.friction.size(); ++k)
-    by_lambda(index(system.friction_pattern()[k].row), index(system.friction_pattern()[k].column)) +=
-        d.friction[k];
-  return {by_rows(system, d.psi_q), by_entries(n, system.stiffness_pattern(), d.stiffness),
-          by_entries(n, system.damping_pattern(), d.damping), by_lambda};
-}
+Derivatives derivatives(const System& system, const State& s, const Eigen::VectorXd& lambda);
 
 /// Every derivative that a System gives, against central differences of what it is the derivative of.
-inline void expect_consistent(const System& system, const State& at, const Eigen::VectorXd& lambda) {
-  const Values now = values(system, at);
-  const Derivatives d = derivatives(system, at, lambda);
-  const Eigen::Index holonomic = index(system.holonomic_rows());
-  for (Eigen::Index j = 0; j < at.q.size(); ++j) {
-    const auto force_moved = [&](double s) {
-      State to = at;
-      to.q[j] += s;
-      return Eigen::VectorXd(values(system, to).F + friction(system, to, lambda));
-    };
-    const auto force_kicked = [&](double s) {
-      State to = at;
-      to.v[j] += s;
-      return Eigen::VectorXd(values(system, to).F + friction(system, to, lambda));
-    };
-    const auto moved = [&](double s) {
-      State to = at;
-      to.q[j] += s;
-      return values(system, to);
-    };
-    const auto kicked = [&](double s) {
-      State to = at;
-      to.v[j] += s;
-      return values(system, to);
-    };
-    const std::string column = ", column " + std::to_string(j);
-    expect_slope(slope([&](double s) { return moved(s).g; }), now.W.col(j).head(holonomic), "g_q" + column);
-    expect_slope(slope([&](double s) { return kicked(s).psi; }), now.W.col(j), "psi_v" + column);
-    expect_slope(slope([&](double s) { return moved(s).psi; }), d.psi_q.col(j), "psi_q" + column);
-    expect_slope(
-        slope([&](double s) { return Eigen::VectorXd(force_moved(s) + moved(s).W.transpose() * lambda); }),
-        d.stiffness.col(j), "(F + W^T lambda)_q" + column);
-    expect_slope(slope(force_kicked), d.damping.col(j), "F_v" + column);
-  }
-  for (Eigen::Index r = 0; r < lambda.size(); ++r) {
-    const auto pressed = [&](double s) {
-      Eigen::VectorXd to = lambda;
-      to[r] += s;
-      return friction(system, at, to);
-    };
-    expect_slope(slope(pressed), d.friction.col(r), "F_lambda, row " + std::to_string(r));
-  }
-  const auto later = [&](double s) { return values(system, {at.t + s, at.q + s * at.v, at.v}); };
-  expect_slope(slope([&](double s) { return later(s).g; }), now.psi.head(holonomic), "psi = dg/dt");
-  expect_slope(slope([&](double s) { return later(s).psi; }), now.gamma, "gamma = psi_q v + psi_t");
-}
+void expect_consistent(const System& system, const State& at, const Eigen::VectorXd& lambda);
 
 }  // namespace dalembert

@@ -3,6 +3,8 @@
 #include "../equations.h"
 #include <dalembert/solvers/simulation.h>
 
+#include <gtest/gtest.h>
+
 namespace dalembert {
 namespace {
 

@@ -1,5 +1,7 @@
 #include "laws_joints.h"
 
+#include <gtest/gtest.h>
+
 namespace dalembert::laws {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <dalembert/core/vec.h>
 
 #include <Eigen/Geometry>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>

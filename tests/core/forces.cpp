@@ -1,6 +1,7 @@
 #include "dalembert/core/forces/forces.h"
 
 #include "../equations.h"
+#include "../finite_differences.h"
 #include <dalembert/core/scene/scene.h>
 
 #include <gmock/gmock.h>

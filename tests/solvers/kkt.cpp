@@ -4,6 +4,8 @@
 #include <dalembert/core/scene/scene.h>
 #include <dalembert/solvers/linear/kkt.h>
 
+#include <gtest/gtest.h>
+
 namespace dalembert {
 namespace {
 

@@ -7,6 +7,7 @@
 #include <dalembert/solvers/manifold/manifold.h>
 
 #include <Eigen/Dense>
+#include <gtest/gtest.h>
 
 namespace dalembert {
 namespace {

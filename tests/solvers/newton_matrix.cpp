@@ -7,6 +7,7 @@
 #include <dalembert/solvers/ida/newton_matrix.h>
 
 #include <Eigen/Dense>
+#include <gtest/gtest.h>
 
 #include <numeric>
 
