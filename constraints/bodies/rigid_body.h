@@ -59,6 +59,7 @@ struct RigidBody {
   Vec<D> stated_centre = Vec<D>::Zero();                                  ///< where it was added, and how:
   Axes stated_axes = Axes::Identity();                                    ///< columns
 
+  /// As it was added: of a particle of it that was replaced (Scene::replace) the body does not know.
   [[nodiscard]] double mass() const;
   /// About the centre of mass; in space the principal moments, as BodyState has them.
   [[nodiscard]] Inertia inertia() const;

@@ -45,9 +45,12 @@ class HolonomicBatch final : public ConstraintBatch {
         const std::size_t row = i * rows + static_cast<std::size_t>(k);
         double psi = 0.0;
         if constexpr (timed) psi = g_k.gradient[inputs];
-        const auto w = out.w.subspan(row * width, width);
+        std::array<double, width> w;
         pull_back(c, g_k.gradient.data(), w.data());
-        for (std::size_t j = 0; j < width; ++j) psi += w[j] * at.v[static_cast<std::size_t>(coordinate[j])];
+        for (std::size_t j = 0; j < width; ++j) {
+          out.w[row * width + j] = w[j];
+          psi += w[j] * at.v[static_cast<std::size_t>(coordinate[j])];
+        }
         out.g[row] = g_k.value;
         out.psi[row] = psi;
       }
