@@ -58,8 +58,10 @@ Comparison compare(const Pair& pair, Stepper stepper, const LeaveOut& options) {
   Comparison c{.difference = 0.0};
   for (int i = 0; i < options.repeats; ++i) {
     run.samples = pair.samples_full;
+    run.dense = pair.dense_full;
     const Motion full = pair.full.run(run);
     run.samples = pair.samples;
+    run.dense = false;
     const Motion lean = pair.lean.run(run);
     times_full.push_back(full.run_time);
     times.push_back(lean.run_time);

@@ -124,6 +124,16 @@ Pair unread_forces(int beads) {
           .samples_full = 1001};
 }
 
+Pair kept_steps(int beads) {
+  return {.scene = "chain",
+          .left_out = "the motion between samples",
+          .length = 1.0,
+          .t_end = 0.2,
+          .full = state(chain<2>(beads)),
+          .lean = state(chain<2>(beads)),
+          .dense_full = true};
+}
+
 /// A bead that rests on a rod: nothing moves it, and the motion of the rest does not know of it.
 void add_idle_bead(Scene<2>& scene) {
   const auto bead = scene.add_particle({.mass = 1.0, .position = {0.0, 1.0}});
@@ -209,6 +219,7 @@ std::vector<Pair> leave_out_pairs(int size) {
           idle_drag(size),
           varying_gravity(size),
           unread_forces(size),
+          kept_steps(size),
           without_holonomic_rows(),
           without_constraints(),
           islands(size, 0.5, double_pendulums),

@@ -15,6 +15,7 @@ struct Pair {
   double t_end;
   Statement full, lean;
   int samples_full = 11, samples = 11;  ///< the latter are among the former
+  bool dense_full = false;              ///< the motion between samples is kept
 };
 
 /// All pairs; `size` beads in a chain, and as many islands.

@@ -30,6 +30,7 @@ class IdaStepper final : public TimeStepper {
   /// Of the holonomic constraints, where Newton's matrix was factored last.
   [[nodiscard]] double sine() const override;
   void interpolate(double t, std::span<double> q, std::span<double> v) override;
+  [[nodiscard]] int degree() const override { return 5; }  // BDF of order 5
   /// False before the first step.
   [[nodiscard]] bool springs(double t, Springs& out) const override;
   void count(Statistics& statistics) const override;

@@ -5,7 +5,6 @@
 #include <dalembert/solvers/run/reader.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -16,25 +15,22 @@ namespace dalembert {
 
 namespace {
 
-constexpr int degree = 8;
-using Weights = std::array<double, degree + 1>;
-
 /// The ends of a step are nodes.
-double node(double from, double to, int j) {
+double node(double from, double to, int j, int degree) {
   if (j == 0) return from;
   if (j == degree) return to;
   return 0.5 * (from + to) - 0.5 * (to - from) * std::cos(j * std::numbers::pi / degree);
 }
 
 /// Lagrange's polynomials of the nodes, at t.
-Weights lagrange(double from, double to, double t) {
-  Weights l{};
+std::vector<double> lagrange(double from, double to, double t, int degree) {
+  std::vector<double> l(static_cast<std::size_t>(degree) + 1);
   double sum = 0.0;
   for (int j = 0; j <= degree; ++j) {
     double& own = l[static_cast<std::size_t>(j)];
-    const double distance = t - node(from, to, j);
+    const double distance = t - node(from, to, j, degree);
     if (distance == 0.0) {
-      l.fill(0.0);
+      std::ranges::fill(l, 0.0);
       own = 1.0;
       return l;
     }
@@ -59,10 +55,10 @@ void KeptSteps::begin(const Start& start, double t) { legs_.push_back({start, t,
 
 void KeptSteps::add(TimeStepper& stepper, double from, long number) {
   const std::size_t n = system_->coordinates(), m = system_->compliant() ? system_->rows() : 0;
-  Step step{from, stepper.time(), number, values_.size(), 0.0};
+  Step step{from, stepper.time(), number, stepper.degree(), values_.size(), 0.0};
   Springs springs{std::vector<double>(m), std::vector<double>(m), std::vector<double>(m)};
-  for (int j = 0; j <= degree; ++j) {
-    const double t = node(step.from, step.to, j);
+  for (int j = 0; j <= step.degree; ++j) {
+    const double t = node(step.from, step.to, j, step.degree);
     const std::size_t first = values_.size();
     values_.resize(first + 2 * n);
     stepper.interpolate(t, std::span(values_).subspan(first, n), std::span(values_).subspan(first + n, n));
@@ -85,13 +81,12 @@ const KeptSteps::Step& KeptSteps::step_at(double t) const {
 }
 
 void KeptSteps::interpolate(const Step& step, double t, Moment& m, Springs& springs) const {
-  const Weights l = lagrange(step.from, step.to, t);
   std::vector<std::vector<double>*> parts{&m.q, &m.v};
   springs.c = step.c;
   if (step.c > 0.0) parts.insert(parts.end(), {&springs.lambda, &springs.rate, &springs.second});
   for (auto* part : parts) std::ranges::fill(*part, 0.0);
   const double* next = values_.data() + step.first;
-  for (const double weight : l) {
+  for (const double weight : lagrange(step.from, step.to, t, step.degree)) {
     for (auto* part : parts) {
       for (double& x : *part) x += weight * *next++;
     }

@@ -15,9 +15,8 @@
 namespace DALEMBERT_HIDDEN dalembert {
 
 /// The motion at every time of a run: of each step the stepper's own polynomial, kept as its values at the
-/// extrema of the Chebyshev polynomial of degree 8, the highest degree of a step, of `erk`. Evaluated by
-/// Lagrange's formula in its barycentric form, whose error is a few roundings (Berrut, Trefethen, SIAM Review
-/// 46 (2004) 501).
+/// extrema of the Chebyshev polynomial of its degree. Evaluated by Lagrange's formula in its barycentric
+/// form, whose error is a few roundings (Berrut, Trefethen, SIAM Review 46 (2004) 501).
 class KeptSteps final : public DenseOutput {
  public:
   KeptSteps(std::shared_ptr<const System> system, double tolerance)
@@ -39,6 +38,7 @@ class KeptSteps final : public DenseOutput {
   struct Step {
     double from, to;
     long number;
+    int degree;
     std::size_t first;  // of its values
     double c;           // see Springs; 0 if the state has none
   };
