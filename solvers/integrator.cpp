@@ -68,6 +68,15 @@ struct DALEMBERT_HIDDEN Integrator::State {
     visit(time);
   }
 
+  template <class Observe>
+  void for_each_sample(const Observe& observe) {
+    for (const double t : times) {
+      if (t < now.t) continue;
+      if (t > now.t) guarded([&] { go_to(t); });
+      observe(now.flat());
+    }
+  }
+
   /// Runs `f`; whatever stops it becomes an IntegrationFailure with the samples so far.
   template <class F>
   void guarded(const F& f) {
@@ -156,19 +165,16 @@ void Integrator::advance_to(double t) {
 }
 
 void Integrator::run(const std::function<void(const FlatSample&)>& observe) {
-  State& s = *state_;
-  for (const double t : s.times) {
-    if (t < s.now.t) continue;
-    if (t > s.now.t) s.guarded([&] { s.go_to(t); });
-    observe(s.now.flat());
-  }
+  if (state_->options.dense)
+    throw InvalidArgument("dense = true keeps all steps for Trajectory::at: not where no sample is kept");
+  state_->for_each_sample(observe);
 }
 
 std::shared_ptr<const Record> Integrator::run() {
   State& s = *state_;
   s.record.clear();
   s.record.reserve(s.times.size(), s.now.flat());
-  run([&s](const FlatSample& sample) { s.record.append(sample); });
+  s.for_each_sample([&s](const FlatSample& sample) { s.record.append(sample); });
   // The samples are handed over, not copied: they may be most of the memory.
   auto record = std::make_shared<Record>(std::exchange(s.record, s.empty_record()));
   record->statistics = s.statistics();

@@ -31,7 +31,8 @@ class Integrator {
   /// All samples that the options ask for, from here on. Throws IntegrationFailure, with all
   /// samples before.
   [[nodiscard]] std::shared_ptr<const Record> run();
-  /// The same for runs too long to keep: each sample goes to `observe`, none is stored.
+  /// The same for runs too long to keep: each sample goes to `observe`, none is stored. Throws
+  /// InvalidArgument if the options ask for dense output.
   void run(const std::function<void(const FlatSample&)>& observe);
 
   [[nodiscard]] Statistics statistics() const;

@@ -71,6 +71,7 @@ Statistics simulate(const Scene<D>& scene, const Options& options, const Observe
   return simulation.statistics();
 }
 
+/// And from a sample of another run on.
 template <int D, class Observe>
 Statistics simulate(const Scene<D>& scene, const Sample<D>& start, const Options& options,
                     const Observe& observe) {

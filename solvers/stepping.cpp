@@ -44,16 +44,15 @@ Stepping::Stepping(std::shared_ptr<const System> system, std::span<const double>
       start_(first_start(*system_, q, v, options)),
       lambda_at_start_(start_.lambda),
       state_{start_.q, start_.v} {
-  if (system_->compliant()) {
-    for (auto* numbers : {&springs_.lambda, &springs_.rate, &springs_.second})
-      numbers->resize(start_.lambda.size());
-  }
+  if (system_->compliant()) springs_ = Springs(start_.lambda.size());
   const auto number = [](std::size_t equations) { return static_cast<int>(equations); };
   past_.degrees_of_freedom =
       number(system_->coordinates() + system_->compliant_rows()) - number(start_.rows.size());
   past_.redundant_equations = number(system_->rows() - start_.rows.size());
   if (options.dense) kept_ = std::make_shared<KeptSteps>(system_, options.tolerance);
   begin(options_);
+  unkept_ = options.t_start;
+  keep_step();
 }
 
 /// At options.t_start, from start_.
@@ -64,10 +63,23 @@ void Stepping::begin(const Options& options) {
   if (system_->frictional() && options_.stepper == Stepper::ida)
     sticking_.emplace(*system_, start_, options.t_start, options_.tolerance);
   angle_ = {options.t_start, 1.0};
-  if (kept_) kept_->begin(start_, options.t_start);
+  if (kept_) own_steps().begin(start_, options.t_start);
+}
+
+/// What was handed out stays as it is.
+KeptSteps& Stepping::own_steps() {
+  if (kept_.use_count() > 1) kept_ = std::make_shared<KeptSteps>(*kept_);
+  return *kept_;
+}
+
+void Stepping::keep_step() {
+  if (!kept_ || !unkept_) return;
+  own_steps().add(*stepper_, *unkept_, steps_);
+  unkept_.reset();
 }
 
 void Stepping::step(double wanted) {
+  keep_step();  // if it could not be kept before
   // Before a step, so that all output within the last has been read from the stepper that took it.
   exchange_rows();
   if (options_.stepper == Stepper::ida) watch_sine();
@@ -75,7 +87,7 @@ void Stepping::step(double wanted) {
   try {
     const double from = time();
     stepper_->step(wanted);
-    if (kept_) kept_->add(*stepper_, from, steps_);
+    unkept_ = from;
   } catch (const StepFailure&) {
     // Newton's iteration may fail anywhere; where the constraints are close to dependent the explicit
     // stepper goes on.
@@ -83,6 +95,7 @@ void Stepping::step(double wanted) {
       throw;
     hand_over();
   }
+  keep_step();
   watch_sliding();
 }
 

@@ -47,6 +47,8 @@ class Stepping {
   [[nodiscard]] const Springs* springs_at(double t);
 
   void begin(const Options& options);
+  [[nodiscard]] KeptSteps& own_steps();
+  void keep_step();
   void exchange_rows();
 
   void watch_sine();
@@ -62,6 +64,7 @@ class Stepping {
   std::unique_ptr<TimeStepper> stepper_;
   std::optional<Sticking> sticking_;  // for the implicit stepper, if there is friction
   std::shared_ptr<KeptSteps> kept_;   // if the options ask for it
+  std::optional<double> unkept_;      // where a step began that is not among them yet
 
   long steps_ = 0;
   Angle angle_;               // at the last step

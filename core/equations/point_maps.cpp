@@ -65,8 +65,9 @@ void forces_at_points(std::span<const PointMap> maps, int rows, const double* w,
   int input = 0, column = 0;
   for (const PointMap& map : maps) {
     auto own = all.middleCols(input, map.inputs);
-    own = W.middleCols(column, map.coordinates).leftCols(map.inputs);
-    if (map.L != nullptr) {
+    if (map.L == nullptr) {
+      own = W.middleCols(column, map.inputs);
+    } else {
       const Eigen::Map<const Eigen::MatrixXd> L(map.L, map.inputs, map.coordinates);
       const Eigen::LLT<Square> LLt(Square(L * L.transpose()));
       for (int r = 0; r < rows; ++r) {

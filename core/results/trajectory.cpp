@@ -61,7 +61,7 @@ Sample<D> Trajectory<D>::sample(std::size_t i) const& {
 }
 
 template <int D>
-Trajectory<D> Trajectory<D>::at(const std::vector<double>& times) const {
+Trajectory<D> Trajectory<D>::at(std::span<const double> times) const {
   if (!record_->dense) {
     throw InvalidArgument(
         "at(): this run kept its samples only; run it with the option .dense = true, or with "

@@ -5,6 +5,7 @@
 #include <dalembert/core/results/statistics.h>
 
 #include <cstddef>
+#include <initializer_list>
 #include <iosfwd>
 #include <iterator>
 #include <memory>
@@ -100,14 +101,18 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   [[nodiscard]] std::size_t size() const { return record_->times.size(); }
   [[nodiscard]] std::span<const double> times() const& { return record_->times; }
   [[nodiscard]] Sample<D> sample(std::size_t i) const&;
-  /// The same run at other times, anywhere within it and in any order: no less exact than at its samples.
-  /// Needs the option `dense`.
+  /// The same run at other times, in any order, from its start to the end of its last step: no less exact
+  /// than at its samples. Needs the option `dense`. (Many times at once cost less than one after the other.)
   ///
   ///   const auto run = simulate(scene, {.t_end = 10.0, .dense = true});
   ///   run.at({1.234}).position(bob, 0);
   ///
-  /// Throws InvalidArgument without that option, and outside the run; EquationFault.
-  [[nodiscard]] Trajectory at(const std::vector<double>& times) const;
+  /// Throws InvalidArgument without that option, and outside the run; EquationFault where an equation goes
+  /// wrong or nothing can be read.
+  [[nodiscard]] Trajectory at(std::span<const double> times) const;
+  [[nodiscard]] Trajectory at(std::initializer_list<double> times) const {
+    return at(std::span(times.begin(), times.size()));
+  }
   [[nodiscard]] Iterator begin() const { return {*record_, 0}; }
   [[nodiscard]] Iterator end() const { return {*record_, size()}; }
   [[nodiscard]] const Statistics& statistics() const& { return record_->statistics; }

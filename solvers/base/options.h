@@ -34,7 +34,9 @@ struct Options {
   double tolerance = 1e-6;
   Stepper stepper = Stepper::ida;
   /// Keep the motion between the samples too, for Trajectory::at: of each coordinate 12 numbers in a step of
-  /// `ida`, 18 of `erk`, and two to four times the run time (`dalembert-bench leave-out`).
+  /// `ida`, 18 of `erk`, and in `ida` 18 of each multiplier if a constraint is compliant; two to four times
+  /// the run time (`dalembert-bench leave-out`). `erk` then evaluates the equations in the middle of each
+  /// step too.
   bool dense = false;
   long max_steps = 10'000'000;  ///< give up after so many steps
 

@@ -120,9 +120,10 @@ double ErkStepper::sine() const { return state_->to.sine; }
 
 void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v) {
   State& s = *state_;
-  if (t == s.to.t) {
-    std::ranges::copy(s.to.q, q.begin());
-    std::copy_n(s.to.va.begin(), s.n, v.begin());
+  for (const State::Node* node : {&s.to, &s.from}) {
+    if (t != node->t) continue;
+    std::ranges::copy(node->q, q.begin());
+    std::copy_n(node->va.begin(), s.n, v.begin());
     return;
   }
   if (s.crossed) return s.read_crossing(t, q, v);

@@ -49,9 +49,8 @@ Manifold::Manifold(const System& system, const ActiveRows& rows, std::vector<dou
   q_before_.resize(system.coordinates());
   if (system.frictional()) friction_.emplace(system, rows);
   if (!system.compliant()) return;
-  for (auto* numbers : {&springs_.lambda, &springs_.rate, &springs_.second, &s_})
-    numbers->resize(system.rows(), 0.0);
-  springs_before_ = springs_;
+  s_.resize(system.rows(), 0.0);
+  springs_before_ = springs_ = Springs(system.rows());
 }
 
 void Manifold::follow(const Springs& springs) {
@@ -86,18 +85,24 @@ double Manifold::sine(const Instant& at) {
   return factorise() ? sine() : 0.0;
 }
 
-double Manifold::weakest_direction(std::span<const double> lengths, std::span<double> n) {
-  (void)weakest_.find(kkt_, rows_, e_.w);
-  double largest = 0.0, response = 0.0;
-  for (std::size_t i = 0; i < n.size(); ++i)
-    largest = std::max(largest, std::abs(weakest_.n()[i]) * lengths[i]);
-  for (std::size_t i = 0; i < n.size(); ++i) n[i] = weakest_.n()[i] / largest;
+void Manifold::weakest_directions(const Islands& islands, std::span<double> n, std::span<double> response) {
+  weakest_.find(kkt_, rows_, e_.w, islands);
+  std::vector<double> largest(islands.count);
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    double& own = largest[islands.of_coordinate[i]];
+    own = std::max(own, std::abs(weakest_.n()[i]) * lengths_[i]);
+  }
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    const double own = largest[islands.of_coordinate[i]];
+    n[i] = own > 0.0 ? weakest_.n()[i] / own : 0.0;
+  }
+  std::ranges::fill(response, 0.0);
   for (const std::size_t r : rows_.rows) {
     double change = 0.0;
     for (const std::size_t k : system_->row(r)) change += e_.w[k] * n[system_->w_columns()[k]];
-    response = std::max(response, std::abs(change) / gradient_length(*system_, e_.w, lengths_, r));
+    double& own = response[islands.of_row(*system_, r)];
+    own = std::max(own, std::abs(change) / gradient_length(*system_, e_.w, lengths_, r));
   }
-  return response;
 }
 
 bool Manifold::factorise() {

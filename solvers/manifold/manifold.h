@@ -73,10 +73,10 @@ class Manifold {
   /// and where the matrix was factored last. 0 where rows depend on each other.
   [[nodiscard]] double sine(const Instant& at);
   [[nodiscard]] double sine() const { return kkt_.sine(); }
-  /// Where the matrix was factored last, the direction of the coordinates that the constraints hold least,
-  /// with the largest entry 1 (as lengths). Returns the largest violation, as a length, of a unit
-  /// of it.
-  double weakest_direction(std::span<const double> lengths, std::span<double> n);
+  /// Where the matrix was factored last, in each island the direction of the coordinates that its constraints
+  /// hold least, with the largest entry 1 (as lengths), and the largest violation, as a length, of a unit of
+  /// it: 0, as n is, where there are no constraints.
+  void weakest_directions(const Islands& islands, std::span<double> n, std::span<double> response);
 
   /// From here on comparisons that the constraints make are heard.
   void listen() { listening_ = true; }

@@ -41,7 +41,8 @@ Recovery::Recovery(const System& system, const Start& start, double tolerance)
       a_(start.q),
       lambda_(start.lambda),
       n_(start.q.size()),
-      w_(system.w_columns().size()) {}
+      w_(system.w_columns().size()),
+      response_(islands_.count) {}
 
 /// A state moved by more than the tolerance is not better for it.
 void Recovery::find_moved_too_far(const Moment& m) {
@@ -129,10 +130,11 @@ void Recovery::mark_accelerations(Moment& m) const {
 /// Compares with a second state, see above.
 void Recovery::mark_undetermined(Manifold& manifold, Moment& m) {
   std::ranges::copy(manifold.equations().w, w_.begin());
-  const double response = manifold.weakest_direction(lengths_, n_);
-  const double off = std::max(m.position.size, scales_.rounding(m.q)) / response;
+  manifold.weakest_directions(islands_, n_, response_);
+  const double untold = std::max(m.position.size, scales_.rounding(m.q));
   for (std::size_t i = 0; i < n_.size(); ++i) {
-    q_[i] = m.q[i] + off * n_[i];
+    const double response = response_[islands_.of_coordinate[i]];
+    q_[i] = m.q[i] + (response > 0.0 ? untold / response * n_[i] : 0.0);
     v_[i] = m.v[i];
   }
   bool known = true;

@@ -33,10 +33,10 @@ struct Moment {
 /// force does not depend on a linkage beside it.
 ///
 /// Where they are close to dependent the forces of a state on the constraints, too, may be those of its
-/// round-off. What the constraints hold least is one direction n (see Manifold::weakest_direction). A second
-/// state, as far off along n as the constraints cannot tell, shows what that does: a multiplier that differs
-/// by more than the root of the tolerance, relative to the largest force, is not determined. It is
-/// NaN here, and Sample refuses to read it. So are accelerations.
+/// round-off. What the constraints of an island hold least is one direction n (see
+/// Manifold::weakest_directions). A second state, as far off along n as they cannot tell, shows what that
+/// does: a multiplier that differs by more than the root of the tolerance, relative to the largest force, is
+/// not determined. It is NaN here, and Sample refuses to read it. So are accelerations.
 ///
 /// Nor is that of a compliant constraint if it is read from positions, lambda = -g/C, and C is so small that
 /// these do not tell it.
@@ -65,7 +65,7 @@ class Recovery {
   std::vector<char> left_out_;                  // per island, whether its state stays as it is
   std::vector<double> q_given_, v_given_;       // before projection
   std::vector<double> q_, v_, a_, lambda_, n_;  // of the second state
-  std::vector<double> w_;
+  std::vector<double> w_, response_;
 };
 
 }  // namespace dalembert

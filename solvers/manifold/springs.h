@@ -2,6 +2,8 @@
 
 #include <dalembert/solvers/base/hidden.h>
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 namespace DALEMBERT_HIDDEN dalembert {
@@ -9,6 +11,10 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// The multipliers of compliant constraints, g + C lambda = 0, where they are part of a stepper's
 /// state. One number per row of the system; those of rigid rows do not count. Empty if none is compliant.
 struct Springs {
+  explicit Springs(std::size_t rows = 0) : lambda(rows), rate(rows), second(rows) {}
+
+  [[nodiscard]] std::array<std::vector<double>*, 3> parts() { return {&lambda, &rate, &second}; }
+
   std::vector<double> lambda, rate, second;  ///< lambda and its derivatives by time
   /// c: in the state a change of lambda comes with c and c^2 times as much of its derivatives.
   double c = 0.0;

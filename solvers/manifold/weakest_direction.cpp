@@ -2,12 +2,13 @@
 
 #include <dalembert/solvers/linear/rows.h>
 
+#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace dalembert {
 
-double WeakestDirection::find(SaddleMatrix& matrix, const ActiveRows& rows, std::span<const double> w) {
+void WeakestDirection::find(SaddleMatrix& matrix, const ActiveRows& rows, std::span<const double> w,
+                            const Islands& islands) {
   // Where the smallest value matters it is far below the others, and two iterations give it to a few per
   // cent.
   constexpr int iterations = 3;
@@ -17,24 +18,17 @@ double WeakestDirection::find(SaddleMatrix& matrix, const ActiveRows& rows, std:
   u_.resize(m);
   for (std::size_t k = 0; k < m; ++k)
     u_[k] = 1.0 + 0.5 * std::sin(static_cast<double>(k));  // no mode's shape
-  double square = 1.0;
+  const auto D = [&](std::size_t k) { return std::sqrt(inverse_effective_mass(*system_, w, rows.rows[k])); };
+  const auto island = [&](std::size_t k) { return islands.of_row(*system_, rows.rows[k]); };
+  std::vector<double> square(islands.count);
   for (int i = 0; i < iterations; ++i) {
-    const double length = std::sqrt(std::inner_product(u_.begin(), u_.end(), u_.begin(), 0.0));
+    std::ranges::fill(square, 0.0);
+    for (std::size_t k = 0; k < m; ++k) square[island(k)] += u_[k] * u_[k];
     std::fill_n(x_.begin(), n, 0.0);
-    for (std::size_t k = 0; k < m; ++k) {
-      u_[k] /= length;
-      x_[n + k] = u_[k] * std::sqrt(inverse_effective_mass(*system_, w, rows.rows[k]));
-    }
+    for (std::size_t k = 0; k < m; ++k) x_[n + k] = D(k) * u_[k] / std::sqrt(square[island(k)]);
     matrix.solve(x_);
-    double projection = 0.0;
-    for (std::size_t k = 0; k < m; ++k) {
-      const double y = x_[n + k] * std::sqrt(inverse_effective_mass(*system_, w, rows.rows[k]));
-      projection += y * u_[k];
-      u_[k] = y;
-    }
-    square = 1.0 / projection;
+    for (std::size_t k = 0; k < m; ++k) u_[k] = D(k) * x_[n + k];
   }
-  return std::sqrt(std::abs(square));
 }
 
 }  // namespace dalembert

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/core/analysis/islands.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/linear/saddle.h>
 
@@ -7,8 +8,8 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// The direction n of the coordinates that the constraints hold least: the right singular vector of the
-/// smallest singular value of W M^-1/2 with rows of unit length, by inverse iteration with
+/// In each island the direction n of the coordinates that its constraints hold least: the right singular
+/// vector of the smallest singular value of W M^-1/2 with rows of unit length, by inverse iteration with
 ///
 ///   [ M  -W^T ] [ x ]   [  0  ]
 ///   [ W   0   ] [ y ] = [ D u ],     D^2 the diagonal of W M^-1 W^T,     u <- D y,  n ~ x.
@@ -16,8 +17,8 @@ class WeakestDirection {
  public:
   explicit WeakestDirection(const System& system) : system_(&system) {}
 
-  /// With the factors that `matrix` has at W; returns the singular value.
-  double find(SaddleMatrix& matrix, const ActiveRows& rows, std::span<const double> w);
+  /// With the factors that `matrix` has at W. One iteration serves all islands: it does not mix them.
+  void find(SaddleMatrix& matrix, const ActiveRows& rows, std::span<const double> w, const Islands& islands);
   /// n, not normalised, of the last `find`.
   [[nodiscard]] std::span<const double> n() const { return std::span(x_).first(system_->coordinates()); }
 

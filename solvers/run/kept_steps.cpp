@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <sstream>
@@ -42,11 +43,11 @@ std::vector<double> lagrange(double from, double to, double t, int degree) {
   return l;
 }
 
-[[noreturn]] void refuse(double t, const std::string& why) {
+std::string at(double t) {
   std::ostringstream what;
   what.precision(10);
-  what << "at(" << t << "): " << why;
-  throw InvalidArgument(what.str());
+  what << "at(" << t << "): ";
+  return what.str();
 }
 
 }  // namespace
@@ -55,8 +56,9 @@ void KeptSteps::begin(const Start& start, double t) { legs_.push_back({start, t,
 
 void KeptSteps::add(TimeStepper& stepper, double from, long number) {
   const std::size_t n = system_->coordinates(), m = system_->compliant() ? system_->rows() : 0;
-  Step step{from, stepper.time(), number, stepper.degree(), values_.size(), 0.0};
-  Springs springs{std::vector<double>(m), std::vector<double>(m), std::vector<double>(m)};
+  Step step{from, stepper.time(), number, stepper.degree(), end_, 0.0};
+  Springs springs(m);
+  values_.resize(end_);
   for (int j = 0; j <= step.degree; ++j) {
     const double t = node(step.from, step.to, j, step.degree);
     const std::size_t first = values_.size();
@@ -64,18 +66,18 @@ void KeptSteps::add(TimeStepper& stepper, double from, long number) {
     stepper.interpolate(t, std::span(values_).subspan(first, n), std::span(values_).subspan(first + n, n));
     if (m == 0 || !stepper.springs(t, springs)) continue;
     step.c = springs.c;
-    for (const auto* numbers : {&springs.lambda, &springs.rate, &springs.second})
-      values_.insert(values_.end(), numbers->begin(), numbers->end());
+    for (const auto* part : springs.parts()) values_.insert(values_.end(), part->begin(), part->end());
   }
   steps_.push_back(step);
+  end_ = values_.size();
 }
 
 const KeptSteps::Step& KeptSteps::step_at(double t) const {
-  if (steps_.empty()) refuse(t, "the run took no step");
   if (!(t >= steps_.front().from && t <= steps_.back().to)) {
-    std::ostringstream why;
-    why << "must lie within the run, between " << steps_.front().from << " and " << steps_.back().to;
-    refuse(t, why.str());
+    std::ostringstream what;
+    what << at(t) << "must lie within the steps of the run, between " << steps_.front().from << " and "
+         << steps_.back().to;
+    throw InvalidArgument(what.str());
   }
   return *std::ranges::lower_bound(steps_, t, {}, &Step::to);
 }
@@ -83,7 +85,7 @@ const KeptSteps::Step& KeptSteps::step_at(double t) const {
 void KeptSteps::interpolate(const Step& step, double t, Moment& m, Springs& springs) const {
   std::vector<std::vector<double>*> parts{&m.q, &m.v};
   springs.c = step.c;
-  if (step.c > 0.0) parts.insert(parts.end(), {&springs.lambda, &springs.rate, &springs.second});
+  if (step.c > 0.0) std::ranges::copy(springs.parts(), std::back_inserter(parts));
   for (auto* part : parts) std::ranges::fill(*part, 0.0);
   const double* next = values_.data() + step.first;
   for (const double weight : lagrange(step.from, step.to, t, step.degree)) {
@@ -95,8 +97,7 @@ void KeptSteps::interpolate(const Step& step, double t, Moment& m, Springs& spri
 }
 
 void KeptSteps::read(std::span<const double> times, Record& out) const {
-  const std::size_t m = system_->rows();
-  Springs springs{std::vector<double>(m), std::vector<double>(m), std::vector<double>(m)};
+  Springs springs(system_->rows());
   const Leg* leg = nullptr;
   std::optional<Reader> reader;
   std::optional<Moment> now;
@@ -112,7 +113,7 @@ void KeptSteps::read(std::span<const double> times, Record& out) const {
     try {
       reader->read(*now, step.c > 0.0 ? &springs : nullptr, step.number);
     } catch (const StepFailure& failure) {
-      refuse(t, failure.what);
+      throw EquationFault(at(t) + failure.what);
     }
     out.append(now->flat());
   }

@@ -24,7 +24,8 @@ class KeptSteps final : public DenseOutput {
 
   /// From here on the steps are those of a run that begins, or begins anew, with `start` at time t.
   void begin(const Start& start, double t);
-  /// The last step, the so many-th of the run, and where it began.
+  /// The last step, the so many-th of the run, and where it began; before the first, the start. Throws
+  /// EquationFault, and nothing has changed.
   void add(TimeStepper& stepper, double from, long number);
 
   void read(std::span<const double> times, Record& out) const override;
@@ -49,6 +50,7 @@ class KeptSteps final : public DenseOutput {
   double tolerance_;
   std::vector<Leg> legs_;
   std::vector<Step> steps_;
+  std::size_t end_ = 0;         // of the values of all steps
   std::vector<double> values_;  // per step and node: q, v, and of springs lambda and its derivatives
 };
 

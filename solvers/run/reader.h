@@ -21,7 +21,6 @@ class Reader {
 
   /// Of the rows in use.
   [[nodiscard]] Manifold& manifold() { return manifold_; }
-  [[nodiscard]] const std::vector<double>& lengths() const { return lengths_; }
   /// Rows that make much larger angles at a state than those in use. They are looked for where the angle of
   /// these is much less than the best was when last looked for.
   [[nodiscard]] std::optional<ActiveRows> better_rows(const Instant& at);

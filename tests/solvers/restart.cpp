@@ -54,6 +54,15 @@ TEST(Restart, ACopyWithOtherParametersStartsFromASampleOfTheOriginal) {
   EXPECT_NEAR(-simulation.multiplier(pendulum.rod), v.squaredNorm() - 1.62 * r.y(), round_off);
 }
 
+TEST(Restart, ShowsItsSamplesToAnObserver) {
+  const Pendulum pendulum;
+  const auto run = simulate(pendulum.scene, {.t_end = 1.0});
+  std::vector<double> times;
+  (void)simulate(pendulum.scene, run.sample(50), {.t_end = 2.0, .samples = 3},
+                 [&](const Sample<2>& now) { times.push_back(now.time()); });
+  EXPECT_THAT(times, testing::ElementsAre(0.5, 1.25, 2.0));
+}
+
 TEST(Restart, RefusesASampleOfSomethingElseAndAnotherTime) {
   const Pendulum pendulum, other;
   const auto run = simulate(other.scene, {.t_end = 1.0});
