@@ -100,6 +100,7 @@ void Stepping::step(double wanted) {
 }
 
 void Stepping::read(double t, Moment& m) {
+  keep_step();  // if it could not be kept before
   m.t = t;
   stepper_->interpolate(t, m.q, m.v);
   reader_->read(m, springs_at(t), steps_);

@@ -148,19 +148,30 @@ void Recovery::mark_undetermined(Manifold& manifold, Moment& m) {
     return leave_forces_out(m);
   }
   mark_accelerations(m);
-  double largest = 0.0;
+  while (mark_multipliers(m)) {
+  }
+}
+
+/// Those that differ by as much as a force may not, relative to the largest that is determined: of a linkage in
+/// line forces without bound excuse nothing. Whether there are any.
+bool Recovery::mark_multipliers(Moment& m) const {
   const auto force = [&](std::size_t r, double lambda) {
     return std::abs(lambda) * gradient_length(*system_, w_, lengths_, r);
   };
+  double largest = 0.0;
   for (std::size_t r = 0; r < lambda_.size(); ++r) largest = std::max(largest, force(r, m.lambda[r]));
+  bool any = false;
   for (const Layout::Constraint& c : system_->layout()->constraints) {
     for (int k = 0; k < c.rows; ++k) {
       const auto r = static_cast<std::size_t>(c.first_row + k);
-      if (force(r, lambda_[r] - m.lambda[r]) <= std::sqrt(tolerance_) * largest) continue;
+      if (std::isnan(m.lambda[r]) || force(r, lambda_[r] - m.lambda[r]) <= std::sqrt(tolerance_) * largest)
+        continue;
       m.lambda[r] = undetermined;
       std::fill_n(m.forces.begin() + c.first_slot, c.width, undetermined);
+      any = true;
     }
   }
+  return any;
 }
 
 /// The force of a spring of stiffness 1/C is off by dx/C where positions are off by dx. That is a rounding of

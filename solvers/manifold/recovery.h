@@ -35,7 +35,7 @@ struct Moment {
 /// Where they are close to dependent the forces of a state on the constraints, too, may be those of its
 /// round-off. What the constraints of an island hold least is one direction n (see
 /// Manifold::weakest_directions). A second state, as far off along n as they cannot tell, shows what that
-/// does: a multiplier that differs by more than the root of the tolerance, relative to the largest force, is
+/// does: a multiplier that differs by more than the root of the tolerance, relative to the largest determined, is
 /// not determined. It is NaN here, and Sample refuses to read it. So are accelerations.
 ///
 /// Nor is that of a compliant constraint if it is read from positions, lambda = -g/C, and C is so small that
@@ -52,6 +52,7 @@ class Recovery {
   void find_moved_too_far(const Moment& m);
   void require_agreement(const Moment& m) const;
   void mark_undetermined(Manifold& manifold, Moment& m);
+  [[nodiscard]] bool mark_multipliers(Moment& m) const;
   void mark_accelerations(Moment& m) const;
   void mark_springs(const Manifold& manifold, Moment& m, long steps) const;
   void require_finite(const Moment& m) const;
