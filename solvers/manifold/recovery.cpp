@@ -152,8 +152,8 @@ void Recovery::mark_undetermined(Manifold& manifold, Moment& m) {
   }
 }
 
-/// Those that differ by as much as a force may not, relative to the largest that is determined: of a linkage in
-/// line forces without bound excuse nothing. Whether there are any.
+/// Those that differ by as much as a force may not, relative to the largest that is determined: of a linkage
+/// in line forces without bound excuse nothing. Whether there are any.
 bool Recovery::mark_multipliers(Moment& m) const {
   const auto force = [&](std::size_t r, double lambda) {
     return std::abs(lambda) * gradient_length(*system_, w_, lengths_, r);

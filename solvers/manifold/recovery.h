@@ -35,8 +35,8 @@ struct Moment {
 /// Where they are close to dependent the forces of a state on the constraints, too, may be those of its
 /// round-off. What the constraints of an island hold least is one direction n (see
 /// Manifold::weakest_directions). A second state, as far off along n as they cannot tell, shows what that
-/// does: a multiplier that differs by more than the root of the tolerance, relative to the largest determined, is
-/// not determined. It is NaN here, and Sample refuses to read it. So are accelerations.
+/// does: a multiplier that differs by more than the root of the tolerance, relative to the largest
+/// determined, is not determined. It is NaN here, and Sample refuses to read it. So are accelerations.
 ///
 /// Nor is that of a compliant constraint if it is read from positions, lambda = -g/C, and C is so small that
 /// these do not tell it.
