@@ -1,0 +1,364 @@
+#include "dalembert/solvers/equilibrium/balance.h"
+
+#include <dalembert/core/errors.h>
+#include <dalembert/solvers/equilibrium/equilibrium.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+namespace dalembert {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr int most_corrections = 60, most_halvings = 6, most_slides = 2000;
+
+void require_finite(double time, const Turning<3>& turning, int dimension) {
+  if (!std::isfinite(time)) throw InvalidArgument("Option time of an equilibrium must be finite");
+  if (!turning.rate.allFinite() || !turning.centre.allFinite())
+    throw InvalidArgument("Option turning of an equilibrium: rate and centre must be finite");
+  if (dimension == 2 && turning.rate.head<2>().norm() > 0.0)
+    throw InvalidArgument("Option turning of an equilibrium: a plane turns about its normal only");
+}
+
+void require_frictionless(const System& system) {
+  if (!system.frictional()) return;
+  throw NoEquilibrium(system.force_of_friction(0) +
+                      " reads a multiplier: at rest friction takes any value up to its limit, and equilibria "
+                      "fill a region; leave it out to find the one without friction, or let a run come to "
+                      "rest");
+}
+
+double largest(std::span<const double> x) {
+  double m = 0.0;
+  for (const double y : x) m = std::max(m, std::abs(y));
+  return m;
+}
+
+}  // namespace
+
+Balance::Balance(const System& system, std::span<const double> guess, double time, const Turning<3>& turning)
+    : system_(&system), time_(time), carrier_(*system.layout(), turning) {
+  require_finite(time, turning, system.layout()->dimension);
+  require_frictionless(system);
+  std::vector<double> v(guess.size());
+  carrier_.velocity(guess, v);
+  // A duration only for scenes without a length; a turn, where there is one.
+  const double duration = carrier_.turns() ? 1.0 / carrier_.rate() : 1.0;
+  Start start =
+      consistent_start(system, guess, v, {.t_end = time + duration, .t_start = time, .assemble = true});
+  q0_ = std::move(start.q);
+  lambda0_ = std::move(start.lambda);
+  rows_ = std::move(start.rows);
+  scales_ = std::move(start.scales);
+  measure_stiffness();
+}
+
+Balance::State Balance::start() const {
+  State s{q0_, std::vector<double>(q0_.size()), lambda0_};
+  evaluate(s);
+  return s;
+}
+
+/// Gives each coordinate of a particle the largest force on any of them.
+void Balance::share_by_particle(std::span<double> forces) const {
+  const Layout& layout = *system_->layout();
+  for (const auto& particle : layout.particles) {
+    const auto own = forces.subspan(static_cast<std::size_t>(particle.coordinate),
+                                    static_cast<std::size_t>(layout.dimension));
+    std::ranges::fill(own, *std::ranges::max_element(own));
+  }
+}
+
+/// A particle is in balance if what is left is little against what acts on itself: a stiff spring elsewhere
+/// holds nothing up.
+void Balance::evaluate(State& s) const {
+  carrier_.velocity(s.q, s.v);
+  auto e = system_->evaluation();
+  system_->evaluate({time_, s.q, s.v}, e);
+  std::vector<double> inertia(s.q.size()), acting(s.q.size());
+  carrier_.apply(s.v, inertia);
+  s.force = std::move(e.force);
+  for (std::size_t i = 0; i < s.q.size(); ++i) {
+    inertia[i] *= system_->masses()[i];
+    acting[i] = std::max({acting[i], std::abs(s.force[i]), std::abs(inertia[i])});
+    s.force[i] -= inertia[i];
+  }
+  for (std::size_t r = 0; r < system_->rows(); ++r) {
+    for (const std::size_t k : system_->row(r)) {
+      const double Z = s.lambda[r] * e.w[k];
+      double& here = acting[system_->w_columns()[k]];
+      here = std::max(here, std::abs(Z));
+      s.force[system_->w_columns()[k]] += Z;
+    }
+  }
+  share_by_particle(acting);
+  s.scale = largest(acting);
+  for (std::size_t i = 0; i < least_force_.size(); ++i) acting[i] = std::max(acting[i], least_force_[i]);
+  s.acting = std::move(acting);
+  s.distance = std::move(e.g);
+  s.off = 0.0;
+  const auto lengths = scales_.lengths();
+  for (std::size_t r = 0; r < s.distance.size(); ++r) {
+    s.distance[r] += system_->compliance()[r] * s.lambda[r];
+    s.off = std::max(s.off,
+                     std::abs(s.distance[r]) / gradient_length(*system_, e.w, lengths, r) / scales_.length);
+  }
+  s.size = size(s, s.acting);
+}
+
+double Balance::size(const State& s, std::span<const double> acting) {
+  double unbalanced = 0.0;
+  for (std::size_t i = 0; i < s.force.size(); ++i)
+    if (s.force[i] != 0.0) unbalanced = std::max(unbalanced, std::abs(s.force[i]) / acting[i]);
+  return std::max(unbalanced, s.off);
+}
+
+ActiveRows Balance::rows_at(const State& s) const {
+  if (rows_.size() == system_->rows()) return rows_;
+  auto e = system_->evaluation();
+  system_->evaluate({time_, s.q, s.v}, e);
+  return independent_rows(*system_, e.w);
+}
+
+/// Of the stiffness at the guess: what K + s M needs so that free motions, along which K is 0, do not make it
+/// singular (Newton's iteration then converges by this part of K a step), and for each coordinate the force
+/// that is none, as a displacement of round-off makes it.
+void Balance::measure_stiffness() {
+  std::vector<double> v(q0_.size());
+  carrier_.velocity(q0_, v);
+  const LinearTerms terms = linear_terms(*system_, carrier_, {time_, q0_, v}, lambda0_);
+  double highest = 0.0;
+  least_force_.assign(q0_.size(), 0.0);
+  for (const auto& entry : terms.stiffness) {
+    const auto row = static_cast<std::size_t>(entry.row()), column = static_cast<std::size_t>(entry.col());
+    highest = std::max(highest, std::abs(entry.value()) / system_->masses()[row]);
+    const double rounding = 10.0 * epsilon * std::max(scales_.coordinate[column], std::abs(q0_[column]));
+    least_force_[row] += std::abs(entry.value()) * rounding / balanced;
+  }
+  shift_ = constants.no_stiffness * (highest > 0.0 ? highest : 1.0 / (scales_.time * scales_.time));
+  share_along_rows(terms.w);
+}
+
+/// What is held by constraints alone feels in them what is none elsewhere: the torque of a wheel that nothing
+/// turns is the round-off of the force that its contact takes up.
+void Balance::share_along_rows(std::span<const double> w) {
+  const auto lengths = scales_.lengths();
+  const auto share = [&](std::size_t r) {
+    const double gradient = gradient_length(*system_, w, lengths, r);
+    double multiplier = 0.0;
+    if (gradient == 0.0) return false;
+    for (const std::size_t k : system_->row(r)) {  // of each force the part along the row
+      const std::size_t i = system_->w_columns()[k];
+      const double along = std::abs(w[k]) / lengths[i] / gradient;
+      multiplier = std::max(multiplier, along * least_force_[i] / lengths[i] / gradient);
+    }
+    bool grew = false;
+    for (const std::size_t k : system_->row(r)) {
+      double& here = least_force_[system_->w_columns()[k]];
+      grew = grew || std::abs(w[k]) * multiplier > here * (1.0 + epsilon);
+      here = std::max(here, std::abs(w[k]) * multiplier);
+    }
+    return grew;
+  };
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (std::size_t r = 0; r < system_->rows(); ++r) grows |= share(r);
+    for (std::size_t r = system_->rows(); r-- > 0;) grows |= share(r);
+  }
+}
+
+/// A step (dq, dlambda) of (K + s M) dq - W^T dlambda = R1, W dq + C dlambda = -R2.
+bool Balance::step(const State& s, double shift, std::vector<double>& x) const {
+  const ActiveRows rows = rows_at(s);
+  const LinearTerms terms = linear_terms(*system_, carrier_, {time_, s.q, s.v}, s.lambda);
+  TangentMatrix matrix(*system_, rows, terms, shift);
+  if (!matrix.regular()) return false;
+  const std::size_t n = s.q.size();
+  std::vector<double> y(n + rows.size());
+  std::ranges::copy(s.force, y.begin());
+  for (std::size_t a = 0; a < rows.holonomic; ++a) y[n + a] = -s.distance[rows.rows[a]];
+  matrix.solve(y);
+  x.assign(n + system_->rows(), 0.0);
+  std::copy_n(y.begin(), n, x.begin());
+  for (std::size_t a = 0; a < rows.size(); ++a) x[n + rows.rows[a]] = y[n + a];
+  return std::ranges::all_of(x, [](double value) { return std::isfinite(value); });
+}
+
+/// Along a step as far as the residual falls enough, measured by what acts where the step begins: where one
+/// force alone acts on a particle it is all of what acts anywhere.
+bool Balance::improve(State& s, const std::vector<double>& x) const {
+  const std::size_t n = s.q.size();
+  double fraction = 1.0;
+  for (int halving = 0; halving <= most_halvings; ++halving, fraction *= 0.5) {
+    State next = s;
+    for (std::size_t i = 0; i < n; ++i) next.q[i] += fraction * x[i];
+    for (std::size_t r = 0; r < next.lambda.size(); ++r) next.lambda[r] += fraction * x[n + r];
+    try {
+      evaluate(next);
+    } catch (const EquationFault&) {
+      continue;
+    }
+    if (!(size(next, s.acting) < (1.0 - constants.sufficient_decrease * fraction) * s.size)) continue;
+    s = std::move(next);
+    return true;
+  }
+  return false;
+}
+
+bool Balance::solve(State& s) const {
+  std::vector<double> x;
+  for (int i = 0; i < most_corrections && s.size > 0.0; ++i) {
+    if (!step(s, shift_, x) || !improve(s, x)) break;
+  }
+  return s.size <= balanced;
+}
+
+/// Puts positions onto all constraints, with the multipliers of the motion that begins there.
+bool Balance::land(State& s) const {
+  Manifold manifold(*system_, rows_at(s), scales_.lengths());
+  const double close = 1e-12 * scales_.length + scales_.rounding(s.q);
+  if (manifold.project_positions(time_, s.q, s.v, close).size > 1e-8 * scales_.length + close) return false;
+  carrier_.velocity(s.q, s.v);
+  std::vector<double> v(s.v), a(s.q.size());
+  if (!manifold.solve_motion(time_, s.q, v, a, s.lambda)) return false;
+  evaluate(s);
+  return true;
+}
+
+void Balance::slide(State& s) const {
+  const double longest = constants.longest_slide * scales_.length;
+  double shift = 1e6 * shift_;
+  std::vector<double> x;
+  for (int i = 0; i < most_slides; ++i, shift *= 4.0) {
+    if (!step(s, shift, x)) continue;
+    double power = 0.0, length = 0.0;
+    for (std::size_t k = 0; k < s.q.size(); ++k) {
+      power += s.force[k] * x[k];
+      length = std::max(length, std::abs(x[k]) * scales_.length / scales_.coordinate[k]);
+    }
+    if (!(power > 0.0) || length > longest) continue;
+    State next = s;
+    for (std::size_t k = 0; k < s.q.size(); ++k) next.q[k] += x[k];
+    try {
+      if (!land(next)) continue;
+    } catch (const EquationFault&) {
+      continue;
+    }
+    s = std::move(next);
+    State settled = s;
+    if (solve(settled)) {
+      s = std::move(settled);
+      return;
+    }
+    shift = std::max(shift / 32.0, shift_);
+  }
+  refuse(s, "no equilibrium was found from this guess");
+}
+
+void Balance::refuse(const State& s, const std::string& why) const {
+  const Layout& layout = *system_->layout();
+  std::size_t worst = 0;
+  for (std::size_t i = 0; i < s.force.size(); ++i) {
+    if (std::abs(s.force[i]) / system_->masses()[i] > std::abs(s.force[worst]) / system_->masses()[worst])
+      worst = i;
+  }
+  std::ostringstream what;
+  what << "Scene \"" << layout.scene << "\": " << why << "; ";
+  const auto name = [&](const auto& all, std::size_t width) {
+    for (const auto& one : all) {
+      const auto first = static_cast<std::size_t>(one.coordinate);
+      if (worst >= first && worst < first + width) what << '"' << one.name << '"';
+    }
+  };
+  name(layout.particles, static_cast<std::size_t>(layout.dimension));
+  name(layout.rotors, 1);
+  what << " would still be accelerated by " << std::abs(s.force[worst]) / system_->masses()[worst]
+       << " there. Start closer to an equilibrium, and hold what is free to fall or to run away";
+  throw NoEquilibrium(what.str());
+}
+
+/// Whether other multipliers hold a state where it is: a bearing that does not turn with what it carries
+/// takes up the load with one row, then with another.
+bool Balance::held_otherwise(State& s) const {
+  const std::vector<double> q = s.q;
+  if (!land(s) || s.size > 1e-8) return false;
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    if (std::abs(s.q[i] - q[i]) > 1e-8 * scales_.coordinate[i]) return false;
+  }
+  return true;
+}
+
+/// A scene that stays does so later too; one that is only for an instant as if at rest does not. The instants
+/// are no part of a period of anything likely.
+void Balance::require_lasting(const State& s) const {
+  const double t = carrier_.turns() ? 1.0 / carrier_.rate() : scales_.time;
+  const auto lengths = scales_.lengths();
+  const double speed = carrier_.turns() ? carrier_.rate() * scales_.length : scales_.speed();
+  for (const double later : {0.0, 0.7390851332151607 * t, 2.6180339887498949 * t}) {
+    State at = s;
+    if (carrier_.turns()) carrier_.turn_positions(carrier_.rate() * later, at.q);
+    carrier_.velocity(at.q, at.v);
+    auto e = system_->evaluation();
+    system_->evaluate({time_ + later, at.q, at.v}, e);
+    const Violation moving = velocity_violation(*system_, e, lengths);
+    if (moving.size > 1e-8 * speed + scales_.rounding(s.q) / t) {
+      std::ostringstream what;
+      what << system_->row_label(moving.row) << " moves by " << moving.size << " at t = " << time_ + later
+           << (carrier_.turns() ? " against what turns with the scene" : ", where the scene is to rest")
+           << "; give the turning of its drive as an option, or a scene whose constraints do not move";
+      throw NoEquilibrium(what.str());
+    }
+    Balance then = *this;
+    then.time_ += later;
+    then.evaluate(at);
+    if (at.size > 1e-8 && !then.held_otherwise(at))
+      then.refuse(at, carrier_.turns()
+                          ? "the forces or constraints do not turn with the scene"
+                          : "the forces or constraints change with time, and so does the balance");
+  }
+}
+
+std::shared_ptr<const Record> Balance::record(const State& found) const {
+  State s = found;
+  auto e = system_->evaluation();
+  system_->evaluate({time_, s.q, s.v}, e);
+  const ActiveRows rows = rows_at(s);
+  std::vector<char> unique;
+  if (rows.size() < system_->rows()) {
+    Manifold manifold(*system_, rows, scales_.lengths());
+    std::vector<double> v(s.v), v_rate(s.q.size());
+    if (!manifold.solve_motion(time_, s.q, v, v_rate, s.lambda)) refuse(s, "the constraints are singular");
+    unique.assign(manifold.unique().begin(), manifold.unique().end());
+  }
+  std::vector<double> a(s.q.size()), forces(system_->layout()->slot_coordinate.size());
+  carrier_.apply(s.v, a);
+  system_->constraint_forces(e.w, s.lambda, forces);
+  const double energy = system_->kinetic_energy(s.v) + system_->potential_energy({time_, s.q, s.v}) +
+                        system_->elastic_energy(s.lambda);
+  auto record = std::make_shared<Record>();
+  record->layout = system_->layout();
+  record->append({time_, s.q, s.v, a, s.lambda, forces, energy, unique});
+  return record;
+}
+
+std::shared_ptr<const Record> find_equilibrium(const System& system, std::span<const double> guess,
+                                               double time, const Turning<3>& turning) {
+  try {
+    const Balance balance(system, guess, time, turning);
+    const Balance::State start = balance.start();
+    Balance::State s = start;
+    if (!balance.solve(s)) {
+      s = start;
+      balance.slide(s);
+    }
+    balance.require_lasting(s);
+    return balance.record(s);
+  } catch (const EquationFault& fault) {
+    throw NoEquilibrium(fault.what());
+  }
+}
+
+}  // namespace dalembert

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <dalembert/core/results/trajectory.h>
+#include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/equilibrium/linear_terms.h>
+#include <dalembert/solvers/manifold/manifold.h>
+#include <dalembert/solvers/manifold/start.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// A state whose residual no longer falls is one of balance if it is as small as this, see Balance::State.
+inline constexpr double balanced = 1e-10;
+
+/// The search for a state (q, lambda) in which all forces balance, see `equilibrium`:
+///
+///   R1 = F + W^T lambda - M A v,   R2 = g + C lambda,   v = A (q - p).                              (1)
+class Balance {
+ public:
+  struct State {
+    std::vector<double> q{}, v{}, lambda{};
+    double scale = 0.0;                       ///< of forces: the largest that balance here
+    std::vector<double> acting{};             ///< the largest on the particle of each coordinate
+    std::vector<double> force{}, distance{};  ///< R1, and R2 of all holonomic rows
+    /// The largest of R1 over what acts on its own particle, and of R2 over the scene's length.
+    double size = 0.0;
+    double off = 0.0;  ///< R2's part of it
+  };
+
+  /// Puts the guess onto the constraints. Throws InconsistentStart, NoEquilibrium.
+  Balance(const System& system, std::span<const double> guess, double time, const Turning<3>& turning);
+
+  /// v, R1, R2 and size of a state's q and lambda. Throws EquationFault.
+  void evaluate(State& s) const;
+  /// Independent rows there.
+  [[nodiscard]] ActiveRows rows_at(const State& s) const;
+  /// The guess, with the multipliers of the motion that begins there.
+  [[nodiscard]] State start() const;
+  /// Newton's iteration from a state; false if it does not converge.
+  [[nodiscard]] bool solve(State& s) const;
+  /// Moves a state downhill until Newton's iteration converges from there. Throws NoEquilibrium.
+  void slide(State& s) const;
+  /// Puts positions onto all constraints, with the multipliers of the motion that begins there; false if that
+  /// fails.
+  [[nodiscard]] bool land(State& s) const;
+  /// The same, and solves from there.
+  [[nodiscard]] bool settle(State& s) const { return land(s) && solve(s); }
+  /// That the state lasts. Throws NoEquilibrium.
+  void require_lasting(const State& s) const;
+  /// The state with its forces, the multipliers of dependent rows as small as they can be.
+  [[nodiscard]] std::shared_ptr<const Record> record(const State& s) const;
+
+  [[nodiscard]] const Carrier& carrier() const { return carrier_; }
+  [[nodiscard]] const Scales& scales() const { return scales_; }
+  [[nodiscard]] const System& system() const { return *system_; }
+  [[nodiscard]] double time() const { return time_; }
+  /// More than the largest K/M at the guess, so that K + s M is regular [1 / time^2].
+  [[nodiscard]] double high_stiffness() const { return 10.0 * shift_ / constants.no_stiffness; }
+
+ private:
+  /// The residual of a state by what acts in another.
+  [[nodiscard]] static double size(const State& s, std::span<const double> acting);
+  [[nodiscard]] bool step(const State& s, double shift, std::vector<double>& x) const;
+  [[nodiscard]] bool improve(State& s, const std::vector<double>& x) const;
+  [[nodiscard]] bool held_otherwise(State& s) const;
+  void measure_stiffness();
+  void share_by_particle(std::span<double> forces) const;
+  void share_along_rows(std::span<const double> w);
+  [[noreturn]] void refuse(const State& s, const std::string& why) const;
+
+  const System* system_;
+  double time_;
+  Carrier carrier_;
+  std::vector<double> q0_, lambda0_;
+  ActiveRows rows_;
+  Scales scales_;
+  double shift_ = 0.0;  // see measure_stiffness
+  /// Of the forces on each coordinate, so that a displacement of round-off unbalances nothing.
+  std::vector<double> least_force_;
+};
+
+}  // namespace dalembert

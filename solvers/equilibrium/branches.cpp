@@ -1,0 +1,211 @@
+#include "dalembert/solvers/equilibrium/branches.h"
+
+#include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/base/root.h>
+#include <dalembert/solvers/equilibrium/continuation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace dalembert {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// Of the way between two points, to which bifurcations are found.
+constexpr double exact = 1e-14;
+constexpr std::size_t most_points = 5000, most_branches = 50;
+
+void validate(const BranchOptions& o) {
+  std::ostringstream what;
+  if (!std::isfinite(o.from) || !std::isfinite(o.to) || o.from == o.to)
+    what << "Options from = " << o.from << ", to = " << o.to << ": must be finite and different";
+  if (!(o.step >= 1e-4 && o.step <= 0.5))
+    what << "Option step = " << o.step << ": must lie between 1e-4 and 0.5";
+  if (!what.str().empty()) throw InvalidArgument(what.str());
+}
+
+class Follower {
+ public:
+  Follower(std::function<PosedSystem(double)> pose, const BranchOptions& options)
+      : corrector_(std::move(pose), options), step_(options.step) {}
+
+  FlatDiagram follow() {
+    const auto along = corrector_.tangent(corrector_.begin());
+    if (!along)
+      throw InvalidScene(
+          "The branch of equilibria turns back where it is to begin, at option from; begin at "
+          "another value, or go from `to` to `from`");
+    starts_.push_back({corrector_.begin(), *along, no_bifurcation});
+    for (std::size_t b = 0; b < starts_.size() && b < most_branches; ++b) follow_branch(starts_[b]);
+    return std::move(found_);
+  }
+
+ private:
+  /// Where a branch begins, and in what direction it goes.
+  struct Start {
+    Node node;
+    VectorXd along;
+    std::size_t origin;
+  };
+
+  [[nodiscard]] BranchPoint<FlatEquilibrium> point(const Node& node) const {
+    const double softest = node.stiffness.size() > 0 ? node.stiffness[0] : INFINITY;
+    return {corrector_.parameter(node), node.state, softest};
+  }
+  static double& progress(Node& node) { return node.x[node.x.size() - 1]; }
+
+  void follow_branch(const Start start) {
+    Branch<FlatEquilibrium> branch{{point(start.node)}, start.origin, BranchEnd::lost};
+    Node last = start.node;
+    VectorXd along = start.along;
+    double step = step_;
+    bool away = false;  // from where it began
+    while (step > constants.shortest_branch_step * step_) {
+      Node guess = last;
+      guess.x += step * along;
+      const double end = progress(guess), way = end - progress(last);
+      const bool at_end = (end >= 1.0 && way > 0.0) || (end <= 0.0 && way < 0.0);
+      VectorXd normal = along;
+      if (at_end) {  // the last point is in the plane of the end
+        normal.setZero();
+        normal[normal.size() - 1] = 1.0;
+        guess.x = last.x + (std::clamp(end, 0.0, 1.0) - progress(last)) / way * step * along;
+        progress(guess) = std::clamp(end, 0.0, 1.0);
+      }
+      const auto next = corrector_.correct(guess, normal);
+      if (!next || (next->x - last.x).norm() > 2.0 * step) {
+        step *= 0.5;
+        continue;
+      }
+      if (next->softer() != last.softer()) meet(last, *next);
+      branch.points.push_back(point(*next));
+      if (next->x != last.x) along = (next->x - last.x).normalized();
+      const double distance = (next->x - start.node.x).norm();
+      away = away || distance > step_;
+      if (at_end) branch.end = BranchEnd::range;
+      if (away && distance < 0.5 * step_ && along.dot(start.along) > 0.0) branch.end = BranchEnd::closed;
+      if (branch.points.size() == most_points) branch.end = BranchEnd::most_points;
+      if (branch.end != BranchEnd::lost) break;
+      last = *next;
+      step = std::min(2.0 * step, step_);
+    }
+    found_.branches.push_back(std::move(branch));
+  }
+
+  /// The point between two at which the eigenvalue that changes its sign is 0.
+  [[nodiscard]] std::optional<Node> crossing(const Node& a, const Node& b, Index shape) const {
+    const VectorXd chord = b.x - a.x, normal = chord.normalized();
+    std::optional<Node> found;
+    const auto eigenvalue = [&](double way) {
+      Node guess = a;
+      guess.x += way * chord;
+      const auto next = corrector_.correct(guess, normal);
+      if (!next) return 0.0;  // that ends the search with what there is
+      found = next;
+      return next->stiffness[shape];
+    };
+    (void)root(eigenvalue, 0.0, a.stiffness[shape], 1.0, b.stiffness[shape], exact);
+    return found;
+  }
+
+  /// Finds what lies between two points of a branch, and the branches that begin there. Eigenvalues that
+  /// vanish at one point make one bifurcation.
+  void meet(const Node& a, const Node& b) {
+    const Index first = std::min(a.softer(), b.softer()), last = std::max(a.softer(), b.softer());
+    for (Index shape = first; shape < last;) {
+      const auto found = crossing(a, b, shape);
+      Index count = 1;
+      for (; found && shape + count < last; ++count) {
+        const auto other = crossing(a, b, shape + count);
+        if (!other || !same_place(other->x, found->x)) break;
+      }
+      if (found) meet(*found, shape, count);
+      shape += count;
+    }
+  }
+  void meet(const Node& found, Index first, Index count) {
+    if (corrector_.push(found, first) > constants.free_of_push) {
+      found_.folds.push_back(point(found));
+      return;
+    }
+    if (std::ranges::any_of(meetings_, [&](const VectorXd& x) { return same_place(x, found.x); })) return;
+    meetings_.push_back(found.x);
+    found_.bifurcations.push_back(point(found));
+    for (const VectorXd& direction : directions(found, first, count)) leave(found, direction);
+  }
+  [[nodiscard]] bool same_place(const VectorXd& a, const VectorXd& b) const {
+    return (a - b).norm() < constants.shortest_branch_step * step_;
+  }
+
+  /// Of one shape both, of two the eight winds, of more each and its opposite.
+  static std::vector<VectorXd> directions(const Node& at, Index first, Index count) {
+    std::vector<VectorXd> all;
+    const auto add = [&](const VectorXd& shape) {
+      for (const double sign : {1.0, -1.0}) {
+        VectorXd d = VectorXd::Zero(at.x.size());
+        d.head(shape.size()) = sign * shape.normalized();
+        all.push_back(d);
+      }
+    };
+    for (Index k = first; k < first + count; ++k) add(at.shapes.col(k));
+    if (count == 2) {
+      add(at.shapes.col(first) + at.shapes.col(first + 1));
+      add(at.shapes.col(first) - at.shapes.col(first + 1));
+    }
+    return all;
+  }
+
+  void leave(const Node& from, const VectorXd& direction) {
+    std::optional<Node> next;
+    for (double step = step_; !next && step > constants.shortest_branch_step * step_; step *= 0.5) {
+      Node guess = from;
+      guess.x += step * direction;
+      next = corrector_.correct(guess, direction);
+      if (next && (next->x - from.x).norm() > 3.0 * step) next.reset();
+    }
+    if (!next) return;
+    const VectorXd along = (next->x - from.x).normalized();
+    const std::size_t origin = found_.bifurcations.size() - 1;
+    const bool again = std::ranges::any_of(
+        starts_, [&](const Start& s) { return s.origin == origin && s.along.dot(along) > constants.alike; });
+    if (again || progress_of(*next) < 0.0 || progress_of(*next) > 1.0) return;
+    starts_.push_back({*next, along, origin});
+  }
+  [[nodiscard]] static double progress_of(const Node& node) { return node.x[node.x.size() - 1]; }
+
+  Corrector corrector_;
+  double step_;
+  std::vector<Start> starts_;
+  std::vector<VectorXd> meetings_;
+  FlatDiagram found_;
+};
+
+}  // namespace
+
+namespace detail {
+
+std::shared_ptr<const Layout> read_by(const Layout& handles, const Layout& own) {
+  auto layout = std::make_shared<Layout>(own);
+  const auto identify = [](auto& to, const auto& from) {
+    for (std::size_t k = 0; k < std::min(to.size(), from.size()); ++k) to[k].scene = from[k].scene;
+  };
+  layout->id = handles.id;
+  identify(layout->particles, handles.particles);
+  identify(layout->rotors, handles.rotors);
+  identify(layout->constraints, handles.constraints);
+  identify(layout->forces, handles.forces);
+  return layout;
+}
+
+}  // namespace detail
+
+FlatDiagram find_branches(const std::function<PosedSystem(double)>& pose, const BranchOptions& options) {
+  validate(options);
+  return Follower(pose, options).follow();
+}
+
+}  // namespace dalembert

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <dalembert/solvers/equilibrium/equilibrium.h>
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace dalembert {
+
+/// A scene at one value of a parameter, and how it turns there.
+template <int D>
+struct Posed {
+  Scene<D> scene;
+  EquilibriumOptions<D> options{};
+};
+
+/// Over which values of the parameter equilibria are followed.
+struct BranchOptions {
+  double from = 0.0, to = 0.0;  ///< finite and different
+  /// Length of a step, of the lengths of scene and range: finer steps miss less. Between 1e-4 and 0.5.
+  double step = 0.02;
+};
+
+/// An equilibrium at one value of the parameter; State is an Equilibrium<D>.
+template <class State>
+struct BranchPoint {
+  double parameter;
+  State state;
+  /// The lowest eigenvalue of the stiffness K on the tangent space, over the masses (see normal_modes), free
+  /// motions at a state of rest among them: below 0 the scene gives way [1 / time^2].
+  double softest;
+};
+
+inline constexpr std::size_t no_bifurcation = std::numeric_limits<std::size_t>::max();
+
+/// Why a branch ends.
+enum class BranchEnd {
+  range,       ///< the parameter would leave its range
+  closed,      ///< it has come back to where it began
+  lost,        ///< no further point was found: less is known than was asked for
+  most_points  ///< 5,000 were: `step` is too short for its length
+};
+
+/// Equilibria that hang together; the first branch begins at the scene's own equilibrium at `from`.
+template <class State>
+struct Branch {
+  std::vector<BranchPoint<State>> points;
+  std::size_t origin = no_bifurcation;  ///< the bifurcation at which it leaves another, if it does
+  BranchEnd end = BranchEnd::lost;
+};
+
+template <class State>
+struct Diagram {
+  std::vector<Branch<State>> branches;
+  std::vector<BranchPoint<State>> bifurcations;  ///< where branches meet
+  std::vector<BranchPoint<State>> folds;         ///< where a branch turns back
+};
+
+/// For Systems, out of which `follow_branches` makes branches of Equilibrium<D>.
+struct PosedSystem {
+  std::unique_ptr<const System> system;
+  std::vector<double> guess;
+  double time;
+  Turning<3> turning;
+};
+struct FlatEquilibrium {
+  std::shared_ptr<const Record> state;
+  Turning<3> turning;
+};
+using FlatDiagram = Diagram<FlatEquilibrium>;
+[[nodiscard]] FlatDiagram find_branches(const std::function<PosedSystem(double)>& pose,
+                                        const BranchOptions& options);
+
+namespace detail {
+
+/// A point's own layout, with its own masses and forces, read by the handles of another of the same elements.
+[[nodiscard]] std::shared_ptr<const Layout> read_by(const Layout& handles, const Layout& own);
+
+/// The same points as Equilibrium<D>, read by the handles of `layout`.
+template <int D>
+[[nodiscard]] std::vector<BranchPoint<Equilibrium<D>>> read_by(
+    const Layout& handles, const std::vector<BranchPoint<FlatEquilibrium>>& flat) {
+  std::vector<BranchPoint<Equilibrium<D>>> points;
+  for (const auto& one : flat) {
+    auto record = std::make_shared<Record>(*one.state.state);
+    record->layout = read_by(handles, *record->layout);
+    points.push_back({one.parameter, {std::move(record), one.state.turning}, one.softest});
+  }
+  return points;
+}
+
+}  // namespace detail
+
+/// Follows the equilibria of a scene as a parameter changes, `build(parameter)` being the Posed<D> scene:
+/// along each branch by pseudo-arclength continuation, so that it may turn back (a fold); where an eigenvalue
+/// of the stiffness changes its sign, the place is found to round-off and the branches that leave there are
+/// followed too. (Keller, in Applications of Bifurcation Theory, 1977; Allgower, Georg, Numerical
+/// Continuation Methods, 1990.) Each branch says why it ends, see BranchEnd.
+///
+/// Every value builds a scene anew, which must differ from the others in numbers only. What is returned is
+/// read with the handles of the scene that was built last: `build` may write them to where the caller finds
+/// them.
+///
+/// Up to 600 coordinates, without nonholonomic constraints. No scene is built outside of the range. Throws
+/// InvalidArgument for options that make no sense, InvalidScene for scenes that do not suit or whose first
+/// branch turns back at `from`, and what `equilibrium` throws there.
+template <int D, class Build>
+[[nodiscard]] Diagram<Equilibrium<D>> follow_branches(const Build& build, const BranchOptions& options) {
+  const auto pose = [&build](double parameter) {
+    const Posed<D> posed = build(parameter);
+    const auto q = posed.scene.initial_positions();
+    return PosedSystem{std::make_unique<const System>(posed.scene.system()),
+                       {q.begin(), q.end()},
+                       posed.options.time,
+                       posed.options.turning};
+  };
+  const FlatDiagram found = find_branches(pose, options);
+  const auto layout = build(options.to).scene.system().layout();
+  Diagram<Equilibrium<D>> all;
+  for (const auto& branch : found.branches)
+    all.branches.push_back({detail::read_by<D>(*layout, branch.points), branch.origin, branch.end});
+  all.bifurcations = detail::read_by<D>(*layout, found.bifurcations);
+  all.folds = detail::read_by<D>(*layout, found.folds);
+  return all;
+}
+
+}  // namespace dalembert

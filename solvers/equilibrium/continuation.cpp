@@ -1,0 +1,192 @@
+#include "dalembert/solvers/equilibrium/continuation.h"
+
+#include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/equilibrium/tangent_modes.h>
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dalembert {
+
+namespace {
+using Eigen::Index;
+
+void require_suited(const System& system) {
+  if (system.coordinates() <= most_dense && system.holonomic_rows() == system.rows()) return;
+  throw InvalidScene("Branches of scene \"" + system.layout()->scene + "\": they are followed up to " +
+                     std::to_string(most_dense) + " coordinates and without nonholonomic constraints");
+}
+
+Eigen::VectorXd balance_of(const Balance::State& s, const ActiveRows& rows) {
+  Eigen::VectorXd r(static_cast<Index>(s.force.size() + rows.size()));
+  Index next = 0;
+  for (const double force : s.force) r[next++] = force;
+  for (const std::size_t row : rows.rows) r[next++] = s.distance[row];
+  return r;
+}
+
+}  // namespace
+
+Corrector::Corrector(std::function<PosedSystem(double)> pose, const BranchOptions& options)
+    : pose_(std::move(pose)), from_(options.from), range_(options.to - options.from) {
+  const PosedSystem posed = pose_(from_);
+  require_suited(*posed.system);
+  const auto found = find_equilibrium(*posed.system, posed.guess, posed.time, posed.turning);
+  const FlatSample flat = found->sample(0);
+  scale_ = Balance(*posed.system, flat.q, posed.time, posed.turning).scales().coordinate;
+  begin_.x = Eigen::VectorXd::Zero(static_cast<Index>(scale_.size()) + 1);
+  for (std::size_t i = 0; i < scale_.size(); ++i) begin_.x[static_cast<Index>(i)] = flat.q[i] / scale_[i];
+  begin_.lambda.assign(flat.lambda.begin(), flat.lambda.end());
+  const Here here = at(from_, begin_.x);
+  finish(here, state(here, begin_), begin_);
+}
+
+Corrector::Here Corrector::at(double p, const Eigen::VectorXd& x) const {
+  PosedSystem posed = pose_(p);
+  std::vector<double> q;
+  for (std::size_t i = 0; i < scale_.size(); ++i) q.push_back(x[static_cast<Index>(i)] * scale_[i]);
+  if (posed.system->coordinates() != q.size() || posed.system->rows() != begin_.lambda.size())
+    throw InvalidScene("Branches of scene \"" + posed.system->layout()->scene +
+                       "\": for another value of the parameter it has other points or constraints");
+  Balance balance(*posed.system, q, posed.time, posed.turning);
+  return {std::move(posed.system), std::move(balance), posed.turning};
+}
+
+Balance::State Corrector::state(const Here& here, const Node& node) const {
+  Balance::State s = here.balance.start();
+  for (std::size_t i = 0; i < scale_.size(); ++i) s.q[i] = node.x[static_cast<Index>(i)] * scale_[i];
+  s.lambda = node.lambda;
+  here.balance.evaluate(s);
+  return s;
+}
+
+/// Keeps what is read of a point, with the multipliers of dependent rows as small as they can be.
+void Corrector::finish(const Here& here, const Balance::State& s, Node& node) const {
+  node.state = {here.balance.record(s), here.turning};
+  const FlatSample flat = node.state.state->sample(0);
+  node.lambda.assign(flat.lambda.begin(), flat.lambda.end());
+  const LinearTerms terms =
+      linear_terms(*here.system, here.balance.carrier(), {flat.time, flat.q, flat.v}, flat.lambda);
+  auto [values, shapes] = tangent_stiffness(*here.system, terms);
+  node.stiffness = std::move(values);
+  for (Index i = 0; i < shapes.rows(); ++i) shapes.row(i) /= scale_[static_cast<std::size_t>(i)];
+  for (Index k = 0; k < shapes.cols(); ++k) shapes.col(k).normalize();
+  node.shapes = std::move(shapes);
+}
+
+Eigen::VectorXd Corrector::residual(double p, const Node& node, const ActiveRows& rows) const {
+  const Here here = at(p, node.x);
+  return balance_of(state(here, node), rows);
+}
+
+/// By central differences, to one side at the ends of the range.
+Eigen::VectorXd Corrector::slope_by_parameter(const Node& node, const ActiveRows& rows) const {
+  const double h = constants.parameter_difference;
+  const double progress = node.x[node.x.size() - 1], before = std::max(progress - h, 0.0),
+               after = std::min(progress + h, 1.0);
+  return (residual(value(after), node, rows) - residual(value(before), node, rows)) / (after - before);
+}
+
+double Corrector::push(const Node& node, Index shape) const {
+  const Here here = at(parameter(node), node.x);
+  const Balance::State s = state(here, node);
+  const Eigen::VectorXd slope = slope_by_parameter(node, here.balance.rows_at(s));
+  const Eigen::VectorXd direction = node.shapes.col(shape);
+  const auto by_parameter = slope.head(direction.size());
+  // Differences leave round-off of the forces that act where the mode moves.
+  const Eigen::Map<const Eigen::VectorXd> acting(s.acting.data(), direction.size());
+  const double least = acting.dot(direction.cwiseAbs());
+  const double size = std::max(by_parameter.norm(), least);
+  return size > 0.0 ? std::abs(by_parameter.dot(direction)) / size : 0.0;
+}
+
+/// [R_q R_lambda R_p] in the units of x, one row per coordinate and one per constraint row.
+Eigen::MatrixXd Corrector::jacobian(const Here& here, const Balance::State& s, const Node& node,
+                                    const ActiveRows& rows) const {
+  const LinearTerms terms =
+      linear_terms(*here.system, here.balance.carrier(), {here.balance.time(), s.q, s.v}, s.lambda);
+  const auto n = static_cast<Index>(s.q.size()), m = static_cast<Index>(rows.size());
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n + m, n + m + 1);
+  for (const auto& k : terms.stiffness)
+    A(k.row(), k.col()) -= k.value() * scale_[static_cast<std::size_t>(k.col())];
+  for (Index a = 0; a < m; ++a) {
+    const std::size_t r = rows.rows[static_cast<std::size_t>(a)];
+    for (const std::size_t k : here.system->row(r)) {
+      const std::size_t i = here.system->w_columns()[k];
+      A(static_cast<Index>(i), n + a) += terms.w[k];
+      A(n + a, static_cast<Index>(i)) += terms.w[k] * scale_[i];
+    }
+    A(n + a, n + a) = here.system->compliance()[r];
+  }
+  A.col(n + m) = slope_by_parameter(node, rows);
+  return A;
+}
+
+std::optional<Eigen::VectorXd> Corrector::tangent(const Node& node) const {
+  // Differences over h err by h of the slope, and by round-off of the forces over h: both with a margin of
+  // some tens. Directions in which the matrix is round-off are free motions.
+  constexpr double exact = 1e-4, rounding = 1e-8, no_stiffness = 1e-12;
+  const Here here = at(parameter(node), node.x);
+  const Balance::State s = state(here, node);
+  const Eigen::MatrixXd A = jacobian(here, s, node, here.balance.rows_at(s));
+  const Index last = A.cols() - 1;
+  const Eigen::VectorXd slope = A.col(last);
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr(A.rows(), last);
+  qr.setThreshold(no_stiffness);
+  qr.compute(A.leftCols(last));
+  const Eigen::VectorXd change = qr.solve(-slope);
+  const double off = (A.leftCols(last) * change + slope).norm();
+  if (!(off <= exact * slope.norm() + rounding * s.scale)) return std::nullopt;
+  Eigen::VectorXd along(node.x.size());
+  along << change.head(along.size() - 1), 1.0;
+  return along.normalized();
+}
+
+void Corrector::newton_step(const Here& here, const Balance::State& s, double off,
+                            const Eigen::VectorXd& normal, Node& node) const {
+  const ActiveRows rows = here.balance.rows_at(s);
+  const auto n = static_cast<Index>(s.q.size()), m = static_cast<Index>(rows.size());
+  Eigen::MatrixXd A(n + m + 1, n + m + 1);
+  A.topRows(n + m) = jacobian(here, s, node, rows);
+  A.row(n + m).setZero();
+  A.row(n + m).head(n) = normal.head(n);
+  A(n + m, n + m) = normal[n];
+  Eigen::VectorXd b(n + m + 1);
+  b << balance_of(s, rows), off;
+  const Eigen::VectorXd step = A.completeOrthogonalDecomposition().solve(-b);
+  node.x.head(n) += step.head(n);
+  node.x[n] += step[n + m];
+  for (Index a = 0; a < m; ++a) node.lambda[rows.rows[static_cast<std::size_t>(a)]] += step[n + a];
+}
+
+std::optional<Node> Corrector::correct(const Node& guess, const Eigen::VectorXd& normal) const {
+  constexpr int most_corrections = 20;
+  constexpr double rounding = std::numeric_limits<double>::epsilon();
+  Node node = guess;
+  double before = std::numeric_limits<double>::infinity();
+  try {
+    for (int i = 0; i < most_corrections; ++i) {
+      const Here here = at(parameter(node), node.x);
+      const Balance::State s = state(here, node);
+      const double off = normal.dot(node.x - guess.x), size = s.size + std::abs(off);
+      if (size <= rounding || (size <= balanced && size >= 0.5 * before)) {
+        finish(here, s, node);
+        return node;
+      }
+      before = size;
+      newton_step(here, s, off, normal, node);
+      double& progress = node.x[node.x.size() - 1];
+      if (!node.x.allFinite()) return std::nullopt;
+      progress = std::clamp(progress, 0.0, 1.0);  // one that lies beyond is then never met
+    }
+  } catch (const EquationFault&) {
+  } catch (const InconsistentStart&) {
+  } catch (const NoEquilibrium&) {
+  }
+  return std::nullopt;
+}
+
+}  // namespace dalembert

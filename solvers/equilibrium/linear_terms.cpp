@@ -1,0 +1,109 @@
+#include "dalembert/solvers/equilibrium/linear_terms.h"
+
+namespace dalembert {
+
+namespace {
+
+void append(LinearTerms::Entries& to, std::size_t row, std::size_t column, double value) {
+  to.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
+}
+
+/// -F_v A, from an entry of F_v.
+void append_carried(const Carrier& carrier, const System::Entry& place, double slope,
+                    LinearTerms::Entries& K) {
+  const std::size_t first = carrier.first(place.column);
+  if (first == Carrier::none) return;
+  for (std::size_t k = 0; k < carrier.dimension(); ++k)
+    append(K, place.row, first + k, -slope * carrier.entry(place.column - first, k));
+}
+
+/// 2 M A and M A^2.
+void append_inertia(const System& system, const Carrier& carrier, LinearTerms& terms) {
+  for (std::size_t i = 0; i < system.coordinates(); ++i) {
+    const std::size_t first = carrier.first(i);
+    if (first == Carrier::none) continue;
+    const double m = system.masses()[i];
+    for (std::size_t k = 0; k < carrier.dimension(); ++k) {
+      append(terms.damping, i, first + k, 2.0 * m * carrier.entry(i - first, k));
+      append(terms.stiffness, i, first + k, m * carrier.square_entry(i - first, k));
+    }
+  }
+}
+
+/// The first entry of a row in this column: a row that has one coordinate of a particle has all.
+std::size_t place_in_row(const System& system, std::size_t row, std::size_t column) {
+  std::size_t k = system.row(row).front();
+  while (system.w_columns()[k] != column) ++k;
+  return k;
+}
+
+/// E = psi_q + W A, with psi_q in place already.
+void add_carried(const System& system, const Carrier& carrier, LinearTerms& terms) {
+  for (std::size_t r = system.holonomic_rows(); r < system.rows(); ++r) {
+    for (const std::size_t k : system.row(r)) {
+      const std::size_t i = system.w_columns()[k], first = carrier.first(i);
+      if (first == Carrier::none) continue;
+      for (std::size_t j = 0; j < carrier.dimension(); ++j)
+        terms.e[place_in_row(system, r, first + j)] += terms.w[k] * carrier.entry(i - first, j);
+    }
+  }
+}
+
+}  // namespace
+
+LinearTerms linear_terms(const System& system, const Carrier& carrier, const Instant& at,
+                         std::span<const double> lambda) {
+  auto e = system.evaluation();
+  system.evaluate(at, e);
+  auto slopes = system.linearisation();
+  system.linearise(at, lambda, slopes);
+  LinearTerms terms{{}, {}, std::move(e.w), std::move(slopes.psi_q)};
+  for (std::size_t k = 0; k < slopes.stiffness.size(); ++k) {
+    const auto [row, column] = system.stiffness_pattern()[k];
+    append(terms.stiffness, row, column, -slopes.stiffness[k]);
+  }
+  for (std::size_t k = 0; k < slopes.damping.size(); ++k) {
+    const System::Entry place = system.damping_pattern()[k];
+    append(terms.damping, place.row, place.column, -slopes.damping[k]);
+    if (carrier.turns()) append_carried(carrier, place, slopes.damping[k], terms.stiffness);
+  }
+  if (!carrier.turns()) return terms;
+  append_inertia(system, carrier, terms);
+  add_carried(system, carrier, terms);
+  return terms;
+}
+
+std::vector<SparseLU::Entry> TangentMatrix::pattern(const System& system, const ActiveRows& rows,
+                                                    const LinearTerms& terms) {
+  const std::size_t n = system.coordinates();
+  std::vector<SparseLU::Entry> entries;
+  for (std::size_t i = 0; i < n; ++i) entries.push_back({i, i});
+  for (std::size_t a = 0; a < rows.size(); ++a) {
+    for (const std::size_t k : system.row(rows.rows[a])) {
+      entries.push_back({system.w_columns()[k], n + a});
+      entries.push_back({n + a, system.w_columns()[k]});
+    }
+    entries.push_back({n + a, n + a});
+  }
+  for (const auto& entry : terms.stiffness)
+    entries.push_back({static_cast<std::size_t>(entry.row()), static_cast<std::size_t>(entry.col())});
+  return entries;
+}
+
+TangentMatrix::TangentMatrix(const System& system, const ActiveRows& rows, const LinearTerms& terms, double s)
+    : lu_(system.coordinates() + rows.size(), pattern(system, rows, terms)) {
+  std::size_t entry = 0;
+  lu_.set_zero();
+  for (const double m : system.masses()) lu_.add(entry++, s * m);
+  for (const std::size_t r : rows.rows) {
+    for (const std::size_t k : system.row(r)) {
+      lu_.add(entry++, -terms.w[k]);
+      lu_.add(entry++, terms.w[k]);
+    }
+    lu_.add(entry++, system.compliance()[r]);
+  }
+  for (const auto& value : terms.stiffness) lu_.add(entry++, value.value());
+  regular_ = lu_.factorise();
+}
+
+}  // namespace dalembert

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <dalembert/core/analysis/rank.h>
+#include <dalembert/core/scene/system.h>
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/equilibrium/carrier.h>
+#include <dalembert/solvers/linear/klu.h>
+
+#include <Eigen/SparseCore>
+
+#include <span>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// The equations of small motions u, as seen from a frame that turns with the scene (A, see Carrier; at rest
+/// A = 0), about a state with multipliers lambda:
+///
+///   M u'' + C u' + K u = W^T y,       W u + c y = 0          (holonomic rows, c their compliance)   (1)
+///                                     W u' + E u = 0         (nonholonomic rows)                    (2)
+///   C = 2 M A - F_v,   K = -(F + W^T lambda)_q - F_v A + M A^2,   E = psi_q + W A                   (3)
+///
+/// for there u stands for the change u' + A u of velocity and u'' + 2 A u' + A^2 u of acceleration. K holds
+/// the curvature of the constraints, -sum lambda g_qq, and the centrifugal forces.
+struct LinearTerms {
+  using Entries = std::vector<Eigen::Triplet<double>>;
+  Entries stiffness, damping;  ///< K and C; places may repeat, their entries add
+  std::vector<double> w;       ///< W, in the system's pattern
+  std::vector<double> e;       ///< E, in the same, for the nonholonomic rows
+};
+
+/// Throws EquationFault.
+[[nodiscard]] LinearTerms linear_terms(const System& system, const Carrier& carrier, const Instant& at,
+                                       std::span<const double> lambda);
+
+/// [ K + s M  -W^T ]
+/// [ W         c   ]   of some rows, factored.
+class TangentMatrix {
+ public:
+  TangentMatrix(const System& system, const ActiveRows& rows, const LinearTerms& terms, double s);
+  [[nodiscard]] bool regular() const { return regular_; }
+  /// In place, one number per coordinate and then one per row.
+  void solve(std::span<double> x) { lu_.solve(x); }
+
+ private:
+  [[nodiscard]] static std::vector<SparseLU::Entry> pattern(const System& system, const ActiveRows& rows,
+                                                            const LinearTerms& terms);
+  SparseLU lu_;
+  bool regular_;
+};
+
+}  // namespace dalembert

@@ -1,0 +1,250 @@
+#include "dalembert/solvers/equilibrium/lowest_modes.h"
+
+#include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/equilibrium/mass_metric.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+namespace dalembert {
+
+namespace {
+
+using Eigen::Index;
+using Vector = Eigen::VectorXd;
+
+struct Pair {
+  double square;  // omega^2
+  Vector x;       // M^1/2 u, of unit length
+};
+
+/// The operator T on x = M^1/2 u, where it is symmetric in the usual sense.
+class Inverse {
+ public:
+  Inverse(const System& system, const LinearTerms& terms, double s)
+      : shift(s),
+        root_(Eigen::Map<const Vector>(system.masses().data(), static_cast<Index>(system.coordinates()))
+                  .cwiseSqrt()),
+        rows_(independent_rows(system, terms.w)),
+        matrix_(system, rows_, terms, s),
+        y_(system.coordinates() + rows_.size()) {
+    if (!matrix_.regular())
+      throw InvalidScene("The equations of small motions are singular: no modes can be found");
+  }
+
+  [[nodiscard]] Vector operator()(const Vector& x) {
+    std::ranges::fill(y_, 0.0);
+    const Index n = root_.size();
+    Eigen::Map<Vector>(y_.data(), n) = root_.cwiseProduct(x);
+    matrix_.solve(y_);
+    return root_.cwiseProduct(Eigen::Map<const Vector>(y_.data(), n));
+  }
+  [[nodiscard]] Vector shape(const Vector& x) const { return x.cwiseQuotient(root_); }
+  [[nodiscard]] Index size() const { return root_.size(); }
+
+  const double shift;
+
+ private:
+  Vector root_;
+  ActiveRows rows_;
+  TangentMatrix matrix_;
+  std::vector<double> y_;
+};
+
+void orthogonalise(Vector& x, std::span<const Vector> basis, std::span<const Pair> found) {
+  for (int twice = 0; twice < 2; ++twice) {  // twice is enough (Parlett, 6.9)
+    for (const Pair& pair : found) x -= pair.x.dot(x) * pair.x;
+    for (const Vector& b : basis) x -= b.dot(x) * b;
+  }
+}
+
+Vector random_vector(Index n, unsigned seed) {
+  std::mt19937 generator(seed);  // the engine's numbers are the standard's, its distributions' are not
+  Vector x(n);
+  for (Index i = 0; i < n; ++i) x[i] = static_cast<double>(generator()) / 4294967296.0 - 0.5;
+  return x;
+}
+
+/// The matrix that T has on the vectors so far, tridiagonal, and how well its eigenvalues are known.
+struct Ritz {
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  std::vector<Index> best;  // the largest eigenvalues, in absolute value
+  std::vector<Index> converged;
+
+  void compute(std::span<const double> diagonal, std::span<const double> below, std::size_t wanted) {
+    constexpr double well_known = 1e-13;
+    const auto m = static_cast<Index>(diagonal.size());
+    const Eigen::Map<const Vector> a(diagonal.data(), m), b(below.data(), m - 1);
+    solver.computeFromTridiagonal(a, b);
+    best.clear();
+    converged.clear();
+    for (Index k = 0; k < m; ++k) best.push_back(k);
+    const auto size = [this](Index k) { return std::abs(solver.eigenvalues()[k]); };
+    std::ranges::sort(best, std::greater{}, size);
+    best.resize(std::min(best.size(), wanted));
+    for (const Index k : best) {
+      const double residual = below.back() * std::abs(solver.eigenvectors()(m - 1, k));
+      if (residual <= well_known * size(best.front())) converged.push_back(k);
+    }
+  }
+};
+
+/// One run of Lanczos' method: so many of the lowest among what is not found yet, fewer if there are no more.
+std::vector<Pair> lanczos(Inverse& T, std::span<const Pair> found, std::size_t wanted, unsigned seed) {
+  constexpr std::size_t most_vectors = 400, between_looks = 5;
+  std::vector<Vector> basis;
+  std::vector<double> diagonal, below;
+  Vector x = T(random_vector(T.size(), seed));  // into the tangent space
+  const double whole = x.norm();
+  orthogonalise(x, basis, found);
+  if (!(x.norm() > 1e-10 * whole)) return {};
+  below.push_back(x.norm());
+  Ritz ritz;
+  bool exhausted = false;
+  while (!exhausted && ritz.converged.size() < wanted && basis.size() < most_vectors) {
+    basis.push_back(x / below.back());
+    x = T(basis.back());
+    diagonal.push_back(basis.back().dot(x));
+    orthogonalise(x, basis, found);
+    below.push_back(x.norm());
+    exhausted = below.back() <= 1e-14 * std::abs(diagonal.front());
+    if (exhausted || basis.size() % between_looks == 0)
+      ritz.compute(diagonal, std::span(below).subspan(1), wanted);
+  }
+  std::vector<Pair> pairs;
+  for (const Index k : ritz.converged) {
+    Pair pair{1.0 / ritz.solver.eigenvalues()[k] - T.shift, Vector::Zero(T.size())};
+    for (std::size_t i = 0; i < diagonal.size() && static_cast<Index>(i) < ritz.solver.eigenvalues().size();
+         ++i)
+      pair.x += ritz.solver.eigenvectors()(static_cast<Index>(i), k) * basis[i];
+    pair.x.normalize();
+    pairs.push_back(std::move(pair));
+  }
+  return pairs;
+}
+
+/// The lowest, by runs until one finds nothing that belongs among them.
+std::vector<Pair> lowest_pairs(Inverse& T, std::size_t wanted) {
+  std::vector<Pair> found;
+  const auto closeness = [&T](const Pair& p) { return std::abs(p.square + T.shift); };
+  for (unsigned run = 1;; ++run) {
+    std::vector<Pair> more = lanczos(T, found, wanted, run);
+    const double farthest = found.size() < wanted ? INFINITY : closeness(found[wanted - 1]);
+    const bool belongs = std::ranges::any_of(more, [&](const Pair& p) { return closeness(p) < farthest; });
+    if (!belongs) return found;
+    for (Pair& pair : more) found.push_back(std::move(pair));
+    std::ranges::sort(found, {}, closeness);
+  }
+}
+
+/// The largest K/M of a pair of coordinates.
+double stiffest(const System& system, const LinearTerms& terms) {
+  double largest = 0.0;
+  for (const auto& entry : terms.stiffness) {
+    const double m = std::sqrt(system.masses()[static_cast<std::size_t>(entry.row())] *
+                               system.masses()[static_cast<std::size_t>(entry.col())]);
+    largest = std::max(largest, std::abs(entry.value()) / m);
+  }
+  return largest;
+}
+
+/// Whether no omega^2 lies below -s (Finsler's lemma): for rho large enough K + s M + rho W^T W is positive
+/// definite then, and only then. An error of round-off of rho must stay below s, and so must 1/rho times K^2.
+bool nothing_below(const System& system, const LinearTerms& terms, double s, double largest) {
+  const double rho = largest * largest / (0.1 * s);
+  LinearTerms::Entries entries;
+  const auto root = [&](std::size_t i) { return std::sqrt(system.masses()[i]); };
+  for (const auto& k : terms.stiffness) {
+    const double scale = root(static_cast<std::size_t>(k.row())) * root(static_cast<std::size_t>(k.col()));
+    entries.emplace_back(k.row(), k.col(), k.value() / scale);
+  }
+  for (std::size_t i = 0; i < system.coordinates(); ++i)
+    entries.emplace_back(static_cast<int>(i), static_cast<int>(i), s);
+  for (std::size_t r = 0; r < system.rows(); ++r) {
+    double square = 0.0;
+    for (const std::size_t k : system.row(r)) square += std::pow(terms.w[k] / root(system.w_columns()[k]), 2);
+    const double C = system.compliance()[r], weight = C > 0.0 ? 1.0 / C : rho / square;
+    for (const std::size_t k : system.row(r)) {
+      for (const std::size_t l : system.row(r)) {
+        const std::size_t i = system.w_columns()[k], j = system.w_columns()[l];
+        entries.emplace_back(static_cast<int>(i), static_cast<int>(j),
+                             weight * terms.w[k] * terms.w[l] / (root(i) * root(j)));
+      }
+    }
+  }
+  const auto n = static_cast<Index>(system.coordinates());
+  Eigen::SparseMatrix<double> A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldl(A);
+  return ldl.info() == Eigen::Success && ldl.vectorD().minCoeff() > 0.0;
+}
+
+void require_conservative(const System& system, const LinearTerms& terms, std::size_t wanted) {
+  const bool damped = std::ranges::any_of(terms.damping, [](const auto& d) { return d.value() != 0.0; });
+  const char* why = nullptr;
+  if (wanted == 0) why = "all modes are too many; set the option lowest";
+  if (damped) why = "so many are looked through without damping and without turning only";
+  if (system.holonomic_rows() < system.rows())
+    why = "so many are looked through without nonholonomic constraints only";
+  if (circulatory(terms, system.coordinates()).nonZeros() > 0)
+    why = "so many are looked through where all forces have a potential only";
+  if (why == nullptr) return;
+  throw InvalidScene("Normal modes of scene \"" + system.layout()->scene + "\" with " +
+                     std::to_string(system.coordinates()) + " coordinates: " + why);
+}
+
+/// Lanczos' method may end with fewer than are wanted only where there are no more.
+void require_all(const System& system, const LinearTerms& terms, std::size_t found, std::size_t wanted) {
+  const ActiveRows rows = independent_rows(system, terms.w);
+  const auto rigid = static_cast<std::size_t>(
+      std::ranges::count_if(rows.rows, [&](std::size_t r) { return system.compliance()[r] == 0.0; }));
+  const std::size_t there = system.coordinates() - rigid;
+  if (found >= std::min(wanted, there)) return;
+  throw InvalidScene("Normal modes of scene \"" + system.layout()->scene + "\": of " +
+                     std::to_string(std::min(wanted, there)) + " modes only " + std::to_string(found) +
+                     " converged; ask for fewer");
+}
+
+}  // namespace
+
+Modes lowest_modes(const System& system, const LinearTerms& terms, std::size_t wanted) {
+  require_conservative(system, terms, wanted);
+  const double largest = stiffest(system, terms);
+  const double s = largest > 0.0 ? constants.below_all * largest : 1.0;
+  Inverse T(system, terms, s);
+  auto pairs = lowest_pairs(T, wanted);
+  require_all(system, terms, pairs.size(), wanted);
+  pairs.resize(std::min(pairs.size(), wanted));
+  std::ranges::sort(pairs, {}, [](const Pair& p) { return p.square; });
+
+  Modes found{{}, Stability::stable, "every vibration has positive energy"};
+  if (!nothing_below(system, terms, s, largest)) {
+    found.stability = Stability::undecided;
+    found.reason = "that no mode grows fast could not be proved";
+  }
+  const double zero = roundings_of_a_sum * std::numeric_limits<double>::epsilon() * largest;
+  for (const Pair& pair : pairs) {
+    const Vector u = T.shape(pair.x);
+    Index most = 0;
+    (void)u.cwiseAbs().maxCoeff(&most);
+    std::complex<double> eigenvalue = std::sqrt(std::complex<double>(-pair.square));
+    if (std::abs(pair.square) <= zero) eigenvalue = 0.0;
+    Mode mode{{std::abs(eigenvalue.real()), std::abs(eigenvalue.imag())}, {}, false};
+    for (const double x : u) mode.shape.emplace_back(x / u[most]);
+    if (mode.eigenvalue.real() > 0.0) {
+      found.stability = Stability::unstable;
+      found.reason = "a mode grows as exp(" + std::to_string(mode.eigenvalue.real()) + " t)";
+    }
+    found.modes.push_back(std::move(mode));
+  }
+  std::ranges::stable_sort(found.modes, {}, [](const Mode& m) { return std::abs(m.eigenvalue); });
+  return found;
+}
+
+}  // namespace dalembert

@@ -1,0 +1,285 @@
+#include "dalembert/solvers/equilibrium/normal_modes.h"
+
+#include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/equilibrium/balance.h>
+#include <dalembert/solvers/equilibrium/lowest_modes.h>
+#include <dalembert/solvers/equilibrium/singular_position.h>
+#include <dalembert/solvers/equilibrium/tangent_modes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace dalembert {
+
+namespace {
+
+/// Whether an equilibrium is found again a finite way along the mode, and not back where it began.
+bool moves_freely(const Balance& balance, const FlatSample& at, const Mode& mode) {
+  const double way = constants.free_way * balance.scales().length;
+  Balance::State s = balance.start();
+  std::ranges::copy(at.q, s.q.begin());
+  std::vector<double> direction;
+  for (std::size_t i = 0; i < at.q.size(); ++i) {
+    direction.push_back(mode.shape[i].real());
+    s.q[i] += way * direction[i];
+  }
+  if (!balance.settle(s)) return false;
+  double along = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < at.q.size(); ++i) {
+    const double m = balance.system().masses()[i];
+    along += m * direction[i] * (s.q[i] - at.q[i]);
+    all += m * direction[i] * direction[i];
+  }
+  return along > 0.5 * way * all;
+}
+
+/// u^T K u of a state, with the springs of compliant constraints.
+double stiffness_along(const Balance& balance, const Balance::State& s, std::span<const double> u) {
+  const LinearTerms terms =
+      linear_terms(balance.system(), balance.carrier(), {balance.time(), s.q, s.v}, s.lambda);
+  double sum = 0.0;
+  for (const auto& k : terms.stiffness)
+    sum += k.value() * u[static_cast<std::size_t>(k.row())] * u[static_cast<std::size_t>(k.col())];
+  for (std::size_t r = 0; r < balance.system().rows(); ++r) {
+    const double C = balance.system().compliance()[r];
+    if (C == 0.0) continue;
+    double elongation = 0.0;
+    for (const std::size_t k : balance.system().row(r))
+      elongation += terms.w[k] * u[balance.system().w_columns()[k]];
+    sum += elongation * elongation / C;
+  }
+  return sum;
+}
+
+/// Whether the stiffness along a mode is more than what it changes by within the root of round-off, to which
+/// a position is known where the stiffness vanishes: of a bead at the turning point of a cubic it is not.
+bool is_known(const Balance& balance, const FlatSample& at, const Mode& mode) {
+  const double way = std::sqrt(std::numeric_limits<double>::epsilon()) * balance.scales().length;
+  std::vector<double> u;
+  for (const auto& x : mode.shape) u.push_back(x.real());
+  Balance::State here = balance.start();
+  std::ranges::copy(at.q, here.q.begin());
+  here.lambda.assign(at.lambda.begin(), at.lambda.end());
+  balance.evaluate(here);
+  const double own = stiffness_along(balance, here, u);
+  for (const double side : {way, -way}) {
+    Balance::State s = here;
+    for (std::size_t i = 0; i < u.size(); ++i) s.q[i] += side * u[i];
+    if (balance.land(s) && std::abs(stiffness_along(balance, s, u) - own) > std::abs(own)) return false;
+  }
+  return true;
+}
+
+/// What is not known is called 0, to be told by a finite motion.
+void drop_unknown(const Balance& balance, const FlatSample& at, Modes& found) {
+  bool dropped = false;
+  for (Mode& mode : found.modes) {
+    if (mode.eigenvalue == 0.0 || is_known(balance, at, mode)) continue;
+    mode.eigenvalue = 0.0;
+    dropped = true;
+  }
+  const bool grows =
+      std::ranges::any_of(found.modes, [](const Mode& m) { return m.eigenvalue.real() > 0.0; });
+  if (!dropped || found.stability != Stability::unstable || grows) return;
+  found.stability = Stability::undecided;
+  found.reason =
+      "the stiffness along a mode is no more than what it changes by within round-off of positions";
+}
+
+void leave_undecided(Modes& found, const char* why) {
+  if (found.stability != Stability::stable) return;
+  found.stability = Stability::undecided;
+  found.reason = why;
+}
+
+/// What eigenvalues 0 are, and what they mean for the verdict.
+void name_zeros(const Balance& balance, const FlatSample& at, Modes& found) {
+  bool all_free = true;
+  for (Mode& mode : found.modes) {
+    if (mode.eigenvalue != 0.0) continue;
+    try {
+      mode.free = moves_freely(balance, at, mode);
+    } catch (const EquationFault&) {
+      mode.free = false;
+    }
+    all_free = all_free && mode.free;
+  }
+  if (!all_free)
+    leave_undecided(found, "a mode of eigenvalue 0 is no free motion: terms of higher order tell");
+}
+
+/// Beside something very stiff round-off may leave nothing of the lowest modes of a large scene.
+void require_told_from_zero(const System& system, const Modes& found) {
+  const bool told =
+      std::ranges::all_of(found.modes, [](const Mode& m) { return m.eigenvalue != 0.0 || m.free; });
+  if (told) return;
+  throw InvalidScene(
+      "Normal modes of scene \"" + system.layout()->scene +
+      "\": beside what is stiffest in it the lowest are not known from 0; leave out what is stiff "
+      "and does not act on them, or make it rigid");
+}
+
+void require_smooth(const System& system, const Balance& balance, const FlatSample& at) {
+  if (system.coordinates() > most_dense ||
+      !is_singular_position(system, balance.carrier(), {at.time, at.q, at.v}))
+    return;
+  throw InvalidScene(
+      "Normal modes of scene \"" + system.layout()->scene +
+      "\": the equilibrium is a singular position, where constraints touch without repeating each "
+      "other and the ways they leave part; no linear equations tell the small motions");
+}
+
+[[noreturn]] void refuse_changed(const System& system, const std::string& why) {
+  throw InvalidArgument("This equilibrium is none of scene \"" + system.layout()->scene +
+                        "\" as it is now: " + why + "; the scene was changed since, so find it anew");
+}
+
+void require_same_size(const System& system, const FlatSample& at) {
+  if (at.q.size() != system.coordinates())
+    refuse_changed(system, "it has " + std::to_string(at.q.size()) + " coordinates, the scene " +
+                               std::to_string(system.coordinates()));
+  if (at.lambda.size() != system.rows())
+    refuse_changed(system, "it has " + std::to_string(at.lambda.size()) + " multipliers, the scene " +
+                               std::to_string(system.rows()));
+}
+
+/// That forces balance there, constraints are met and nothing moves against them, as when it was found.
+void require_equilibrium(const Balance& balance, const FlatSample& at) {
+  constexpr double met = 1e-8;  // a hundred times what `equilibrium` asks for, and what a start may violate
+  const System& system = balance.system();
+  Balance::State s = balance.start();
+  s.q.assign(at.q.begin(), at.q.end());
+  s.lambda.assign(at.lambda.begin(), at.lambda.end());
+  balance.evaluate(s);
+  std::ostringstream why;
+  if (s.size > met) why << "forces or constraints are off by " << s.size << " of what acts";
+  auto e = system.evaluation();
+  system.evaluate({balance.time(), at.q, at.v}, e);
+  const Scales& scales = balance.scales();
+  const double time = balance.carrier().turns() ? 1.0 / balance.carrier().rate() : scales.time;
+  const Violation moving = velocity_violation(system, e, scales.lengths());
+  if (moving.size > met * scales.length / time + scales.rounding(s.q) / time)
+    why << system.row_label(moving.row) << " moves by " << moving.size;
+  if (!why.str().empty()) refuse_changed(system, why.str());
+}
+
+/// What the forces M u + C u and, in nonholonomic rows, -E u do to what K + s M and the constraints hold.
+/// (Not the rows of W themselves: those of a sleeve on an axis need not turn, the axis does.)
+std::vector<double> response(const System& system, const LinearTerms& terms, double s,
+                             std::span<const double> u) {
+  const ActiveRows rows = independent_rows(system, terms.w);
+  const std::size_t n = u.size();
+  std::vector<double> out(n + rows.size(), 0.0);
+  for (std::size_t i = 0; i < n; ++i) out[i] = system.masses()[i] * u[i];
+  for (const auto& entry : terms.damping)
+    out[static_cast<std::size_t>(entry.row())] += entry.value() * u[static_cast<std::size_t>(entry.col())];
+  for (std::size_t a = rows.holonomic; a < rows.size(); ++a) {
+    for (const std::size_t k : system.row(rows.rows[a])) out[n + a] -= terms.e[k] * u[system.w_columns()[k]];
+  }
+  TangentMatrix matrix(system, rows, terms, s);
+  if (matrix.regular()) matrix.solve(out);
+  out.resize(n);
+  return out;
+}
+
+/// That the equations of small motions are the same later, seen from the frame that turns with the scene.
+void require_constant(const System& system, const Balance& balance, const FlatSample& at,
+                      const LinearTerms& terms) {
+  const Carrier& carrier = balance.carrier();
+  std::vector<double> u(at.q.size());
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] = std::sin(static_cast<double>(i + 1));
+  const double s = balance.high_stiffness();
+  auto expected = response(system, terms, s, u);
+  const double unit = carrier.turns() ? 1.0 / carrier.rate() : balance.scales().time;
+  const double later = 0.7390851332151607 * unit, angle = carrier.rate() * later;
+  std::vector<double> q(at.q.begin(), at.q.end()), v(q.size());
+  if (carrier.turns()) {
+    for (const std::span<double> x : {std::span(u), std::span(expected)}) carrier.turn_vectors(angle, x);
+    carrier.turn_positions(angle, q);
+  }
+  carrier.velocity(q, v);
+  const auto found =
+      response(system, linear_terms(system, carrier, {at.time + later, q, v}, at.lambda), s, u);
+  double difference = 0.0, size = 0.0;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    difference = std::max(difference, std::abs(found[i] - expected[i]));
+    size = std::max(size, std::abs(expected[i]));
+  }
+  if (difference <= 1e-8 * size) return;
+  throw InvalidScene("Normal modes of scene \"" + system.layout()->scene +
+                     "\": its forces or constraints change with time, as seen from what " +
+                     (carrier.turns() ? "turns" : "rests") +
+                     "; find the equilibrium for the turning of its drives, or ask for floquet multipliers");
+}
+
+}  // namespace
+
+const char* name(Stability stability) {
+  switch (stability) {
+    case Stability::stable:
+      return "stable";
+    case Stability::unstable:
+      return "unstable";
+    case Stability::undecided:
+      break;
+  }
+  return "undecided";
+}
+
+Modes find_modes(const System& system, const FlatSample& at, const Turning<3>& turning,
+                 const ModesOptions& options) {
+  require_same_size(system, at);
+  const Balance balance(system, at.q, at.time, turning);
+  require_equilibrium(balance, at);
+  require_smooth(system, balance, at);
+  const LinearTerms terms = linear_terms(system, balance.carrier(), {at.time, at.q, at.v}, at.lambda);
+  require_constant(system, balance, at, terms);
+  Modes found;
+  if (system.coordinates() <= most_dense) {
+    found = dense_modes(system, terms);
+  } else {
+    found = lowest_modes(system, terms, options.lowest);
+    if (!found.modes.empty() && found.modes.back().eigenvalue == 0.0)
+      leave_undecided(found, "all modes that were looked for have the eigenvalue 0: there may be more");
+  }
+  const bool damped = std::ranges::any_of(terms.damping, [](const auto& d) { return d.value() != 0.0; });
+  if (!damped && system.coordinates() <= most_dense) drop_unknown(balance, at, found);
+  name_zeros(balance, at, found);  // all that were found: the verdict is of all
+  if (system.coordinates() > most_dense) require_told_from_zero(system, found);
+  if (options.lowest > 0 && options.lowest < found.modes.size()) found.modes.resize(options.lowest);
+  return found;
+}
+
+template <int D>
+const Mode& NormalModes<D>::mode(std::size_t k) const {
+  if (k < size()) return modes_.modes[k];
+  throw InvalidArgument("There is no mode " + std::to_string(k) + ": of scene \"" + layout_->scene +
+                        "\" there are " + std::to_string(size()));
+}
+
+template <int D>
+std::string NormalModes<D>::describe() const {
+  std::ostringstream text;
+  text << name(stability()) << ": " << modes_.reason;
+  for (std::size_t k = 0; k < size(); ++k) {
+    if (!is_free(k)) continue;
+    text << "; free motion of";
+    const auto moves = [&](int first, int width) {
+      bool any = false;
+      for (int i = first; i < first + width; ++i)
+        any = any || std::abs(modes_.modes[k].shape[static_cast<std::size_t>(i)]) > 0.5;
+      return any;
+    };
+    for (const auto& particle : layout_->particles)
+      if (moves(particle.coordinate, D)) text << " \"" << particle.name << '"';
+    for (const auto& rotor : layout_->rotors)
+      if (moves(rotor.coordinate, 1)) text << " \"" << rotor.name << '"';
+  }
+  return text.str();
+}
+
+template class NormalModes<2>;
+template class NormalModes<3>;
+
+}  // namespace dalembert

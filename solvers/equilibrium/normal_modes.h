@@ -1,0 +1,129 @@
+#pragma once
+
+#include <dalembert/solvers/equilibrium/equilibrium.h>
+
+#include <complex>
+#include <string>
+#include <vector>
+
+namespace dalembert {
+
+/// Whether a scene that is disturbed a little stays near its equilibrium; free motions apart.
+enum class Stability {
+  stable,    ///< every mode decays, or vibrates with positive energy
+  unstable,  ///< some mode grows
+  undecided  ///< the linear terms do not tell
+};
+[[nodiscard]] const char* name(Stability stability);
+
+/// A solution of the equations of small motions, u = shape exp(eigenvalue t), as flat numbers.
+struct Mode {
+  std::complex<double> eigenvalue;          ///< [1 / time]; of a conjugate pair the one with Im > 0
+  std::vector<std::complex<double>> shape;  ///< one number per coordinate, the largest is 1
+  bool free = false;  ///< eigenvalue 0, and all of a finite motion along the shape is in balance
+};
+
+struct Modes {
+  std::vector<Mode> modes;  ///< those of eigenvalue 0 first, the others by increasing modulus
+  Stability stability = Stability::undecided;
+  std::string reason;  ///< of `stability`, in a sentence
+};
+
+struct ModesOptions {
+  /// How many modes are wanted, those of the lowest frequencies; 0: all, of up to 600 coordinates.
+  std::size_t lowest = 0;
+};
+
+/// For a System and what `find_equilibrium` gave, out of which `normal_modes` makes NormalModes.
+[[nodiscard]] Modes find_modes(const System& system, const FlatSample& at, const Turning<3>& turning,
+                               const ModesOptions& options);
+
+/// The small motions about an equilibrium, read by handle. Functions of a mode k throw InvalidArgument if
+/// there is none.
+template <int D>
+class NormalModes {
+ public:
+  NormalModes(std::shared_ptr<const Layout> layout, Modes modes)
+      : layout_(std::move(layout)), modes_(std::move(modes)) {}
+
+  [[nodiscard]] std::size_t size() const { return modes_.modes.size(); }
+  [[nodiscard]] std::complex<double> eigenvalue(std::size_t k) const { return mode(k).eigenvalue; }
+  [[nodiscard]] double frequency(std::size_t k) const { return mode(k).eigenvalue.imag(); }  ///< [rad/time]
+  [[nodiscard]] double damping(std::size_t k) const { return -mode(k).eigenvalue.real(); }   ///< [1/time]
+  /// Whether the scene moves freely along this mode: there is an equilibrium all along it.
+  [[nodiscard]] bool is_free(std::size_t k) const { return mode(k).free; }
+
+  /// What a particle or a point of a body does in a mode, in the frame that turns with the scene; a motion is
+  /// the real part of shape exp(eigenvalue t). The largest number of a mode's shape is 1; a driven point,
+  /// whose path disturbs nothing, has 0.
+  template <Point P>
+  [[nodiscard]] VecOf<std::complex<double>, P::dimension> shape(std::size_t k, const P& point) const {
+    const std::vector<std::complex<double>>& all = mode(k).shape;
+    if constexpr (P::driven) return VecOf<std::complex<double>, P::dimension>::Zero();
+    std::vector<double> re, im;
+    for (const auto& one : all) {
+      re.push_back(one.real());
+      im.push_back(one.imag());
+    }
+    const auto read = [&](const std::vector<double>& part) {
+      FlatSample flat;
+      flat.v = flat.q = part;
+      const Sample<D> sample(*layout_, flat);
+      if constexpr (P::dimension == D) {
+        return sample.velocity(point);
+      } else {
+        return Vec<1>(sample.angular_velocity(point));
+      }
+    };
+    return read(re) + std::complex<double>(0.0, 1.0) * read(im);
+  }
+
+  [[nodiscard]] Stability stability() const { return modes_.stability; }
+  /// The verdict with its reason, and the free motions with the particles that move most in them.
+  [[nodiscard]] std::string describe() const;
+
+ private:
+  [[nodiscard]] const Mode& mode(std::size_t k) const;
+
+  std::shared_ptr<const Layout> layout_;
+  Modes modes_;
+};
+
+extern template class NormalModes<2>;
+extern template class NormalModes<3>;
+
+/// Frequencies, damping and shapes of the small motions u of a scene about its equilibrium, on the tangent
+/// space of the constraints and as seen from the frame that turns with it:
+///
+///   M u'' + (2 M A + D) u' + (H + D A + M A^2) u = W^T y,      W u = 0   (nonholonomic: of u', see below)
+///   (1)
+///
+/// with H = -(F + W^T lambda)_q, which holds the curvature of the constraints -sum lambda g_qq, D = -F_v, and
+/// A the turning, v = A (q - p). A compliant constraint is the spring that it is; a nonholonomic one holds
+/// psi_v (u' + A u) + psi_q u = 0. What a mode of eigenvalue 0 is, linear terms do not say: moved along it by
+/// a finite way and brought into balance again the scene shows whether it moves there freely.
+///
+/// Verdict: unstable if an eigenvalue has a positive real part; stable if all others than those of free
+/// motions decay, or vibrate with an energy u'.M u'/2 + u.(H + M A^2).u/2 > 0, which is then a Lyapunov
+/// function; otherwise undecided: an eigenvalue 0 that is no free motion (a bifurcation), or a vibration of
+/// negative energy that only gyroscopic forces hold.
+///
+/// Up to 600 coordinates by dense matrices: all modes. Beyond that the lowest, by Lanczos' method on the
+/// inverse of (1), with memory in proportion to the size of the scene, for scenes at rest, without damping,
+/// nonholonomic constraints and forces that have no potential.
+///
+/// Parts of a scene that nothing couples are judged each by itself. A part holds the numbers of its K to
+/// round-off of the largest: within that an eigenvalue is undecided, or 0 and tried.
+///
+/// Throws InvalidArgument if the equilibrium is not one of this scene as it is now, InvalidScene if `lowest`
+/// does not suit it or its equations change with time.
+template <int D>
+[[nodiscard]] NormalModes<D> normal_modes(const Scene<D>& scene, const Equilibrium<D>& equilibrium,
+                                          const ModesOptions& options = {}) {
+  const System system = scene.system();
+  if (system.layout()->id != equilibrium.layout().id)
+    throw InvalidArgument("This equilibrium belongs to another scene than \"" + scene.name() + '"');
+  return {system.layout(), find_modes(system, equilibrium.sample().flat(), equilibrium.turning(), options)};
+}
+
+}  // namespace dalembert

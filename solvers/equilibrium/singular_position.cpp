@@ -1,0 +1,69 @@
+#include "dalembert/solvers/equilibrium/singular_position.h"
+
+#include <dalembert/solvers/equilibrium/linear_terms.h>
+
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace dalembert {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+/// -sum lambda g_qq and all that does not depend on lambda, in the metric of the masses.
+MatrixXd stiffness(const System& system, const Carrier& carrier, const Instant& at,
+                   std::span<const double> lambda) {
+  const LinearTerms terms = linear_terms(system, carrier, at, lambda);
+  const auto n = static_cast<Index>(system.coordinates());
+  MatrixXd K = MatrixXd::Zero(n, n);
+  for (const auto& k : terms.stiffness) {
+    const double masses = system.masses()[static_cast<std::size_t>(k.row())] *
+                          system.masses()[static_cast<std::size_t>(k.col())];
+    K(k.row(), k.col()) += k.value() / std::sqrt(masses);
+  }
+  return K;
+}
+
+}  // namespace
+
+bool is_singular_position(const System& system, const Carrier& carrier, const Instant& at) {
+  auto e = system.evaluation();
+  system.evaluate(at, e);
+  if (independent_rows(system, e.w).size() == system.rows()) return false;
+  std::vector<std::size_t> rigid;
+  for (std::size_t r = 0; r < system.holonomic_rows(); ++r)
+    if (system.compliance()[r] == 0.0) rigid.push_back(r);
+  MatrixXd W = MatrixXd::Zero(static_cast<Index>(rigid.size()), static_cast<Index>(system.coordinates()));
+  Eigen::VectorXd length(W.rows());
+  for (Index k = 0; k < W.rows(); ++k) {
+    for (const std::size_t place : system.row(rigid[static_cast<std::size_t>(k)])) {
+      const std::size_t i = system.w_columns()[place];
+      W(k, static_cast<Index>(i)) += e.w[place] / std::sqrt(system.masses()[i]);
+    }
+    length[k] = W.row(k).norm();
+    W.row(k) /= length[k];
+  }
+  Eigen::BDCSVD<MatrixXd> svd(W, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  svd.setThreshold(rank_threshold);
+  const MatrixXd N = svd.matrixV().rightCols(W.cols() - svd.rank());
+  std::vector<double> mu(system.rows(), 0.0);
+  const MatrixXd without = stiffness(system, carrier, at, mu);
+  // Positions are known to rank_threshold at best, and so is what they leave of a sum that is 0.
+  const double known = std::sqrt(rank_threshold);
+  for (Index dependence = svd.rank(); dependence < W.rows(); ++dependence) {
+    for (Index k = 0; k < W.rows(); ++k)
+      mu[rigid[static_cast<std::size_t>(k)]] = svd.matrixU()(k, dependence) / length[k];
+    const MatrixXd K = stiffness(system, carrier, at, mu) - without;
+    const MatrixXd left = N.transpose() * K * N;
+    if (left.norm() > known * K.norm()) return true;
+  }
+  return false;
+}
+
+}  // namespace dalembert

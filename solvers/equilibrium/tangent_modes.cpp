@@ -1,0 +1,300 @@
+#include "dalembert/solvers/equilibrium/tangent_modes.h"
+
+#include <dalembert/core/analysis/islands.h>
+#include <dalembert/solvers/equilibrium/mass_metric.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
+#include <utility>
+
+namespace dalembert {
+
+namespace {
+
+using Eigen::Index;
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double round_off = roundings_of_a_sum * epsilon;
+
+/// The problem (1) of the header for some coordinates, u = shapes z.
+struct Tangent {
+  std::size_t all;                       ///< coordinates of the scene
+  std::vector<std::size_t> coordinates;  ///< these of them
+  Matrix shapes;                         ///< M^-1/2 N
+  Matrix K, C, B, E;
+  bool symmetric;  ///< K
+};
+
+/// N^T X N, with 0 for what is round-off of the terms it sums.
+Matrix onto(const Matrix& N, const Matrix& X) {
+  const Matrix Y = N.transpose() * X * N;
+  const Matrix size = N.cwiseAbs().transpose() * X.cwiseAbs() * N.cwiseAbs();
+  return (Y.array().abs() > round_off * size.array()).select(Y, Matrix::Zero(Y.rows(), Y.cols()));
+}
+
+/// An orthonormal basis of what rows of unit length leave.
+Matrix tangent_basis(const Matrix& rows) {
+  Matrix Q = Matrix::Identity(rows.cols(), rows.cols());
+  if (rows.rows() == 0) return Q;
+  Eigen::ColPivHouseholderQR<Matrix> qr(rows.cols(), rows.rows());
+  qr.setThreshold(rank_threshold);
+  qr.compute(rows.transpose());
+  Q.applyOnTheLeft(qr.householderQ());
+  return Q.rightCols(rows.cols() - qr.rank());
+}
+
+Tangent tangent(const System& system, const LinearTerms& terms, std::vector<std::size_t> coordinates,
+                std::span<const std::size_t> rows) {
+  const MassMetric metric(system, terms, coordinates, rows);
+  const Matrix N = tangent_basis(metric.W.topRows(metric.holonomic));
+  Matrix skew = Matrix(circulatory(terms, system.coordinates()));
+  skew = skew(coordinates, coordinates).eval();
+  skew = onto(N, metric.root.asDiagonal() * skew * metric.root.asDiagonal());
+  const Index velocity_rows = metric.W.rows() - metric.holonomic;
+  Tangent t{system.coordinates(),
+            std::move(coordinates),
+            metric.root.asDiagonal() * N,
+            N.transpose() * metric.K * N,
+            onto(N, metric.C),  // 0 where a guide takes up Coriolis forces
+            metric.W.bottomRows(velocity_rows) * N,
+            metric.E.bottomRows(velocity_rows) * N,
+            skew.isZero(0.0)};
+  if (t.symmetric) t.K = ((t.K + t.K.transpose()) / 2).eval();
+  for (Index k = 0; k < velocity_rows; ++k)
+    if (t.B.row(k).norm() < rank_threshold) t.B.row(k).setZero();  // what holonomic rows hold already
+  return t;
+}
+
+std::vector<std::size_t> up_to(std::size_t count) {
+  std::vector<std::size_t> all(count);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+/// Parts of a scene that nothing couples are scenes of their own: what is small in one does not vanish beside
+/// what is stiff in another.
+std::vector<Tangent> tangents(const System& system, const LinearTerms& terms) {
+  const Islands parts = islands(system);
+  std::vector<std::vector<std::size_t>> coordinates(parts.count), rows(parts.count);
+  for (std::size_t i = 0; i < system.coordinates(); ++i) coordinates[parts.of_coordinate[i]].push_back(i);
+  for (std::size_t r = 0; r < system.rows(); ++r) rows[parts.of_row(system, r)].push_back(r);
+  std::vector<Tangent> all;
+  for (std::size_t k = 0; k < parts.count; ++k)
+    all.push_back(tangent(system, terms, std::move(coordinates[k]), rows[k]));
+  return all;
+}
+
+/// The shape in the system's coordinates, its largest number 1.
+Mode mode(std::complex<double> eigenvalue, const Eigen::VectorXcd& z, const Tangent& t) {
+  Eigen::VectorXcd u = t.shapes * z;
+  Index largest = 0;
+  (void)u.cwiseAbs().maxCoeff(&largest);
+  u /= std::complex<double>(u[largest]);
+  Mode found{eigenvalue, std::vector<std::complex<double>>(t.all), false};
+  for (std::size_t k = 0; k < t.coordinates.size(); ++k)
+    found.shape[t.coordinates[k]] = u[static_cast<Index>(k)];
+  return found;
+}
+
+std::string grows(std::complex<double> s) {
+  std::ostringstream text;
+  text << "a mode of " << s.imag() << " rad/time grows as exp(" << s.real() << " t)";
+  return text.str();
+}
+
+void refute(Modes& found, Stability stability, const std::string& reason) {
+  if (found.stability == Stability::unstable || found.stability == stability) return;
+  found.stability = stability;
+  found.reason = reason;
+}
+
+/// K z = omega^2 z. What lies within round-off of 0 is called 0, to be told by a finite motion.
+void of_conservative(const Tangent& t, Modes& found) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(t.K);
+  const Vector& square = solver.eigenvalues();
+  const double zero = round_off * (square.size() > 0 ? square.cwiseAbs().maxCoeff() : 0.0);
+  for (Index k = 0; k < square.size(); ++k) {
+    std::complex<double> s = std::sqrt(std::complex<double>(-square[k]));
+    if (std::abs(square[k]) <= zero) s = 0.0;
+    s = {std::abs(s.real()), std::abs(s.imag())};
+    found.modes.push_back(mode(s, solver.eigenvectors().col(k).cast<std::complex<double>>(), t));
+    if (s.real() > 0.0) refute(found, Stability::unstable, grows(s));
+  }
+}
+
+/// Makes 1 the unit in which K, or without stiffness C and E, are measured; gives Omega, so many to a unit.
+double scale_time(Tangent& t) {
+  double Omega = std::sqrt(t.K.norm());
+  if (Omega == 0.0) Omega = std::max(t.C.norm(), t.E.norm());
+  if (Omega == 0.0) return 1.0;
+  t.K /= Omega * Omega;
+  t.C /= Omega;
+  t.E /= Omega;
+  return Omega;
+}
+
+/// The equations (2) of the header.
+struct FirstOrder {
+  Matrix P, matrix;
+};
+
+FirstOrder first_order(const Tangent& t) {
+  const Index d = t.K.rows();
+  Matrix P = Matrix::Identity(d, d), lifted = Matrix::Zero(d, d);  // lifted: B^+ E
+  if (!t.B.isZero(0.0)) {
+    Eigen::CompleteOrthogonalDecomposition<Matrix> qr(t.B.rows(), d);
+    qr.setThreshold(rank_threshold);
+    qr.compute(t.B);
+    lifted = qr.solve(t.E);
+    P = Matrix(qr.colsPermutation() * qr.matrixZ().transpose()).rightCols(d - qr.rank());
+  }
+  const Index c = P.cols();
+  Matrix matrix(d + c, d + c);
+  matrix << -lifted, P, P.transpose() * (t.C * lifted - t.K), -P.transpose() * t.C * P;
+  return {std::move(P), std::move(matrix)};
+}
+
+/// A basis of S x = 0, rows of S of whatever sizes.
+Matrix kernel(const Matrix& S) {
+  if (S.cols() == 0 || S.isZero(0.0)) return Matrix::Identity(S.cols(), S.cols());
+  Eigen::FullPivLU<Matrix> lu(S.rows(), S.cols());
+  lu.setThreshold(round_off);
+  lu.compute(S.rowwise().normalized());
+  if (lu.dimensionOfKernel() == 0) return Matrix(S.cols(), 0);
+  return lu.kernel();
+}
+
+/// A basis of the states at rest: P^T K z = 0, E z = 0. (Not by rows of unit length: those of K may be
+/// round-off.)
+Matrix states_at_rest(const Tangent& t, const FirstOrder& f) {
+  Matrix S(f.P.cols() + t.E.rows(), t.K.cols());
+  S << f.P.transpose() * t.K, t.E;
+  if (S.cols() == 0 || S.isZero(0.0)) return Matrix::Identity(S.cols(), S.cols());
+  Eigen::FullPivLU<Matrix> lu(S.rows(), S.cols());
+  lu.setThreshold(round_off);
+  lu.compute(S);
+  if (lu.dimensionOfKernel() == 0) return Matrix(S.cols(), 0);
+  return lu.kernel();
+}
+
+/// Orthonormal bases of what some columns span, and of the rest.
+std::pair<Matrix, Matrix> split(const Matrix& columns) {
+  Matrix Q = Matrix::Identity(columns.rows(), columns.rows());
+  if (columns.cols() > 0) Q.applyOnTheLeft(Eigen::HouseholderQR<Matrix>(columns).householderQ());
+  return {Q.leftCols(columns.cols()), Q.rightCols(columns.rows() - columns.cols())};
+}
+
+/// What is left of a matrix without its zero eigenvalues that are known: those of the states at rest, and
+/// of motions that go along them for ever, A (A x) = 0, one at most to each.
+struct Deflated {
+  Matrix zeros, rest;  ///< orthonormal; span(zeros) is invariant
+
+  Deflated(const Matrix& A, const Matrix& at_rest) {
+    const auto [still, moving] = split(at_rest);
+    const Matrix further = kernel(moving.transpose() * A * moving);
+    const auto [steady, others] = split(further.leftCols(std::min(further.cols(), at_rest.cols())));
+    zeros.resize(A.rows(), still.cols() + steady.cols());
+    zeros << still, moving * steady;
+    rest = moving * others;
+  }
+  /// The eigenvector of A to one, y, of rest^T A rest.
+  [[nodiscard]] Eigen::VectorXcd lift(const Matrix& A, std::complex<double> s,
+                                      const Eigen::VectorXcd& y) const {
+    const Eigen::VectorXcd x = rest * y;
+    if (zeros.cols() == 0) return x;
+    Eigen::MatrixXcd T = -(zeros.transpose() * A * zeros).cast<std::complex<double>>();
+    T.diagonal().array() += s;
+    return x + zeros * T.fullPivLu().solve((zeros.transpose() * A) * x);
+  }
+};
+
+/// Whether an energy conserved or dissipated tells stability: K symmetric, constraints that do no work, and C
+/// not pushing. Each coordinate is measured by its own damping, so that a strong damper hides no weak push.
+bool has_energy(const Tangent& t) {
+  if (!t.symmetric || t.E.norm() > round_off) return false;
+  Matrix D = onto(Matrix::Identity(t.C.rows(), t.C.rows()), t.C);
+  D = ((D + D.transpose()) / 2).eval();
+  D = (D.array().abs() > round_off * (t.C.cwiseAbs() + t.C.transpose().cwiseAbs()).array()).select(D, 0.0);
+  Vector scale(D.rows());
+  for (Index i = 0; i < D.rows(); ++i) {
+    if (D(i, i) < 0.0 || (D(i, i) == 0.0 && !D.row(i).isZero(0.0))) return false;
+    scale[i] = D(i, i) > 0.0 ? 1.0 / std::sqrt(D(i, i)) : 0.0;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(scale.asDiagonal() * D * scale.asDiagonal(),
+                                                     Eigen::EigenvaluesOnly);
+  return D.rows() == 0 || solver.eigenvalues().minCoeff() >= -round_off;
+}
+
+/// Adds what an eigenvalue says that is known to an error.
+void judge(Modes& found, std::complex<double> s, double error, bool carries_energy) {
+  if (s.real() > error) {
+    refute(found, Stability::unstable, grows(s));
+  } else if (!(s.real() < -error) && !carries_energy) {
+    std::ostringstream text;
+    text << "whether a mode of " << s.imag() << " rad/time grows as exp(" << s.real()
+         << " t) does not show, since that is known to " << error << ", nor has it an energy > 0";
+    refute(found, Stability::undecided, text.str());
+  }
+}
+
+void of_any(Tangent t, Modes& found) {
+  /// Of each term of the matrix and each step of the QR algorithm, in units of round-off of the largest.
+  constexpr double backward = 10.0;
+  const double Omega = scale_time(t);
+  const FirstOrder f = first_order(t);
+  Matrix at_rest = states_at_rest(t, f);
+  for (Index k = 0; k < at_rest.cols(); ++k)
+    found.modes.push_back(mode(0.0, at_rest.col(k).cast<std::complex<double>>(), t));
+  at_rest.conservativeResizeLike(Matrix::Zero(f.matrix.rows(), at_rest.cols()));
+  const Deflated deflated(f.matrix, at_rest);
+  const Matrix A = deflated.rest.transpose() * f.matrix * deflated.rest;
+  if (A.size() == 0) return;
+  const Eigen::EigenSolver<Matrix> solver(A);
+  const Eigen::MatrixXcd right = solver.eigenvectors();
+  const Eigen::MatrixXcd left = right.inverse();
+  const bool energy_tells = has_energy(t);
+  for (Index k = 0; k < A.rows(); ++k) {
+    const std::complex<double> s = solver.eigenvalues()[k];
+    if (s.imag() < 0.0) continue;
+    // First-order perturbation: |ds| <= |dA| / |y^H x| for left and right eigenvectors of length 1.
+    const double condition = left.row(k).norm() * right.col(k).norm();
+    const double error = backward * static_cast<double>(A.rows()) * epsilon * A.norm() *
+                         (std::isfinite(condition) ? condition : std::numeric_limits<double>::infinity());
+    const Eigen::VectorXcd z = deflated.lift(f.matrix, s, right.col(k)).head(t.K.rows());
+    const double kinetic = std::norm(s) * z.squaredNorm();
+    const double energy = kinetic + (z.adjoint() * t.K * z)(0, 0).real();
+    const double unknown = round_off * z.cwiseAbs().dot(t.K.cwiseAbs() * z.cwiseAbs());
+    found.modes.push_back(mode(Omega * s, z, t));
+    judge(found, Omega * s, Omega * error, energy_tells && energy > 1e-9 * kinetic + unknown);
+  }
+}
+
+}  // namespace
+
+Modes dense_modes(const System& system, const LinearTerms& terms) {
+  Modes found{{}, Stability::stable, "every mode decays or vibrates with positive energy"};
+  for (Tangent& t : tangents(system, terms)) {
+    if (t.K.rows() == 0) continue;  // a part without freedom
+    const bool conservative = t.B.rows() == 0 && t.C.isZero(0.0) && t.symmetric;
+    conservative ? of_conservative(t, found) : of_any(std::move(t), found);
+  }
+  std::ranges::stable_sort(found.modes, {}, [](const Mode& m) { return std::abs(m.eigenvalue); });
+  return found;
+}
+
+TangentStiffness tangent_stiffness(const System& system, const LinearTerms& terms) {
+  const Tangent t = tangent(system, terms, up_to(system.coordinates()), up_to(system.rows()));
+  if (t.K.rows() == 0) return {Vector(0), t.shapes};
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver((t.K + t.K.transpose()) / 2);
+  return {solver.eigenvalues(), t.shapes * solver.eigenvectors()};
+}
+
+}  // namespace dalembert

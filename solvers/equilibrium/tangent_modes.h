@@ -1,0 +1,38 @@
+#pragma once
+
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/equilibrium/linear_terms.h>
+#include <dalembert/solvers/equilibrium/normal_modes.h>
+
+#include <Eigen/Core>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// Coordinates of a small scene.
+inline constexpr std::size_t most_dense = 600;
+
+/// All modes of a small scene by dense matrices, of each part that nothing couples by itself. With an
+/// orthonormal basis N of the tangent space in the metric of the masses, u = M^-1/2 N z,
+///
+///   z'' + C z' + K z = B^T y,    B z' + E z = 0     (nonholonomic rows)                            (1)
+///
+/// If there are no such rows, C = 0 and K is symmetric: K z = omega^2 z. Otherwise, with P a basis of the
+/// null space of B and z' = P c - B^+ E z,
+///
+///   z' = P c - B^+ E z,    c' = P^T (C B^+ E - K) z - P^T C P c,                                       (2)
+///
+/// in units of time in which |K| = 1. Its zero eigenvalues may be defective: those of the null space of
+/// [P^T K; E], and at most one further to each, are deflated before the others are looked for. Each of these
+/// is known to the matrix's round-off times its condition 1/|y^H x|, and decides only what exceeds that; an
+/// energy u'.M u'/2 + u.K u/2 > 0 decides where it does not grow: for K symmetric, C not pushing, E = 0.
+/// Marks no mode as free. Throws EquationFault.
+[[nodiscard]] Modes dense_modes(const System& system, const LinearTerms& terms);
+
+/// The symmetric part of K there: its eigenvalues, increasing, and their shapes u = M^-1/2 N z as columns.
+struct TangentStiffness {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd shapes;
+};
+[[nodiscard]] TangentStiffness tangent_stiffness(const System& system, const LinearTerms& terms);
+
+}  // namespace dalembert

@@ -1,0 +1,239 @@
+#include <dalembert/dalembert.h>
+#include <dalembert/models/governor.h>
+#include <dalembert/models/hoop_about_diameter.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace dalembert {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+/// Bifurcations are where an eigenvalue that crosses 0 with a slope of order 10 is round-off of order 1e-13.
+constexpr double located = 1e-12;
+/// Points of a branch are in balance to 1e-10 of the forces, and by Newton's iteration its square root
+/// better.
+constexpr double on_branch = 1e-10;
+
+TEST(Branches, OfTheBeadOnATurningHoopForkWhereItIsThrownOut) {
+  // mex39: Omega^2 = g/R, beyond which cos phi0 = g/(R Omega^2).
+  Particle<3> bead;
+  const auto diagram = follow_branches<3>(
+      [&bead](double Omega) {
+        auto built = models::HoopAboutDiameter{.spin = Omega, .angle = 0.0}.scene();
+        bead = built.bead;
+        return Posed<3>{std::move(built.scene), {.turning = {.rate = {0.0, 0.0, Omega}}}};
+      },
+      {.from = 2.0, .to = 6.0});
+  ASSERT_EQ(diagram.bifurcations.size(), 1U);
+  EXPECT_NEAR(diagram.bifurcations[0].parameter, std::sqrt(9.81), located);
+  EXPECT_TRUE(diagram.folds.empty());
+  ASSERT_EQ(diagram.branches.size(), 3U);
+  double side = 0.0;
+  for (const auto& branch : diagram.branches) {
+    const bool at_bottom = branch.origin == no_bifurcation;
+    EXPECT_NEAR(branch.points.back().parameter, 6.0, on_branch);
+    for (const auto& point : branch.points) {
+      const double Omega2 = point.parameter * point.parameter;
+      const double cosine = at_bottom ? 1.0 : 9.81 / Omega2;
+      EXPECT_NEAR(-point.state.sample().position(bead).z(), cosine, on_branch);
+      // The stiffness is omega^2: g/R - Omega^2 at the bottom, else Omega^2 sin^2 phi0.
+      EXPECT_NEAR(point.softest, at_bottom ? 9.81 - Omega2 : Omega2 * (1.0 - cosine * cosine),
+                  1e2 * on_branch);
+    }
+    if (!at_bottom) side += branch.points.back().state.sample().position(bead).x();
+  }
+  EXPECT_NEAR(side, 0.0, on_branch);  // one to either side
+}
+
+TEST(Branches, OfTheGovernorLeaveTheAxisAtItsThreshold) {
+  // mex23: Omega^2 = (m1 + m2) g/(m1 L). On the axis the four rods are dependent on each other, and each of
+  // the masses may go to either side: four branches.
+  models::GovernorParts parts;
+  const auto diagram = follow_branches<3>(
+      [&parts](double Omega) {
+        auto built = models::Governor{.spin = Omega, .angle = 0.0}.scene();
+        parts = built.parts;
+        return Posed<3>{std::move(built.scene), {.turning = {.rate = {0.0, 0.0, Omega}}}};
+      },
+      {.from = 2.0, .to = 9.0});
+  ASSERT_EQ(diagram.bifurcations.size(), 1U);
+  EXPECT_NEAR(diagram.bifurcations[0].parameter, std::sqrt(3.0 * 9.81), located);
+  ASSERT_EQ(diagram.branches.size(), 5U);
+  for (std::size_t b = 1; b < 5; ++b) {
+    EXPECT_EQ(diagram.branches[b].origin, 0U);
+    for (const auto& point : diagram.branches[b].points) {
+      const double cosine = 3.0 * 9.81 / (point.parameter * point.parameter);
+      EXPECT_NEAR(-point.state.sample().position(parts.masses[0]).z(), cosine, on_branch);
+      EXPECT_NEAR(-point.state.sample().multiplier(parts.upper[1]), 2.0 * 9.81 / cosine, 1e3 * on_branch);
+      EXPECT_GT(point.softest, 0.0);
+    }
+  }
+}
+
+TEST(Branches, OfAShallowArchTurnBackWhereItSnaps) {
+  // A point on two springs from (+-1, 0), of stiffness k and relaxed length l0 = sqrt(1 + h^2), under the
+  // load p: p = 2 k y (l0/l - 1), l^2 = 1 + y^2; dp/dy = 0 at l^3 = l0, where p = 2 k (l0^(2/3) - 1)^(3/2).
+  const double k = 10.0, h = 0.5, l0 = std::sqrt(1.0 + h * h);
+  const double snap = 2.0 * k * std::pow(std::cbrt(l0 * l0) - 1.0, 1.5);
+  Particle<2> top;
+  const auto diagram = follow_branches<2>(
+      [&](double load) {
+        Scene<2> scene("arch");
+        scene.add(UniformGravity<2>{{0.0, -load}});
+        top = scene.add_particle({.mass = 1.0, .position = {0.0, h}});
+        scene.add(OnCurve{top, Plane<2>{.normal = {1.0, 0.0}}});
+        for (const double side : {1.0, -1.0}) scene.add(Spring{Fixed<2>{{side, 0.0}}, top, k, l0});
+        return Posed<2>{std::move(scene)};
+      },
+      {.from = -0.5 * snap, .to = 2.0 * snap});
+  ASSERT_EQ(diagram.folds.size(), 1U);
+  // At a fold the load is flat: the place is known to round-off, its load to the square of that.
+  EXPECT_NEAR(diagram.folds[0].parameter, snap, located);
+  EXPECT_TRUE(diagram.bifurcations.empty());
+  ASSERT_EQ(diagram.branches.size(), 1U);
+  const auto& points = diagram.branches[0].points;
+  EXPECT_NEAR(points.back().parameter, -0.5 * snap, on_branch);  // it has come back
+  EXPECT_GT(points.front().softest, 0.0);
+  EXPECT_LT(points.back().softest, 0.0);
+  for (const auto& point : points) {
+    const double y = point.state.sample().position(top).y(), l = std::sqrt(1.0 + y * y);
+    EXPECT_NEAR(point.parameter, 2.0 * k * y * (l0 / l - 1.0), 1e2 * on_branch);
+  }
+}
+
+/// A bead of mass 1 on a line, on a spring of 1 under a load, which it follows: x = load.
+struct Loaded {
+  Particle<2> bead{};
+  Force spring{};
+
+  Diagram<Equilibrium<2>> follow(const auto& load, const BranchOptions& options) {
+    return follow_branches<2>(
+        [this, &load](double p) {
+          Scene<2> scene("loaded");
+          bead = scene.add_particle({.mass = 1.0 + p, .position = {0.0, 1.0}});
+          scene.add(OnCurve{bead, [](auto r) { return r.y() - 1.0; }});
+          const double f = load(p);
+          spring = scene.add(
+              potential(points(bead, Fixed<2>{}), [](auto r, auto) { return 0.5 * r.x() * r.x(); }));
+          scene.add(potential(points(bead), [f](auto r) { return -f * r.x(); }));
+          return Posed<2>{std::move(scene)};
+        },
+        options);
+  }
+};
+
+TEST(Branches, BeginAlongThemselvesHoweverSteep) {
+  // dx/dp = 10 ranges: far from the axis of the parameter.
+  Loaded loaded;
+  const auto diagram = loaded.follow([](double p) { return p; }, {.from = 0.0, .to = 10.0});
+  ASSERT_EQ(diagram.branches.size(), 1U);
+  const auto& branch = diagram.branches[0];
+  EXPECT_EQ(branch.end, BranchEnd::range);
+  EXPECT_NEAR(branch.points.back().parameter, 10.0, located);
+  for (const auto& point : branch.points)
+    EXPECT_NEAR(point.state.sample().position(loaded.bead).x(), point.parameter, 10.0 * on_branch);
+}
+
+TEST(Branches, AreNotClosedBecauseTheirFirstStepsAreShort) {
+  // x = 20 p^2 begins flat and bends at once, so that the first steps are halved.
+  Loaded loaded;
+  const auto diagram = loaded.follow([](double p) { return 20.0 * p * p; }, {.from = 0.0, .to = 1.0});
+  ASSERT_EQ(diagram.branches.size(), 1U);
+  EXPECT_EQ(diagram.branches[0].end, BranchEnd::range);
+  EXPECT_NEAR(diagram.branches[0].points.back().parameter, 1.0, located);
+  // 5,000 points of a step of 0.02 do not reach x = 1000.
+  const auto steep = loaded.follow([](double p) { return 1000.0 * p * p; }, {.from = 0.0, .to = 1.0});
+  EXPECT_EQ(steep.branches[0].end, BranchEnd::most_points);
+}
+
+TEST(Branches, HaveTheForcesAndMassesOfTheirOwnValueOfTheParameter) {
+  Loaded loaded;
+  const auto diagram = loaded.follow([](double p) { return p; }, {.from = 1.0, .to = 2.0, .step = 0.2});
+  for (const auto& point : diagram.branches[0].points) {
+    const auto sample = point.state.sample();
+    EXPECT_NEAR(sample.force(loaded.spring, loaded.bead).x(), -point.parameter, 10.0 * on_branch);
+    EXPECT_EQ(point.state.layout().particles[0].mass, 1.0 + point.parameter);
+  }
+}
+
+TEST(Branches, AskForNoSceneOutsideOfTheirRange) {
+  double least = 2.0, most = 1.0;
+  Loaded loaded;
+  const auto diagram = loaded.follow(
+      [&](double p) {
+        least = std::min(least, p);
+        most = std::max(most, p);
+        return p;
+      },
+      {.from = 1.0, .to = 2.0});
+  EXPECT_NEAR(diagram.branches[0].points.back().parameter, 2.0, located);
+  EXPECT_EQ(least, 1.0);
+  EXPECT_EQ(most, 2.0);
+}
+
+TEST(Branches, RefuseOptionsAndScenesThatMakeNoSense) {
+  const auto pendulum = [](double) {
+    Scene<2> scene("pendulum");
+    const auto bob = scene.add_particle({.mass = 1.0, .position = {0.0, -1.0}});
+    scene.add(Distance{Fixed<2>{}, bob, 1.0});
+    return Posed<2>{std::move(scene)};
+  };
+  EXPECT_THAT([&] { (void)follow_branches<2>(pendulum, {.from = 1.0, .to = 1.0}); },
+              ThrowsMessage<InvalidArgument>(HasSubstr("different")));
+  EXPECT_THAT([&] { (void)follow_branches<2>(pendulum, {.from = 0.0, .to = 1.0, .step = 2.0}); },
+              ThrowsMessage<InvalidArgument>(HasSubstr("step")));
+  const auto changing = [](double parameter) {
+    Scene<2> scene("changing");
+    scene.add_particle({.mass = 1.0});
+    if (parameter > 0.5) scene.add_particle({.mass = 1.0});
+    return Posed<2>{std::move(scene)};
+  };
+  EXPECT_THAT([&] { (void)follow_branches<2>(changing, {.from = 0.0, .to = 1.0}); },
+              ThrowsMessage<InvalidScene>(HasSubstr("other points")));
+  const auto skate = [](double) {
+    Scene<2> scene("skate");
+    const auto blade = scene.add_particle({.mass = 1.0});
+    scene.add(nonholonomic(points(blade), [](auto, auto v) { return v.y(); }));
+    return Posed<2>{std::move(scene)};
+  };
+  EXPECT_THAT([&] { (void)follow_branches<2>(skate, {.from = 0.0, .to = 1.0}); },
+              ThrowsMessage<InvalidScene>(HasSubstr("nonholonomic")));
+}
+
+TEST(Branches, ThatForkWithinOneStepAreAllFollowed) {
+  // Two rigid columns side by side, V = k x^2/2 + p y with k = 10 and 10.1: each buckles at p = k, within the
+  // same step of the load, into k cos theta = p to either side.
+  const auto diagram = follow_branches<2>(
+      [](double p) {
+        Scene<2> scene;
+        for (const double k : {10.0, 10.1}) {
+          const auto tip = scene.add_particle({.mass = 1.0, .position = {100.0 * k, 1.0}});
+          scene.add(Distance{Fixed<2>{{100.0 * k, 0.0}}, tip, 1.0});
+          scene.add(potential(points(tip), [k, p](auto r) {
+            const auto x = r.x() - 100.0 * k;
+            return 0.5 * k * x * x + p * r.y();
+          }));
+        }
+        return Posed<2>{std::move(scene), {}};
+      },
+      {.from = 8.0, .to = 12.0, .step = 0.1});
+  ASSERT_GE(diagram.bifurcations.size(), 2U);
+  EXPECT_NEAR(diagram.bifurcations[0].parameter, 10.0, 10 * located);
+  EXPECT_NEAR(diagram.bifurcations[1].parameter, 10.1, 10 * located);
+  EXPECT_TRUE(diagram.folds.empty());
+  std::size_t of_first = 0, of_second = 0;
+  for (const auto& branch : diagram.branches) {
+    of_first += branch.origin == 0;
+    of_second += branch.origin == 1;
+  }
+  EXPECT_EQ(of_first, 2U);
+  EXPECT_EQ(of_second, 2U);
+}
+
+}  // namespace
+}  // namespace dalembert

@@ -1,0 +1,398 @@
+#include "../finite_differences.h"
+#include <dalembert/dalembert.h>
+#include <dalembert/models/cone.h>
+#include <dalembert/models/hoop_about_diameter.h>
+#include <dalembert/models/sliding_pivot.h>
+#include <dalembert/solvers/equilibrium/linear_terms.h>
+#include <dalembert/solvers/equilibrium/lowest_modes.h>
+#include <dalembert/solvers/equilibrium/tangent_modes.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <limits>
+
+namespace dalembert {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// Terms of size 1 to 100 known to some roundings, over matrices of a few rows.
+constexpr double rounding = 1e3 * epsilon;
+
+struct Bob {
+  Scene<2> scene{"bob"};
+  Particle<2> bob;
+
+  explicit Bob(double height) {
+    scene.add(UniformGravity<2>{{0.0, -9.81}});
+    bob = scene.add_particle({.mass = 2.0, .position = {0.0, height}}, "bob");
+    scene.add(Distance{Fixed<2>{}, bob, 1.0}, "rod");
+  }
+  [[nodiscard]] NormalModes<2> modes() const { return normal_modes(scene, equilibrium(scene)); }
+};
+
+TEST(NormalModes, OfAPendulumGoAsTheRootOfGravityOverLength) {
+  const Bob pendulum(-1.0);
+  const auto modes = pendulum.modes();
+  ASSERT_EQ(modes.size(), 1U);
+  EXPECT_NEAR(modes.frequency(0), std::sqrt(9.81), rounding);
+  EXPECT_EQ(modes.damping(0), 0.0);
+  EXPECT_EQ(modes.stability(), Stability::stable);
+  EXPECT_NEAR(std::abs(modes.shape(0, pendulum.bob).x()), 1.0, rounding);
+  EXPECT_NEAR(std::abs(modes.shape(0, pendulum.bob).y()), 0.0, rounding);
+}
+
+TEST(NormalModes, OfAPendulumUpsideDownGrowAndAreUnstable) {
+  const auto modes = Bob(1.0).modes();
+  EXPECT_NEAR(modes.damping(0), -std::sqrt(9.81), rounding);
+  EXPECT_EQ(modes.stability(), Stability::unstable);
+}
+
+TEST(NormalModes, WithDragDecayAtHalfItsCoefficientOverTheMass) {
+  // 2 u'' + 1.2 u' + 2 (9.81) u = 0: s = -0.3 +- i sqrt(9.81 - 0.09).
+  Bob damped(-1.0);
+  damped.scene.add(LinearDrag{damped.bob, 1.2});
+  const auto modes = damped.modes();
+  ASSERT_EQ(modes.size(), 1U);
+  EXPECT_NEAR(modes.damping(0), 0.3, rounding);
+  EXPECT_NEAR(modes.frequency(0), std::sqrt(9.72), rounding);
+  EXPECT_EQ(modes.stability(), Stability::stable);
+}
+
+TEST(NormalModes, WithMuchDragAreTwoThatCreep) {
+  // s^2 + 8 s + 9.81 = 0.
+  Bob damped(-1.0);
+  damped.scene.add(LinearDrag{damped.bob, 16.0});
+  const auto modes = damped.modes();
+  ASSERT_EQ(modes.size(), 2U);
+  EXPECT_NEAR(modes.damping(0), 4.0 - std::sqrt(16.0 - 9.81), 10 * rounding);
+  EXPECT_NEAR(modes.damping(1), 4.0 + std::sqrt(16.0 - 9.81), 10 * rounding);
+}
+
+TEST(NormalModes, OfACompliantRodAreThePendulumsAndTheSprings) {
+  for (const double k : {1e4, 1e8}) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -9.81}});
+    const auto bob = scene.add_particle({.mass = 2.0, .position = {0.0, -1.0}});
+    scene.add(compliant(Distance{Fixed<2>{}, bob, 1.0}, 1.0 / k));
+    const auto modes = normal_modes(scene, equilibrium(scene));
+    ASSERT_EQ(modes.size(), 2U);
+    // Of a matrix with entries to k/m each eigenvalue omega^2 is known to roundings of that.
+    EXPECT_NEAR(modes.frequency(0), std::sqrt(9.81 / (1.0 + 19.62 / k)), rounding + 10 * epsilon * k);
+    EXPECT_NEAR(modes.frequency(1), std::sqrt(k / 2.0), std::sqrt(k) * rounding);
+  }
+}
+
+TEST(NormalModes, OfRepeatedConstraintsAreThoseOfOne) {
+  Bob twice(-1.0);
+  twice.scene.add(Distance{twice.bob, Fixed<2>{}, 1.0});
+  EXPECT_NEAR(twice.modes().frequency(0), std::sqrt(9.81), rounding);
+}
+
+TEST(NormalModes, NameFreeMotionsAndDoNotCallThemUnstable) {
+  // mex24: the block slides with its bob; omega^2 = (g/L)(1 + m/M).
+  const auto built = models::SlidingPivot{.block_mass = 2.0, .bob_mass = 1.0, .angle = 0.3}.scene();
+  const auto modes = normal_modes(built.scene, equilibrium(built.scene));
+  ASSERT_EQ(modes.size(), 2U);
+  EXPECT_TRUE(modes.is_free(0));
+  EXPECT_EQ(modes.eigenvalue(0), 0.0);
+  EXPECT_FALSE(modes.is_free(1));
+  EXPECT_NEAR(modes.frequency(1), std::sqrt(9.81 * 1.5), 10 * rounding);
+  EXPECT_EQ(modes.stability(), Stability::stable);
+  EXPECT_THAT(modes.describe(), HasSubstr("free motion of \"particle0\" \"particle1\""));
+}
+
+TEST(NormalModes, DoNotDecideWhereTermsOfHigherOrderDo) {
+  for (const double quartic : {1.0, -1.0}) {
+    Scene<2> scene;
+    const auto bead = scene.add_particle({.mass = 2.0});
+    scene.add(potential(points(bead), [quartic](auto r) {
+      const auto y2 = r.y() * r.y();
+      return 5.0 * r.x() * r.x() + quartic * y2 * y2;
+    }));
+    const auto modes = normal_modes(scene, equilibrium(scene));
+    EXPECT_EQ(modes.stability(), Stability::undecided);
+    EXPECT_FALSE(modes.is_free(0));
+    EXPECT_NEAR(modes.frequency(1), std::sqrt(5.0), rounding);
+  }
+}
+
+TEST(NormalModes, OfABeadThatAHoopHoldsUp) {
+  // mex39: omega = Omega sin phi0, cos phi0 = g/(R Omega^2).
+  const auto built = models::HoopAboutDiameter{.spin = 4.5}.scene();
+  const auto modes =
+      normal_modes(built.scene, equilibrium(built.scene, {.turning = {.rate = {0.0, 0.0, 4.5}}}));
+  const double cosine = 9.81 / 20.25;
+  ASSERT_EQ(modes.size(), 1U);
+  EXPECT_NEAR(modes.frequency(0), 4.5 * std::sqrt(1.0 - cosine * cosine), 10 * rounding);
+  EXPECT_EQ(modes.stability(), Stability::stable);
+}
+
+TEST(NormalModes, OfACircularOrbitAreHeldByGyroscopicForces) {
+  // mex133: omega^2 = 3 Omega^2 sin^2 a, and the bead goes round freely. The centrifugal potential has its
+  // maximum at the orbit: without Coriolis forces it would be unstable.
+  const double Omega = std::sqrt(9.81 / std::tan(0.6));
+  const auto built = models::ConeSlide{.half_angle = 0.6, .start_radius = 1.1}.scene();
+  const auto modes =
+      normal_modes(built.scene, equilibrium(built.scene, {.turning = {.rate = {0.0, 0.0, Omega}}}));
+  ASSERT_EQ(modes.size(), 2U);
+  EXPECT_TRUE(modes.is_free(0));
+  EXPECT_NEAR(modes.frequency(1), std::sqrt(3.0) * Omega * std::sin(0.6), 1e2 * rounding);
+  EXPECT_EQ(modes.stability(), Stability::stable);
+}
+
+TEST(NormalModes, OfVibrationsSeenFromATurningFrameHaveEnergyOfEitherSign) {
+  // x'' - 2 W y' = (W^2 - k) x, y'' + 2 W x' = (W^2 - k) y for a bead of mass 1 on a spring k < W^2:
+  // frequencies W +- sqrt(k). The centre is a maximum of the centrifugal and elastic potential: what goes
+  // round more slowly than the frame has negative energy, and drag against the frame would make it grow.
+  Scene<2> scene;
+  const auto bead = scene.add_particle({.mass = 1.0, .position = {1e-3, 0.0}}, "bead");
+  scene.add(potential(points(bead), [](auto r) { return 0.5 * 0.16 * r.squaredNorm(); }));
+  const auto found = equilibrium(scene, {.turning = {.rate = 1.0}});
+  const auto modes = normal_modes(scene, found);
+  ASSERT_EQ(modes.size(), 2U);
+  EXPECT_NEAR(modes.frequency(0), 0.6, 10 * rounding);
+  EXPECT_NEAR(modes.frequency(1), 1.4, 10 * rounding);
+  EXPECT_EQ(modes.stability(), Stability::undecided);
+}
+
+TEST(NormalModes, OfARollingBallInABowlHaveTheInertiaOfItsSpin) {
+  // A wheel of mass m, radius r, inertia I rolls along the bottom of a valley V = k x^2/2 without slipping,
+  // v_x = r w: (m + I/r^2) x'' = -k x; the constraint is of velocities, and turning it is no vibration.
+  Scene<2> scene;
+  const auto centre = scene.add_particle({.mass = 2.0});
+  const auto wheel = scene.add_rotor({.inertia = 0.25});
+  scene.add(OnCurve{centre, Plane<2>{}});
+  scene.add(
+      nonholonomic(points(centre, wheel), [](auto, auto, auto v, auto w) { return v.x() - 0.5 * w[0]; }));
+  scene.add(potential(points(centre), [](auto r) { return 6.0 * r.x() * r.x(); }));
+  const auto modes = normal_modes(scene, equilibrium(scene));
+  ASSERT_EQ(modes.size(), 2U);
+  EXPECT_EQ(modes.eigenvalue(0), 0.0);  // where the wheel stands when it is in the middle
+  EXPECT_NEAR(modes.frequency(1), std::sqrt(12.0 / 3.0), 10 * rounding);
+  EXPECT_EQ(modes.stability(), Stability::stable);
+}
+
+TEST(NormalModes, AreRefusedWhereTheirEquationsChangeWithTime) {
+  // At the bottom of a turning hoop the bead rests, but the plane it can move in does not.
+  const auto built = models::HoopAboutDiameter{.spin = 2.0, .angle = 0.0}.scene();
+  const auto at_rest = equilibrium(built.scene);
+  EXPECT_THAT([&] { (void)normal_modes(built.scene, at_rest); },
+              ThrowsMessage<InvalidScene>(HasSubstr("change with time")));
+  const auto turning = equilibrium(built.scene, {.turning = {.rate = {0.0, 0.0, 2.0}}});
+  EXPECT_NEAR(normal_modes(built.scene, turning).frequency(0), std::sqrt(9.81 - 4.0), 10 * rounding);
+}
+
+TEST(NormalModes, OfWhichThereAreFewerAreRefused) {
+  EXPECT_THAT([] { (void)Bob(-1.0).modes().frequency(1); },
+              ThrowsMessage<InvalidArgument>(HasSubstr("no mode 1")));
+}
+
+/// A chain in space of equal beads of total length, mass and g 1, hung or with springs for rods.
+Scene<3> chain(std::size_t beads, double stiffness = 0.0) {
+  Scene<3> scene("chain");
+  const double l = 1.0 / static_cast<double>(beads);
+  scene.add(UniformGravity<3>{{0.0, 0.0, -1.0}});
+  std::vector<Particle<3>> all;
+  for (std::size_t i = 0; i < beads; ++i) {
+    const double depth = l * static_cast<double>(i + 1);
+    all.push_back(scene.add_particle({.mass = l, .position = {0.0, 0.0, -depth}}));
+    const auto hang = [&](const auto& from) {
+      if (stiffness > 0.0) {
+        scene.add(compliant(Distance{from, all[i], l}, l / stiffness));
+      } else {
+        scene.add(Distance{from, all[i], l});
+      }
+    };
+    i == 0 ? hang(Fixed<3>{}) : hang(all[i - 1]);
+  }
+  return scene;
+}
+
+TEST(LowestModes, AreThoseOfTheDenseMatrix) {
+  // Two methods that share the terms alone. Every frequency of a chain in space is double. Either knows
+  // omega^2 to roundings of the highest, 4 g N^2 of rods and 4 k N^2 of springs.
+  constexpr std::size_t beads = 40;
+  for (const double stiffness : {0.0, 1e3}) {
+    const Scene<3> scene = chain(beads, stiffness);
+    const auto rest = equilibrium(scene);
+    const FlatSample at = rest.sample().flat();
+    const System system = scene.system();
+    const LinearTerms terms =
+        linear_terms(system, Carrier(*system.layout(), {}), {at.time, at.q, at.v}, at.lambda);
+    const Modes dense = dense_modes(system, terms), sparse = lowest_modes(system, terms, 10);
+    ASSERT_EQ(sparse.modes.size(), 10U);
+    EXPECT_EQ(sparse.stability, Stability::stable);
+    const double highest = 4.0 * beads * beads * std::max(1.0, stiffness);
+    for (std::size_t k = 0; k < 10; ++k) {
+      const double omega = dense.modes[k].eigenvalue.imag();
+      EXPECT_NEAR(sparse.modes[k].eigenvalue.imag(), omega, 100 * epsilon * highest / omega) << k;
+    }
+  }
+}
+
+TEST(LowestModes, FindFreeMotionsAndWhatGrows) {
+  // Beads on a wire with springs between them slide freely together; of many pendulums one stands on its
+  // head.
+  Scene<2> train("train");
+  std::vector<Particle<2>> beads;
+  for (int i = 0; i < 301; ++i) {
+    beads.push_back(train.add_particle({.mass = 1.0, .position = {static_cast<double>(i), 0.0}}));
+    train.add(OnCurve{beads.back(), Plane<2>{}});
+    if (i > 0) train.add(Spring{beads[beads.size() - 2], beads.back(), 1.0, 1.0});
+  }
+  const auto modes = normal_modes(train, equilibrium(train), {.lowest = 3});
+  EXPECT_TRUE(modes.is_free(0));
+  // Free ends: omega_k = 2 sin(k pi/(2 N)).
+  for (std::size_t k : {1U, 2U})
+    EXPECT_NEAR(modes.frequency(k), 2.0 * std::sin(static_cast<double>(k) * std::acos(-1.0) / 602.0), 1e-10);
+
+  Scene<2> standing("standing");
+  standing.add(UniformGravity<2>{{0.0, -1.0}});
+  for (int i = 0; i < 301; ++i) {
+    const auto bob =
+        standing.add_particle({.mass = 1.0, .position = {static_cast<double>(i), i < 300 ? -1.0 : 1.0}});
+    standing.add(Distance{Fixed<2>{{static_cast<double>(i), 0.0}}, bob, 1.0});
+  }
+  const auto unstable = normal_modes(standing, equilibrium(standing), {.lowest = 2});
+  EXPECT_NE(unstable.stability(), Stability::stable);
+}
+
+TEST(LowestModes, AreRefusedWithDampingAndWithoutANumber) {
+  Scene<3> scene = chain(201);
+  const auto rest = equilibrium(scene);
+  EXPECT_THAT([&] { (void)normal_modes(scene, rest); }, ThrowsMessage<InvalidScene>(HasSubstr("lowest")));
+  const auto bead = scene.add_particle({.mass = 1.0});
+  scene.add(LinearDrag{bead, 1.0});
+  scene.add(Distance{Fixed<3>{{0.0, 0.0, 1.0}}, bead, 1.0});
+  EXPECT_THAT([&] { (void)normal_modes(scene, equilibrium(scene), {.lowest = 3}); },
+              ThrowsMessage<InvalidScene>(HasSubstr("damping")));
+}
+
+/// The residual of motion in the turning frame at displacements u and rates w of it:
+/// F + W^T lambda - M (2 A w + A^2 (q + u - p)), and psi of the nonholonomic rows.
+Eigen::VectorXd residual(const System& system, const Carrier& carrier, const Instant& at,
+                         std::span<const double> lambda, const Eigen::VectorXd& u, const Eigen::VectorXd& w) {
+  const std::size_t n = at.q.size();
+  std::vector<double> q(n), v(n), twice(n), carried(n), inertia(n);
+  for (std::size_t i = 0; i < n; ++i) q[i] = at.q[i] + u[static_cast<Eigen::Index>(i)];
+  carrier.velocity(q, v);
+  carrier.apply(v, inertia);
+  carrier.apply(std::span(w.data(), n), twice);
+  for (std::size_t i = 0; i < n; ++i) v[i] += w[static_cast<Eigen::Index>(i)];
+  auto e = system.evaluation();
+  system.evaluate({at.t, q, v}, e);
+  Eigen::VectorXd out(static_cast<Eigen::Index>(n + system.rows()));
+  out.setZero();
+  for (std::size_t i = 0; i < n; ++i)
+    out[static_cast<Eigen::Index>(i)] = e.force[i] - system.masses()[i] * (inertia[i] + 2.0 * twice[i]);
+  for (std::size_t r = 0; r < system.rows(); ++r) {
+    for (const std::size_t k : system.row(r))
+      out[static_cast<Eigen::Index>(system.w_columns()[k])] += lambda[r] * e.w[k];
+    if (r >= system.holonomic_rows()) out[static_cast<Eigen::Index>(n + r)] = e.psi[r];
+  }
+  return out;
+}
+
+TEST(LinearTerms, AreTheDerivativesOfTheResidual) {
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.3, -0.9}});
+  const auto a = scene.add_particle({.mass = 1.3, .position = {0.9, 0.2}});
+  const auto b = scene.add_particle({.mass = 0.7, .position = {1.1, -0.8}});
+  const auto wheel = scene.add_rotor({.inertia = 0.2, .angle = 0.4});
+  scene.add(Distance{a, b, 1.0});
+  scene.add(OnCurve{a, [](auto r) { return r.y() - 0.3 * r.x() * r.x(); }});
+  scene.add(nonholonomic(points(b, wheel), [](auto r, auto phi, auto v, auto w) {
+    return v.y() * cos(phi[0]) - sin(r.x()) * v.x() + 0.3 * w[0];
+  }));
+  scene.add(Spring{Fixed<2>{}, b, 5.0, 0.7});
+  scene.add(force_law(points(a), [](auto r, auto v) { return (-0.4 * r.x() * v).eval(); }));
+  const System system = scene.system();
+  const Carrier carrier(*system.layout(), Turning<2>{.rate = 0.8, .centre = {0.2, -0.1}});
+  const std::vector<double> q(scene.initial_positions().begin(), scene.initial_positions().end());
+  std::vector<double> v(q.size());
+  carrier.velocity(q, v);
+  const std::vector<double> lambda{0.7, -1.1, 0.4};
+  const Instant at{0.3, q, v};
+  const LinearTerms terms = linear_terms(system, carrier, at, lambda);
+
+  const auto n = static_cast<Eigen::Index>(q.size());
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n), C = K;
+  for (const auto& k : terms.stiffness) K(k.row(), k.col()) += k.value();
+  for (const auto& c : terms.damping) C(c.row(), c.col()) += c.value();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n), unit = Eigen::VectorXd::Unit(n, i);
+    Eigen::VectorXd by_position = Eigen::VectorXd::Zero(n + 3), by_rate = by_position;
+    by_position.head(n) = -K.col(i);
+    by_rate.head(n) = -C.col(i);
+    for (const std::size_t k : system.row(2)) {
+      if (static_cast<Eigen::Index>(system.w_columns()[k]) != i) continue;
+      by_position[n + 2] += terms.e[k];
+      by_rate[n + 2] += terms.w[k];
+    }
+    expect_slope(slope([&](double h) { return residual(system, carrier, at, lambda, h * unit, zero); }),
+                 by_position, "u" + std::to_string(i));
+    expect_slope(slope([&](double h) { return residual(system, carrier, at, lambda, zero, h * unit); }),
+                 by_rate, "u'" + std::to_string(i));
+  }
+}
+
+TEST(NormalModes, AreNoneOfWhatCannotMove) {
+  // A bob on two rods beside a pendulum: the pendulum's only.
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -9.81}});
+  const auto held = scene.add_particle({.mass = 1.0, .position = {0.0, -1.0}});
+  scene.add(Distance{Fixed<2>{{-1.0, 0.0}}, held, std::sqrt(2.0)});
+  scene.add(Distance{Fixed<2>{{1.0, 0.0}}, held, std::sqrt(2.0)});
+  EXPECT_EQ(normal_modes(scene, equilibrium(scene)).size(), 0U);
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {5.0, -1.0}});
+  scene.add(Distance{Fixed<2>{{5.0, 0.0}}, bob, 1.0});
+  const auto modes = normal_modes(scene, equilibrium(scene));
+  ASSERT_EQ(modes.size(), 1U);
+  EXPECT_NEAR(modes.frequency(0), std::sqrt(9.81), 10 * rounding);
+}
+
+TEST(NormalModes, DoNotDecideWhereTheStiffnessVanishes) {
+  // A bead on y = x^3 at its turning point, which Newton's iteration comes close to from one side.
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -9.81}});
+  const auto bead = scene.add_particle({.mass = 1.0, .position = {0.01, 1e-6}});
+  scene.add(OnCurve{bead, [](const auto& r) {
+                      const auto slope = 3.0 * r.x() * r.x();
+                      return (r.y() - r.x() * r.x() * r.x()) / sqrt(1.0 + slope * slope);
+                    }});
+  const auto modes = normal_modes(scene, equilibrium(scene));
+  EXPECT_EQ(modes.stability(), Stability::undecided);
+  EXPECT_EQ(modes.frequency(0), 0.0);
+}
+
+TEST(NormalModes, AreRefusedWhereConstraintsTouch) {
+  // On y = 0 and on y = x^2: the bead cannot move, though one equation of two seems to leave it a way. Stated
+  // twice, y = x^2 alone leaves that: omega^2 = 2 g.
+  const auto stated = [](bool touching) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -9.81}});
+    const auto bead = scene.add_particle({.mass = 1.0});
+    const auto parabola = [](const auto& r) { return r.y() - r.x() * r.x(); };
+    scene.add(holonomic(points(bead), parabola));
+    if (touching) {
+      scene.add(holonomic(points(bead), [](const auto& r) { return r.y(); }));
+    } else {
+      scene.add(holonomic(points(bead), parabola));
+    }
+    return scene;
+  };
+  const auto touching = stated(true), repeated = stated(false);
+  EXPECT_THAT([&] { (void)normal_modes(touching, equilibrium(touching)); },
+              ThrowsMessage<InvalidScene>(HasSubstr("singular position")));
+  EXPECT_NEAR(normal_modes(repeated, equilibrium(repeated)).frequency(0), std::sqrt(2.0 * 9.81),
+              10 * rounding);
+}
+
+}  // namespace
+}  // namespace dalembert
