@@ -1,0 +1,33 @@
+#include "dalembert/core/lagrange/embedding.h"
+
+#include <cmath>
+
+namespace dalembert::detail {
+
+void require_all_placed(const Layout& layout, std::span<const double> q) {
+  const auto require = [&](const auto& all, const char* kind) {
+    for (const auto& one : all) {
+      if (!std::isnan(q[static_cast<std::size_t>(one.coordinate)])) continue;
+      throw InvalidArgument(std::string("The embedding does not say where ") + kind + " \"" + one.name +
+                            "\" of scene \"" + layout.scene + "\" is; add it");
+    }
+  };
+  require(layout.particles, "particle");
+  require(layout.rotors, "rotor");
+}
+
+void require_frictionless(const System& system) {
+  if (!system.frictional()) return;
+  throw InvalidArgument(system.force_of_friction(0) +
+                        " reads a multiplier: from the motion alone it is not told from the force of "
+                        "constraint; compare a scene without it");
+}
+
+void constraint_forces(const System& system, const Instant& at, std::span<const double> a,
+                       std::span<double> Z) {
+  auto e = system.evaluation();
+  system.evaluate(at, e);
+  for (std::size_t i = 0; i < Z.size(); ++i) Z[i] = system.masses()[i] * a[i] - e.force[i];
+}
+
+}  // namespace dalembert::detail

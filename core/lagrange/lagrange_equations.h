@@ -1,0 +1,173 @@
+#pragma once
+
+#include <dalembert/core/forces/force.h>
+#include <dalembert/core/lagrange/accelerations.h>
+#include <dalembert/core/lagrange/lagrange_terms.h>
+#include <dalembert/core/scene/system.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+namespace dalembert {
+
+template <int N>
+class LagrangeBatch;
+
+/// Generalized forces Q(t, q, v), one per coordinate.
+template <int N>
+using GeneralizedForce = std::function<Vec<N>(double t, const Vec<N>& q, const Vec<N>& v)>;
+
+/// Lagrange's equations of N coordinates q = scale u, as the force on N rotors of unit inertia, their angles
+/// u, that gives them the same accelerations. With v = u' and L as a function of u and v,
+///
+///   L_vv u'' = f + A^T lambda,   A u'' + gamma = 0,    f = L_u - L_vu v - L_vt + Q                       (1)
+///      1 u'' = F,                F = u'' out of (1)                                                      (2)
+///
+/// (2) obeys the constraints by itself: they are among those of the scene so that the motion stays on them,
+/// and exert nothing there. So both steppers, projection and dense output serve a Lagrangian as they serve a
+/// scene, whatever the size of L_vv, and the multipliers are solved for where they are read.
+template <int N>
+struct LagrangeEquations {
+  static constexpr std::string_view kind = "Lagrangian";
+  using Batch = LagrangeBatch<N>;
+
+  std::array<Rotor, static_cast<std::size_t>(N)> coordinates;
+  Vec<N> scale;
+  std::shared_ptr<const Lagrangian<N>> lagrangian;
+  std::vector<GeneralizedForce<N>> forces;
+  std::shared_ptr<const System> constraints;  ///< of the same rotors, or null if there are none
+  int sign = 0;  ///< of the inertia's determinant at the start of a run, see Accelerations; 0 if not known
+
+  auto points() const { return std::tuple_cat(coordinates); }
+
+  /// (1) at one instant.
+  struct Solved {
+    Vec<N> a;         ///< u''
+    Vec<N> reaction;  ///< A^T lambda
+    detail::Rows rows;
+    int sign;
+  };
+  /// Throws std::domain_error where no acceleration follows.
+  [[nodiscard]] Solved solved(const Instant& at) const;
+  /// The energy function less the kinetic energy of the rotors: so that both together are the former.
+  [[nodiscard]] double energy(const Instant& at) const;
+};
+
+template <int N>
+typename LagrangeEquations<N>::Solved LagrangeEquations<N>::solved(const Instant& at) const {
+  const Vec<N> q = scale.cwiseProduct(gather_inputs(*this, at.q)),
+               v = scale.cwiseProduct(gather_inputs(*this, at.v));
+  const LagrangeTerms<N> terms = lagrangian->terms(at.t, q, v);
+  Vec<N> f = terms.force(v);
+  for (const auto& Q : forces) f += Q(at.t, q, v);
+  f = scale.cwiseProduct(f);
+  const typename LagrangeTerms<N>::Matrix inertia = scale.asDiagonal() * terms.L_vv * scale.asDiagonal();
+  if (!std::isfinite(terms.L) || !inertia.allFinite() || !terms.force(v).allFinite())
+    throw std::domain_error("has no finite value or derivatives");
+  if (!f.allFinite()) throw std::domain_error("has a generalized force that is not finite");
+  const detail::Rows rows = constraints ? detail::rows_of(*constraints, at) : detail::Rows::none(N);
+  const auto found = detail::accelerations(inertia, f, rows.A, rows.gamma);
+  if (found.without_inertia.size() > 0)
+    throw std::domain_error(detail::no_inertia(q, scale.cwiseProduct(Vec<N>(found.without_inertia))));
+  if (sign != 0 && found.sign != sign) throw std::domain_error(detail::inertia_lost(q));
+  const Vec<N> a = found.a;
+  return {a, inertia * a - f, rows, found.sign};
+}
+
+template <int N>
+double LagrangeEquations<N>::energy(const Instant& at) const {
+  const Vec<N> v = gather_inputs(*this, at.v), q_rate = scale.cwiseProduct(v);
+  return lagrangian->terms(at.t, scale.cwiseProduct(gather_inputs(*this, at.q)), q_rate).energy(q_rate) -
+         0.5 * v.squaredNorm();
+}
+
+/// Lagrange's equations among the forces of a scene.
+template <int N>
+class LagrangeBatch final : public ForceBatch {
+  using Element = LagrangeEquations<N>;
+
+ public:
+  static constexpr bool gives_what_it_should = true;
+
+  void add(Element element) { elements_.add(std::move(element)); }
+  void replace(std::size_t i, const Element& element) { elements_.replace(i, element); }
+
+  [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override {
+    return std::make_unique<LagrangeBatch>(*this);
+  }
+  [[nodiscard]] ForceShape shape() const override { return {Element::kind, N, true, true}; }
+  [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
+  [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
+
+  void add_force(const Instant& at, std::span<double> F) const override {
+    for_each_element(elements_.all(), [&](const Element& e, std::size_t i) {
+      detail::scatter(e, force_of(e, i, at), elements_.coordinates(i), F);
+    });
+  }
+  void power(const Instant& at, std::span<double> out) const override {
+    for_each_element(elements_.all(), [&](const Element& e, std::size_t i) {
+      out[i] = force_of(e, i, at).dot(gather_inputs(e, at.v));
+    });
+  }
+  void force(std::size_t element, const Instant& at, std::span<double> out) const override {
+    for_each_element(elements_.all(), element, element + 1, [&](const Element& e, std::size_t i) {
+      const Vec<N> f = force_of(e, i, at);
+      std::copy_n(f.data(), N, out.data());
+    });
+  }
+  [[nodiscard]] double energy(const Instant& at) const override {
+    double sum = 0.0;
+    for_each_element(elements_.all(), [&](const Element& e, std::size_t) { sum += e.energy(at); });
+    return sum;
+  }
+
+  /// By central differences: only Newton's matrix reads them, whose iteration corrects what they err, and
+  /// third derivatives of L would cost N times its second ones. The step is the cube root of round-off, of a
+  /// coordinate's unit and of the largest velocity.
+  void linearise(const Instant& at, std::span<double> stiffness, std::span<double> damping) const override {
+    for_each_element(elements_.all(), [&](const Element& e, std::size_t i) {
+      const double speed = typical_speed(e, i, at);
+      std::vector<double> q(at.q.begin(), at.q.end()), v(at.v.begin(), at.v.end());
+      for (int k = 0; k < N; ++k) {
+        const auto place = static_cast<std::size_t>(elements_.coordinates(i)[static_cast<std::size_t>(k)]);
+        const auto write = [&](double& x, double unit, std::span<double> out) {
+          const double middle = x, h = std::cbrt(std::numeric_limits<double>::epsilon()) * unit;
+          x = middle + h;
+          const Vec<N> after = force_of(e, i, {at.t, q, v});
+          x = middle - h;
+          const Vec<N> slope = (after - force_of(e, i, {at.t, q, v})) / (2.0 * h);
+          x = middle;
+          for (int row = 0; row < N; ++row)
+            out[(i * N + static_cast<std::size_t>(row)) * N + static_cast<std::size_t>(k)] = slope[row];
+        };
+        write(q[place], 1.0, stiffness);
+        write(v[place], speed, damping);
+      }
+    });
+  }
+
+ private:
+  [[nodiscard]] static Vec<N> force_of(const Element& e, std::size_t i, const Instant& at) {
+    try {
+      return e.solved(at).a;
+    } catch (const std::domain_error& none) {
+      throw ElementFault{i, none.what()};
+    }
+  }
+  /// A velocity of the size of those there are, or that the force gives over a unit.
+  [[nodiscard]] static double typical_speed(const Element& e, std::size_t i, const Instant& at) {
+    const double size = std::max(gather_inputs(e, at.v).cwiseAbs().maxCoeff(),
+                                 std::sqrt(force_of(e, i, at).cwiseAbs().maxCoeff()));
+    return size > 0.0 ? size : 1.0;
+  }
+
+  Elements<Element> elements_;
+};
+
+}  // namespace dalembert
