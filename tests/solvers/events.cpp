@@ -1,0 +1,213 @@
+#include <dalembert/dalembert.h>
+#include <dalembert/solvers/base/root.h>
+#include <dalembert/tests/both_steppers.h>
+
+#include <boost/math/quadrature/tanh_sinh.hpp>
+#include <boost/math/special_functions/ellint_1.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace dalembert {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr double g = 9.81, tolerance = 1e-10;
+/// A run of a few seconds errs by some tens of its tolerance, and so do the times at which it gets anywhere.
+constexpr double met = 100.0 * tolerance;
+
+class Events : public testing::TestWithParam<Stepper> {
+ protected:
+  [[nodiscard]] static Options options(double t_end) {
+    return {.t_end = t_end, .samples = 11, .tolerance = tolerance, .stepper = GetParam()};
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Steppers, Events, both_steppers, stepper_name);
+
+/// A pendulum of length 1, from rest at an angle from the downward vertical.
+struct Pendulum {
+  Scene<2> scene{"pendulum"};
+  Particle<2> bob;
+  Constraint<1> rod;
+
+  explicit Pendulum(double angle, double rate = 0.0) {
+    const Vec<2> along(std::sin(angle), -std::cos(angle)), across(std::cos(angle), std::sin(angle));
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    bob = scene.add_particle({.mass = 1.0, .position = along, .velocity = rate * across}, "bob");
+    rod = scene.add(Distance{Fixed<2>{}, bob, 1.0}, "rod");
+  }
+};
+
+TEST(Root, IsFoundOfSmoothFunctionsAndOfJumps) {
+  int calls = 0;
+  const auto f = [&calls](double x) { return ++calls, std::cos(x) - x; };
+  EXPECT_NEAR(root(f, 0.0, f(0.0), 1.0, f(1.0), 1e-15), 0.7390851332151607, 2e-15);
+  EXPECT_LT(calls, 20);
+  const auto jump = [](double x) { return x < 0.3 ? -1.0 : 1e6; };
+  EXPECT_NEAR(root(jump, 0.0, -1.0, 1.0, 1e6, 1e-12), 0.3, 1e-12);
+  EXPECT_EQ(root([](double x) { return x; }, -1.0, -1.0, 0.0, 0.0, 1e-15), 0.0);
+}
+
+TEST_P(Events, AreAllFoundInTheOrderOfTheirTimes) {
+  // A pendulum of amplitude 1 passes the lowest point at odd quarters of its period 4 K(sin(1/2))/omega0, and
+  // rests at even ones.
+  const Pendulum pendulum(1.0);
+  const double quarter = boost::math::ellint_1(std::sin(0.5)) / std::sqrt(g);
+  const auto run =
+      simulate(pendulum.scene, options(5.0),
+               {{"lowest", [bob = pendulum.bob](const auto& now) { return now.position(bob).x(); }},
+                {"turns back", [bob = pendulum.bob](const auto& now) { return now.velocity(bob).x(); },
+                 Crossing::rising}});
+  ASSERT_GE(run.events().size(), 7U);
+  std::size_t k = 0;
+  for (int n = 1; n * quarter < 5.0; ++n) {
+    if (n % 4 == 0) continue;  // there it turns back the other way
+    ASSERT_LT(k, run.events().size());
+    EXPECT_EQ(run.events()[k].event, n % 2 == 0 ? 1U : 0U);
+    EXPECT_NEAR(run.events()[k].time, n * quarter, met);
+    if (n % 2 == 1) {
+      EXPECT_NEAR(-run.event_sample(k).multiplier(pendulum.rod), g * (3.0 - 2.0 * std::cos(1.0)), met * g);
+    }
+    ++k;
+  }
+  EXPECT_EQ(k, run.events().size());
+  EXPECT_EQ(run.size(), 11U);
+}
+
+TEST_P(Events, EndARunWhereAForceOfConstraintVanishes) {
+  // A particle slides off a sphere of radius 1 from the angle 0.1 off its top, at rest: it leaves at
+  // cos theta = (2/3) cos 0.1, after int dtheta/sqrt(2 g (cos 0.1 - cos theta)). With theta = 0.1 + u^2 the
+  // integrand is regular.
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto particle = scene.add_particle({.mass = 1.0, .position = {std::sin(0.1), std::cos(0.1)}});
+  const auto sphere = scene.add(OnSurface{particle, Sphere<2>{.radius = 1.0}});
+  const auto run = simulate(
+      scene, options(10.0),
+      {{"leaves", [=](const auto& now) { return now.multiplier(sphere); }, Crossing::falling, true}});
+  ASSERT_EQ(run.events().size(), 1U);
+  const double leaves = std::acos(2.0 / 3.0 * std::cos(0.1));
+  boost::math::quadrature::tanh_sinh<double> integrator;
+  const double time = integrator.integrate(
+      [](double u) {
+        // cos 0.1 - cos(0.1 + u^2) = 2 sin(0.1 + u^2/2) sin(u^2/2)
+        const double fall = 2.0 * std::sin(0.1 + u * u / 2.0) * std::sin(u * u / 2.0);
+        return u < 1e-8 ? 2.0 / std::sqrt(2.0 * g * std::sin(0.1)) : 2.0 * u / std::sqrt(2.0 * g * fall);
+      },
+      0.0, std::sqrt(leaves - 0.1));
+  EXPECT_NEAR(run.events()[0].time, time, met);
+  const auto last = run.sample(run.size() - 1);
+  EXPECT_EQ(last.time(), run.events()[0].time);
+  EXPECT_NEAR(last.position(particle).y(), std::cos(leaves), met);
+  EXPECT_NEAR(last.multiplier(sphere), 0.0, met * g);
+  EXPECT_EQ(run.size(), 2U);  // that at the start, and the last
+}
+
+TEST_P(Events, OfTwoRootsWithinAStepAreBothFound) {
+  // Free flight, y = t - t^2/2: a height just below the top is passed twice within 2 e, whatever the steps.
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -1.0}});
+  const auto ball = scene.add_particle({.mass = 1.0, .velocity = {0.3, 1.0}});
+  for (const double e : {1e-1, 1e-2, 1e-3}) {
+    const auto run =
+        simulate(scene, options(2.0),
+                 {{"height", [=](const auto& now) { return now.position(ball).y() - 0.5 * (1.0 - e * e); }}});
+    ASSERT_EQ(run.events().size(), 2U) << e;
+    // The height is known to the tolerance, the time to that over the speed e.
+    EXPECT_NEAR(run.events()[0].time, 1.0 - e, met / e);
+    EXPECT_NEAR(run.events()[1].time, 1.0 + e, met / e);
+  }
+}
+
+TEST_P(Events, AreToldByTheWayTheyGo) {
+  const Pendulum pendulum(1.0);
+  const auto times = [&](Crossing crossing) {
+    const auto run = simulate(
+        pendulum.scene, options(4.0),
+        {{"lowest", [bob = pendulum.bob](const auto& now) { return now.position(bob).x(); }, crossing}});
+    std::vector<double> all;
+    for (const Occurrence& one : run.events()) all.push_back(one.time);
+    return all;
+  };
+  const auto either = times(Crossing::either), rising = times(Crossing::rising),
+             falling = times(Crossing::falling);
+  ASSERT_EQ(either.size(), rising.size() + falling.size());
+  EXPECT_EQ(either[0], falling[0]);
+  EXPECT_EQ(either[1], rising[0]);
+}
+
+TEST_P(Events, AreNoneWhereAFunctionBeginsOrStaysAtZero) {
+  const Pendulum pendulum(1.0);
+  const auto run =
+      simulate(pendulum.scene, options(0.3),
+               {{"at rest", [bob = pendulum.bob](const auto& now) { return now.velocity(bob).norm(); }},
+                {"constant", [](const auto& /*now*/) { return 0.0; }}});
+  EXPECT_TRUE(run.events().empty());
+}
+
+TEST_P(Events, ChangeNothingOfTheMotion) {
+  const Pendulum pendulum(1.0);
+  const auto plain = simulate(pendulum.scene, options(3.0));
+  const auto watched =
+      simulate(pendulum.scene, options(3.0),
+               {{"lowest", [bob = pendulum.bob](const auto& now) { return now.position(bob).x(); }}});
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    EXPECT_EQ(plain.position(pendulum.bob, i), watched.position(pendulum.bob, i));
+    EXPECT_EQ(plain.multiplier(pendulum.rod, i), watched.multiplier(pendulum.rod, i));
+  }
+  EXPECT_EQ(plain.statistics().steps, watched.statistics().steps);
+}
+
+TEST_P(Events, EndStepsOfASimulationAsWell) {
+  const Pendulum pendulum(1.0);
+  Simulation<2> simulation(
+      pendulum.scene, options(5.0),
+      {{"lowest", [bob = pendulum.bob](const auto& now) { return now.position(bob).x(); }, Crossing::either,
+        true}});
+  simulation.advance_to(5.0);
+  const double quarter = boost::math::ellint_1(std::sin(0.5)) / std::sqrt(g);
+  EXPECT_NEAR(simulation.time(), quarter, met);
+  ASSERT_EQ(simulation.events().size(), 1U);
+  EXPECT_THAT([&] { simulation.advance_to(5.0); },
+              ThrowsMessage<InvalidArgument>(HasSubstr("ended the run")));
+  EXPECT_THAT([&] { simulation.step(); }, ThrowsMessage<InvalidArgument>(HasSubstr("ended the run")));
+}
+
+TEST_P(Events, ThatGoWrongStopTheRunByName) {
+  const Pendulum pendulum(1.0);
+  const auto bad = [&](auto function) {
+    return [&, function] { (void)simulate(pendulum.scene, options(1.0), {Event<2>{"slack", function}}); };
+  };
+  EXPECT_THAT(
+      bad([](const auto& now) { return now.time() < 0.5 ? 1.0 : std::nan(""); }),
+      ThrowsMessage<IntegrationFailure>(AllOf(HasSubstr("Event \"slack\""), HasSubstr("no finite number"))));
+  EXPECT_THAT(bad([](const auto& now) -> double {
+                if (now.time() > 0.5) throw std::runtime_error("no idea");
+                return 1.0;
+              }),
+              ThrowsMessage<IntegrationFailure>(AllOf(HasSubstr("Event \"slack\""), HasSubstr("no idea"))));
+  EXPECT_THAT(bad(std::function<double(const Sample<2>&)>()),
+              ThrowsMessage<InvalidArgument>(AllOf(HasSubstr("\"slack\""), HasSubstr("no function"))));
+}
+
+TEST_P(Events, BeforeAFailureAreKept) {
+  const Pendulum pendulum(1.0);
+  try {
+    (void)simulate(pendulum.scene, options(3.0),
+                   {{"lowest", [bob = pendulum.bob](const auto& now) { return now.position(bob).x(); }},
+                    {"fails", [](const auto& now) { return now.time() < 2.0 ? 1.0 : std::nan(""); }}});
+    FAIL();
+  } catch (const IntegrationFailure& failure) {
+    const auto kept = failure.trajectory<2>();
+    EXPECT_FALSE(kept.events().empty());
+  }
+}
+
+}  // namespace
+}  // namespace dalembert
