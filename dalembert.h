@@ -8,6 +8,8 @@
 #include <dalembert/core/forces/fields.h>
 #include <dalembert/core/forces/forces.h>
 #include <dalembert/core/forces/friction.h>
+#include <dalembert/core/lagrange/embedding.h>
+#include <dalembert/core/lagrange/routhian.h>
 #include <dalembert/core/results/trajectory.h>
 #include <dalembert/core/scene/scene.h>
 /// constraints, and the bodies that they hold together;
@@ -44,5 +46,12 @@
 #include <dalembert/constraints/pursuit.h>
 #include <dalembert/constraints/rolling.h>
 #include <dalembert/constraints/upright_rolling.h>
-/// and running it.
+/// running it;
 #include <dalembert/solvers/simulation.h>
+/// the same from a Lagrangian, and each checked by the other;
+#include <dalembert/solvers/lagrange/cross_check.h>
+/// and where it stays, and how it moves about there.
+#include <dalembert/solvers/equilibrium/branches.h>
+#include <dalembert/solvers/equilibrium/equilibrium.h>
+#include <dalembert/solvers/equilibrium/floquet.h>
+#include <dalembert/solvers/equilibrium/normal_modes.h>

@@ -1,5 +1,7 @@
+#include <dalembert/bench/diagrams.h>
 #include <dalembert/bench/extremes.h>
 #include <dalembert/bench/leave_out.h>
+#include <dalembert/bench/modes.h>
 #include <dalembert/bench/own_constraint.h>
 #include <dalembert/bench/ratios.h>
 #include <dalembert/bench/scaling.h>
@@ -165,6 +167,29 @@ void add_extremes(CLI::App& app, int& failures) {
   command->callback([options, &failures] { failures = bench::extremes(*options); });
 }
 
+void add_modes(CLI::App& app, int& failures) {
+  const auto options = std::make_shared<bench::ModesTable>();
+  CLI::App* command = app.add_subcommand(
+      "modes", "Equilibria, forces of constraint there and small motions against closed forms");
+  command->add_option("--size", options->beads, "Beads of the long chain")
+      ->check(CLI::Range(300, 1'000'000))
+      ->capture_default_str();
+  add_report_options(*command, options->report);
+  command->callback([options, &failures] { failures = bench::modes(*options); });
+}
+
+void add_diagrams(CLI::App& app) {
+  const auto options = std::make_shared<bench::Diagrams>();
+  CLI::App* command = app.add_subcommand(
+      "diagrams",
+      "Tables of branches of equilibria and of Kapitza's stability chart, which diagrams.gp draws");
+  command->add_option("--directory", options->directory, "Where the tables go")->capture_default_str();
+  command->add_option("--points", options->points, "Of the chart along either axis")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
+  command->callback([options] { bench::diagrams(*options); });
+}
+
 /// A program of its own, beside this one: its solvers are built with constants that vary.
 void add_sensitivity(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
@@ -198,6 +223,8 @@ int main(int argc, char** argv) try {
   add_leave_out(app, failures);
   add_ratios(app);
   add_extremes(app, failures);
+  add_modes(app, failures);
+  add_diagrams(app);
   add_sensitivity(app);
   CLI11_PARSE(app, argc, argv);
   return failures == 0 ? 0 : 1;

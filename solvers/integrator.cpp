@@ -2,9 +2,12 @@
 
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/run/diagnosis.h>
+#include <dalembert/solvers/run/event_watch.h>
 #include <dalembert/solvers/stepping.h>
 
+#include <algorithm>
 #include <ctime>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -34,7 +37,8 @@ class Stopwatch {
 }  // namespace
 
 struct DALEMBERT_HIDDEN Integrator::State {
-  State(System s, std::span<const double> q0, std::span<const double> v0, const Options& o) try
+  State(System s, std::span<const double> q0, std::span<const double> v0, const Options& o,
+        std::vector<FlatEvent> events) try
       : options(o),
         times(sample_times(o)),
         system(std::make_shared<const System>(std::move(s))),
@@ -42,6 +46,10 @@ struct DALEMBERT_HIDDEN Integrator::State {
         now(*system, stepping.start()),
         next(now) {
     visit(o.t_start);
+    if (!events.empty()) {
+      seen = now;
+      watch.emplace(std::move(events), *system->layout(), now.flat());
+    }
   } catch (const StepFailure& failure) {  // before the first step it is a fault of the start
     throw InconsistentStart(failure.what);
   } catch (const EquationFault& fault) {
@@ -61,11 +69,26 @@ struct DALEMBERT_HIDDEN Integrator::State {
                         stepping.time()};
     }
     stepping.step(wanted);
+    if (watch) watch->look([this](double t) { return read(t); }, stepping.time(), stepping.degree());
+  }
+  FlatSample read(double t) {
+    stepping.read(t, *seen);
+    return seen->flat();
+  }
+
+  /// Where an event ends the run, or its last step went so far.
+  [[nodiscard]] double reached() const { return ended() ? *watch->end() : stepping.time(); }
+  [[nodiscard]] bool ended() const { return watch && watch->end(); }
+  void require_not_ended(const char* what) const {
+    if (!ended() || now.t < *watch->end()) return;
+    std::ostringstream text;
+    text << what << ": an event has ended the run at t = " << *watch->end();
+    throw InvalidArgument(text.str());
   }
 
   void go_to(double time) {
-    while (stepping.time() < time) step_once(time);
-    visit(time);
+    while (stepping.time() < time && !ended()) step_once(time);
+    visit(ended() ? std::min(time, reached()) : time);
   }
 
   template <class Observe>
@@ -74,6 +97,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
       if (t < now.t) continue;
       if (t > now.t) guarded([&] { go_to(t); });
       observe(now.flat());
+      if (ended() && now.t >= reached()) break;
     }
   }
 
@@ -95,6 +119,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
     auto kept = std::make_shared<Record>(record);
     kept->statistics = statistics();
     kept->dense = stepping.dense();
+    if (watch) watch->write(*kept);
     std::ostringstream what;
     what.precision(10);
     what << "Scene \"" << system->layout()->scene << "\" stopped at t = " << time << ": " << why;
@@ -117,7 +142,9 @@ struct DALEMBERT_HIDDEN Integrator::State {
             .values = {},
             .unique = {},
             .statistics = {},
-            .dense = {}};
+            .dense = {},
+            .events = {},
+            .at_events = {}};
   }
 
   Options options;
@@ -125,19 +152,24 @@ struct DALEMBERT_HIDDEN Integrator::State {
   std::shared_ptr<const System> system;
   Stepping stepping;
   Moment now, next;
+  std::optional<Moment> seen;  // by events
+  std::optional<EventWatch> watch;
   long steps = 0;
   double run_time = 0.0;
   Record record = empty_record();
 };
 
 Integrator::Integrator(System system, std::span<const double> q, std::span<const double> v,
-                       const Options& options)
-    : state_(std::make_unique<State>(std::move(system), q, v, options)) {}
+                       const Options& options, std::vector<FlatEvent> events)
+    : state_(std::make_unique<State>(std::move(system), q, v, options, std::move(events))) {}
 Integrator::Integrator(Integrator&&) noexcept = default;
 Integrator::~Integrator() = default;
 
 FlatSample Integrator::sample() const { return state_->now.flat(); }
 const System& Integrator::system() const { return *state_->system; }
+std::span<const Occurrence> Integrator::events() const {
+  return state_->watch ? std::span<const Occurrence>(state_->watch->found()) : std::span<const Occurrence>();
+}
 Statistics Integrator::statistics() const { return state_->statistics(); }
 
 void Integrator::step() {
@@ -147,9 +179,10 @@ void Integrator::step() {
     what << "step(): t_end = " << s.options.t_end << " is reached; choose a later one in the options";
     throw InvalidArgument(what.str());
   }
+  s.require_not_ended("step()");
   s.guarded([&s] {
-    if (s.stepping.time() < s.options.t_end) s.step_once(s.options.t_end);
-    s.visit(s.stepping.time());
+    if (s.stepping.time() < s.options.t_end && !s.ended()) s.step_once(s.options.t_end);
+    s.visit(s.reached());
   });
 }
 
@@ -161,6 +194,7 @@ void Integrator::advance_to(double t) {
          << " and t_end = " << s.options.t_end;
     throw InvalidArgument(what.str());
   }
+  if (t > s.now.t) s.require_not_ended("advance_to");
   s.guarded([&] { s.go_to(t); });
 }
 
@@ -179,6 +213,7 @@ std::shared_ptr<const Record> Integrator::run() {
   auto record = std::make_shared<Record>(std::exchange(s.record, s.empty_record()));
   record->statistics = s.statistics();
   record->dense = s.stepping.dense();
+  if (s.watch) s.watch->write(*record);
   return record;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/core/results/event.h>
 #include <dalembert/core/results/trajectory.h>
 #include <dalembert/core/scene/system.h>
 #include <dalembert/solvers/base/options.h>
@@ -7,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace dalembert {
 
@@ -15,7 +17,8 @@ namespace dalembert {
 class Integrator {
  public:
   /// Checks the options and the start. Throws InvalidArgument, InconsistentStart.
-  Integrator(System system, std::span<const double> q, std::span<const double> v, const Options& options);
+  Integrator(System system, std::span<const double> q, std::span<const double> v, const Options& options,
+             std::vector<FlatEvent> events = {});
   Integrator(Integrator&&) noexcept;
   ~Integrator();
 
@@ -24,9 +27,11 @@ class Integrator {
   /// One step of the integrator's own choice. Throws InvalidArgument where t_end is reached,
   /// IntegrationFailure.
   void step();
-  /// To a time not before the current one and not after t_end. Throws InvalidArgument outside,
-  /// IntegrationFailure.
+  /// To a time not before the current one and not after t_end, or to an event that ends the run. Throws
+  /// InvalidArgument outside and after such an event, IntegrationFailure.
   void advance_to(double t);
+  /// What has happened so far.
+  [[nodiscard]] std::span<const Occurrence> events() const;
 
   /// All samples that the options ask for, from here on. Throws IntegrationFailure, with all
   /// samples before.

@@ -24,6 +24,10 @@ class Simulation : public Readings<D, Simulation<D>> {
       : integrator_((scene.require_state(start), scene.system()), start.flat().q, start.flat().v,
                     starting_at(start.time(), options)) {}
 
+  /// With events; one that ends the run ends `step`, `advance_to` and `run`.
+  Simulation(const Scene<D>& scene, const Options& options, const std::vector<Event<D>>& events)
+      : integrator_(watching(scene, options, events)) {}
+
   /// See Integrator.
   void step() { integrator_.step(); }
   void advance_to(double t) { integrator_.advance_to(t); }
@@ -32,6 +36,7 @@ class Simulation : public Readings<D, Simulation<D>> {
   [[nodiscard]] Sample<D> sample() const { return {*integrator_.system().layout(), integrator_.sample()}; }
   [[nodiscard]] double time() const { return sample().time(); }
   [[nodiscard]] Statistics statistics() const { return integrator_.statistics(); }
+  [[nodiscard]] std::span<const Occurrence> events() const { return integrator_.events(); }
 
   /// All samples that the options ask for.
   [[nodiscard]] Trajectory<D> run() { return Trajectory<D>(integrator_.run()); }
@@ -43,6 +48,9 @@ class Simulation : public Readings<D, Simulation<D>> {
   }
 
  private:
+  [[nodiscard]] static Integrator watching(const Scene<D>& scene, const Options& options,
+                                           const std::vector<Event<D>>& events);
+
   Integrator integrator_;
 };
 
@@ -52,6 +60,18 @@ template <int D>
 [[nodiscard]] Trajectory<D> simulate(  // is an option misspelled, or not in the order of solvers/options.h?
     const Scene<D>& scene, const Options& options) {
   return Simulation<D>(scene, options).run();
+}
+
+/// The same with events:
+///
+///   const auto run = simulate(scene, {.t_end = 10.0},
+///                             {{"leaves", [=](const auto& now) { return now.multiplier(wall); },
+///                               Crossing::falling, true}});
+///   run.events()[0].time;
+template <int D>
+[[nodiscard]] Trajectory<D> simulate(const Scene<D>& scene, const Options& options,
+                                     const std::vector<Event<D>>& events) {
+  return Simulation<D>(scene, options, events).run();
 }
 
 /// The same from a sample of another run on, see Simulation:

@@ -59,7 +59,6 @@ Stepping::Stepping(std::shared_ptr<const System> system, std::span<const double>
 void Stepping::begin(const Options& options) {
   reader_.emplace(*system_, start_, options.t_start, options_.tolerance);
   stepper_ = make_stepper(*system_, start_, options);
-  // The explicit stepper finds itself where friction sticks, but for close to a singular position.
   if (system_->frictional() && options_.stepper == Stepper::ida)
     sticking_.emplace(*system_, start_, options.t_start, options_.tolerance);
   angle_ = {options.t_start, 1.0};

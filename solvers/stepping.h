@@ -22,6 +22,8 @@ class Stepping {
            const Options& options);
 
   [[nodiscard]] double time() const { return stepper_->time(); }
+  /// See TimeStepper.
+  [[nodiscard]] int degree() const { return stepper_->degree(); }
   /// Throws StepFailure, EquationFault.
   void step(double wanted);
   /// Everything at a time inside the last step (or at the start, before the first). Throws StepFailure,

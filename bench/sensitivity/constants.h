@@ -53,6 +53,15 @@ inline const std::array named_constants = {
     CONSTANT(well_conditioned),
     CONSTANT(roundings_of_path),
     CONSTANT(instant_after),
+    CONSTANT(no_stiffness),
+    CONSTANT(sufficient_decrease),
+    CONSTANT(longest_slide),
+    CONSTANT(shortest_branch_step),
+    CONSTANT(alike),
+    CONSTANT(parameter_difference),
+    CONSTANT(free_of_push),
+    CONSTANT(free_way),
+    CONSTANT(below_all),
 };
 #undef CONSTANT
 static_assert(sizeof(Constants) == std::tuple_size_v<decltype(named_constants)> * sizeof(double),

@@ -3,6 +3,7 @@
 #include <dalembert/bench/table.h>
 #include <dalembert/models/catalogue.h>
 #include <dalembert/models/error.h>
+#include <dalembert/models/small_motions.h>
 
 #include <algorithm>
 #include <memory>
@@ -33,6 +34,19 @@ Case as_case(const models::Model<D>& model) {
           .limit = [](const Run& run) { return 1000.0 * run.parameter; }};
 }
 
+/// The worst row of a system's equilibria and small motions, of its limit.
+extremes::Verdict judge(const models::SmallMotions& system) {
+  extremes::Verdict verdict{{.error = 0.0}, 1.0, true};
+  try {
+    for (const models::Compared& row : system.rows())
+      verdict.result.error = std::max(verdict.result.error, row.error() / row.limit);
+  } catch (const Error& error) {
+    verdict.result = {.outcome = "refused", .said = error.what()};
+  }
+  verdict.right = verdict.result.error <= verdict.limit;
+  return verdict;
+}
+
 }  // namespace
 
 std::vector<SensitivityRun> sensitivity_runs() {
@@ -51,6 +65,8 @@ std::vector<SensitivityRun> sensitivity_runs() {
       }
     }
   }
+  for (const models::SmallMotions& system : models::systems_with_small_motions())
+    runs.push_back({"small motions of " + system.name, [system] { return judge(system); }});
   return runs;
 }
 

@@ -15,7 +15,7 @@ struct SensitivityRun {
 };
 
 /// All models at two tolerances, their errors measured by 1000 times the tolerance, and the short part of all
-/// extremes, by their limits; with each stepper.
+/// extremes, by their limits; with each stepper. Equilibria and small motions, by their limits.
 [[nodiscard]] std::vector<SensitivityRun> sensitivity_runs();
 
 }  // namespace dalembert::bench

@@ -108,7 +108,7 @@ inline constexpr bool moves<Ground<D>> = false;
 ///
 /// The axes are vectors of length `length`, the size of a body of the joint, so that an equation between
 /// them has its force at that length: with unit vectors a torque would be weighed against forces by the
-/// choice of units wherever joints repeat each other (see ForcesAtPoints).
+/// choice of units wherever joints repeat each other (see detail::forces_at_points).
 template <class A, class B>
 struct JointFrames {
   static constexpr int dimension = A::dimension;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/core/equations/arguments.h>
+#include <dalembert/core/equations/pull_back.h>
 
 #include <cstddef>
 #include <exception>

@@ -11,9 +11,9 @@ namespace dalembert::detail {
 
 namespace {
 
-constexpr int space = 3;  // a point has no more numbers
-using Position = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, space, 1>;
-using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, space, space>;
+constexpr int most = PointMap::most_inputs;
+using Position = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1>;
+using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
 
 /// Number k of L^T g.
 [[nodiscard]] double pulled_back(const PointMap& map, int k, const double* g) {
@@ -40,7 +40,7 @@ void pull_back_block(std::span<const PointMap> maps, const double* block, double
     for (int k = 0; k < left.coordinates; ++k) {
       const double* B = block;  // at the columns of the right point
       for (const PointMap& right : maps) {
-        std::array<double, space> row{};  // k of L^T B
+        std::array<double, most> row{};  // k of L^T B
         for (std::size_t s = 0; s < static_cast<std::size_t>(right.inputs); ++s, B += inputs) {
           row[s] = pulled_back(left, k, B);
         }

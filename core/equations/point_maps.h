@@ -9,6 +9,8 @@ namespace dalembert::detail {
 /// How the numbers of the position of one point follow from its coordinates, r = L x; L by columns, none if
 /// the coordinates are those numbers.
 struct PointMap {
+  static constexpr int most_inputs = 3;  // no position has more numbers
+
   const double* L;
   int inputs, coordinates;
 };

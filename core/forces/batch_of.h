@@ -8,8 +8,18 @@ namespace dalembert {
 
 namespace detail {
 
+/// A force whose equations need a batch of their own kind.
+template <class E>
+concept HasOwnBatch = requires {
+  typename E::Batch;
+};
+
 template <class Element>
 struct BatchFor;
+template <HasOwnBatch E>
+struct BatchFor<E> {
+  using type = typename E::Batch;
+};
 template <HolonomicConstraint C>
 struct BatchFor<C> {
   using type = HolonomicBatch<C>;
@@ -32,7 +42,7 @@ struct BatchFor<E> {
 };
 
 template <class E>
-concept AnyForce = PotentialForce<E> || LawForce<E> || FrictionForce<E>;
+concept AnyForce = PotentialForce<E> || LawForce<E> || FrictionForce<E> || HasOwnBatch<E>;
 
 template <AnyForce E>
 [[nodiscard]] constexpr std::string_view kind_of_force() {

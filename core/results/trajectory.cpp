@@ -52,6 +52,15 @@ Trajectory<D>::Trajectory(std::shared_ptr<const Record> record) : record_(std::m
 }
 
 template <int D>
+Sample<D> Trajectory<D>::event_sample(std::size_t k) const& {
+  if (k >= record_->events.size()) {
+    throw InvalidArgument("There is no event " + std::to_string(k) + ": in this run " +
+                          std::to_string(record_->events.size()) + " happened, counted from 0");
+  }
+  return {*record_->layout, record_->at_events->sample(k)};
+}
+
+template <int D>
 Sample<D> Trajectory<D>::sample(std::size_t i) const& {
   if (i >= size()) {
     throw InvalidArgument("There is no sample " + std::to_string(i) + ": this run has " +

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/core/errors.h>
+#include <dalembert/core/results/event.h>
 #include <dalembert/core/results/readings.h>
 #include <dalembert/core/results/statistics.h>
 
@@ -35,6 +36,8 @@ struct Record {
   std::vector<char> unique;    ///< per sample and row, see FlatSample; empty if all are
   Statistics statistics;
   std::shared_ptr<const DenseOutput> dense;  ///< if the option `dense` asks for it
+  std::vector<Occurrence> events;            ///< in the order of time,
+  std::shared_ptr<const Record> at_events;   ///< with a sample of each; null if none were asked for
 
   /// Makes room, so that `append` allocates nothing for this many samples.
   void reserve(std::size_t samples, const FlatSample& like);
@@ -113,6 +116,10 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   [[nodiscard]] Trajectory at(std::initializer_list<double> times) const {
     return at(std::span(times.begin(), times.size()));
   }
+  /// What happened, in the order of time, and the k-th such instant; see Event. `event_sample` throws
+  /// InvalidArgument if there are not so many.
+  [[nodiscard]] std::span<const Occurrence> events() const& { return record_->events; }
+  [[nodiscard]] Sample<D> event_sample(std::size_t k) const&;
   [[nodiscard]] Iterator begin() const { return {*record_, 0}; }
   [[nodiscard]] Iterator end() const { return {*record_, size()}; }
   [[nodiscard]] const Statistics& statistics() const& { return record_->statistics; }
@@ -142,6 +149,8 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   // No views into a run that is gone when they are looked at: keep the run.
   void times() const&& = delete;
   void sample(std::size_t) const&& = delete;
+  void events() const&& = delete;
+  void event_sample(std::size_t) const&& = delete;
   void positions(Particle<D>) const&& = delete;
   void velocities(Particle<D>) const&& = delete;
   void accelerations(Particle<D>) const&& = delete;

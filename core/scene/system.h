@@ -135,8 +135,8 @@ class System {
   void friction_slope(const Instant& at, std::span<const double> lambda, std::span<double> out) const;
 
   /// What multipliers exert at the points the constraints were stated for, out of W: for every row as many
-  /// numbers as its constraint has inputs, in the order of rows; see ForcesAtPoints. `lengths` has one number
-  /// per coordinate.
+  /// numbers as its constraint has inputs, in the order of rows; see detail::forces_at_points. `lengths` has
+  /// one number per coordinate.
   void forces_at_points(std::span<const double> w, std::span<const double> lengths,
                         std::span<double> out) const;
   [[nodiscard]] std::size_t size_of_forces_at_points() const;

@@ -93,6 +93,28 @@ struct Constants {
   double roundings_of_path = 100.0;
   /// An instant after rest, of the scene's time: long enough for a direction, too short for a change.
   double instant_after = 1e-12;
+
+  // Equilibria and small motions.
+  /// Of the largest stiffness over mass what counts as none: free motions get so much, so that Newton's
+  /// matrix is regular.
+  double no_stiffness = 1e-9;
+  /// Newton's step is halved until the residual falls by this part of what a linear one would.
+  double sufficient_decrease = 0.25;
+  /// Of the scene's length, which a step downhill does not exceed.
+  double longest_slide = 0.1;
+  /// A step along a branch is given up at this part of the one asked for.
+  double shortest_branch_step = 1e-3;
+  /// Cosine of the angle below which two branches that leave one bifurcation are different.
+  double alike = 0.98;
+  /// Difference of the parameter, of its range, by which forces are differentiated.
+  double parameter_difference = 1e-6;
+  /// A parameter that pushes along the vanishing mode by less than this part of the forces that act makes a
+  /// bifurcation, else a fold.
+  double free_of_push = 1e-5;
+  /// How far along a mode of eigenvalue 0 another equilibrium is looked for, of the scene's length.
+  double free_way = 0.01;
+  /// The lowest modes of many are those closest to this part of the largest stiffness over mass, below 0.
+  double below_all = 1e-7;
 };
 
 #ifdef DALEMBERT_VARIED  // the solvers as `dalembert-bench sensitivity` builds them once more

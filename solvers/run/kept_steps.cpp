@@ -2,12 +2,11 @@
 
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/run/chebyshev.h>
 #include <dalembert/solvers/run/reader.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <numbers>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -15,33 +14,6 @@
 namespace dalembert {
 
 namespace {
-
-/// The ends of a step are nodes.
-double node(double from, double to, int j, int degree) {
-  if (j == 0) return from;
-  if (j == degree) return to;
-  return 0.5 * (from + to) - 0.5 * (to - from) * std::cos(j * std::numbers::pi / degree);
-}
-
-/// Lagrange's polynomials of the nodes, at t.
-std::vector<double> lagrange(double from, double to, double t, int degree) {
-  std::vector<double> l(static_cast<std::size_t>(degree) + 1);
-  double sum = 0.0;
-  for (int j = 0; j <= degree; ++j) {
-    double& own = l[static_cast<std::size_t>(j)];
-    const double distance = t - node(from, to, j, degree);
-    if (distance == 0.0) {
-      std::ranges::fill(l, 0.0);
-      own = 1.0;
-      return l;
-    }
-    own = (j % 2 == 0 ? 1.0 : -1.0) / distance;
-    if (j == 0 || j == degree) own *= 0.5;
-    sum += own;
-  }
-  for (double& own : l) own /= sum;
-  return l;
-}
 
 std::string at(double t) {
   std::ostringstream what;
@@ -60,7 +32,7 @@ void KeptSteps::add(TimeStepper& stepper, double from, long number) {
   Springs springs(m);
   values_.resize(end_);
   for (int j = 0; j <= step.degree; ++j) {
-    const double t = node(step.from, step.to, j, step.degree);
+    const double t = chebyshev_node(step.from, step.to, j, step.degree);
     const std::size_t first = values_.size();
     values_.resize(first + 2 * n);
     stepper.interpolate(t, std::span(values_).subspan(first, n), std::span(values_).subspan(first + n, n));
@@ -88,7 +60,7 @@ void KeptSteps::interpolate(const Step& step, double t, Moment& m, Springs& spri
   if (step.c > 0.0) std::ranges::copy(springs.parts(), std::back_inserter(parts));
   for (auto* part : parts) std::ranges::fill(*part, 0.0);
   const double* next = values_.data() + step.first;
-  for (const double weight : lagrange(step.from, step.to, t, step.degree)) {
+  for (const double weight : lagrange_polynomials(step.from, step.to, t, step.degree)) {
     for (auto* part : parts) {
       for (double& x : *part) x += weight * *next++;
     }

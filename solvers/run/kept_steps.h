@@ -15,8 +15,7 @@
 namespace DALEMBERT_HIDDEN dalembert {
 
 /// The motion at every time of a run: of each step the stepper's own polynomial, kept as its values at the
-/// extrema of the Chebyshev polynomial of its degree. Evaluated by Lagrange's formula in its barycentric
-/// form, whose error is a few roundings (Berrut, Trefethen, SIAM Review 46 (2004) 501).
+/// extrema of the Chebyshev polynomial of its degree.
 class KeptSteps final : public DenseOutput {
  public:
   KeptSteps(std::shared_ptr<const System> system, double tolerance)

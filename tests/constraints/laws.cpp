@@ -18,6 +18,19 @@ Placement<3> elsewhere() {
   return {Eigen::AngleAxisd(0.7, Vec<3>(1.0, 2.0, 3.0).normalized()).toRotationMatrix(), {3.0, -2.0, 1.0}};
 }
 
+void register_test(const char* suite, const std::string& name, const std::function<void()>& body) {
+  class Test : public testing::Test {
+   public:
+    explicit Test(std::function<void()> its) : body_(std::move(its)) {}
+    void TestBody() override { body_(); }
+
+   private:
+    std::function<void()> body_;
+  };
+  testing::RegisterTest(suite, name.c_str(), nullptr, nullptr, __FILE__, __LINE__,
+                        [body]() -> testing::Test* { return new Test(body); });
+}
+
 namespace {
 
 /// A system of that one constraint.
@@ -117,21 +130,10 @@ void does_not_depend_on_the_place(const Add<D>& add) {
             round_off);
 }
 
-/// Registers one test; the suite is called after the law.
 template <int D>
 void put_under(const std::string& law, const std::string& type, void (*check)(const Add<D>&),
                const Add<D>& add) {
-  class Test : public testing::Test {
-   public:
-    Test(void (*c)(const Add<D>&), Add<D> a) : check_(c), add_(std::move(a)) {}
-    void TestBody() override { check_(add_); }
-
-   private:
-    void (*check_)(const Add<D>&);
-    Add<D> add_;
-  };
-  testing::RegisterTest("EveryConstraint", (law + "/" + type).c_str(), nullptr, nullptr, __FILE__, __LINE__,
-                        [=]() -> testing::Test* { return new Test(check, add); });
+  register_test("EveryConstraint", law + "/" + type, [=] { check(add); });
 }
 
 }  // namespace

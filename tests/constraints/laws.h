@@ -35,6 +35,8 @@ Placement<D> elsewhere();
 template <int D>
 using Add = std::function<void(Scene<D>&, const Placement<D>&, Particle<D>, Particle<D>)>;
 
+void register_test(const char* suite, const std::string& name, const std::function<void()>& body);
+
 /// The laws for all constraints.
 template <int D>
 void any(const std::string& type, const Add<D>& add);

@@ -200,18 +200,7 @@ void expect_independent_rows(const Case<D>& c) {
 
 template <int D>
 void register_case(const std::string& law, const Case<D>& c, void (*check)(const Case<D>&)) {
-  class Test : public testing::Test {
-   public:
-    Test(void (*its_check)(const Case<D>&), Case<D> its) : check_(its_check), case_(std::move(its)) {}
-    void TestBody() override { check_(case_); }
-
-   private:
-    void (*check_)(const Case<D>&);
-    Case<D> case_;
-  };
-  const std::string name = law + "/" + c.name + (D == 2 ? "InThePlane" : "");
-  testing::RegisterTest("EveryJoint", name.c_str(), nullptr, nullptr, __FILE__, __LINE__,
-                        [=]() -> testing::Test* { return new Test(check, c); });
+  register_test("EveryJoint", law + "/" + c.name + (D == 2 ? "InThePlane" : ""), [=] { check(c); });
 }
 
 template <int D>
