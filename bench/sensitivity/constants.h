@@ -7,13 +7,16 @@
 
 namespace dalembert::bench {
 
+/// Those that the solvers are linked with here, see constants.cpp.
+inline Constants varied;
+
 struct NamedConstant {
   std::string name;
   double* value;
 };
 
 #define CONSTANT(name) \
-  NamedConstant { #name, &constants.name }
+  NamedConstant { #name, &varied.name }
 /// Every judged number of the solvers.
 inline const std::array named_constants = {
     CONSTANT(safety),

@@ -117,10 +117,7 @@ struct Constants {
   double below_all = 1e-7;
 };
 
-#ifdef DALEMBERT_VARIED  // the solvers as `dalembert-bench sensitivity` builds them once more
-inline Constants constants;
-#else
-inline constexpr Constants constants;
-#endif
+/// Those of the library; `dalembert-bench sensitivity` is linked with others in their place.
+extern const Constants& constants;
 
 }  // namespace dalembert

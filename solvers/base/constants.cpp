@@ -1,0 +1,11 @@
+#include "dalembert/solvers/base/constants.h"
+
+namespace dalembert {
+
+namespace {
+constexpr Constants judged;
+}
+
+const Constants& constants = judged;
+
+}  // namespace dalembert
