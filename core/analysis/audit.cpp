@@ -3,8 +3,6 @@
 #include <dalembert/core/analysis/rank.h>
 #include <dalembert/core/errors.h>
 
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <cmath>
 
@@ -15,14 +13,7 @@ namespace {
 /// Unit columns: displacements that all rows of W allow, and that span all such. In the metric of the masses
 /// they are orthogonal.
 Eigen::MatrixXd tangent_space(const System& system, std::span<const double> w) {
-  const auto n = static_cast<Eigen::Index>(system.coordinates());
-  const auto m = static_cast<Eigen::Index>(system.rows());
-  if (m == 0) return Eigen::MatrixXd::Identity(n, n);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(n, m);
-  qr.setThreshold(rank_threshold);
-  qr.compute(Eigen::MatrixXd(rows_in_mass_metric(system, w)));
-  const Eigen::MatrixXd Q = qr.householderQ();
-  Eigen::MatrixXd tangent = Q.rightCols(Q.cols() - qr.rank());
+  Eigen::MatrixXd tangent = orthogonal_complement(rows_in_mass_metric(system, w));
   for (Eigen::Index i = 0; i < tangent.rows(); ++i)
     tangent.row(i) /= std::sqrt(system.masses()[static_cast<std::size_t>(i)]);
   return tangent.colwise().normalized();

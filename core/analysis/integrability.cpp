@@ -1,9 +1,8 @@
 #include "dalembert/core/analysis/integrability.h"
 
 #include <dalembert/core/analysis/disjoint_sets.h>
+#include <dalembert/core/analysis/rank.h>
 #include <dalembert/core/errors.h>
-
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -117,10 +116,7 @@ std::vector<std::vector<std::size_t>> connected_rows(const System& system) {
 Eigen::MatrixXd allowed(const Eigen::MatrixXd& all, const std::vector<std::size_t>& rows) {
   Eigen::MatrixXd I(std::ssize(rows), all.cols());
   for (Eigen::Index r = 0; r < I.rows(); ++r) I.row(r) = all.row(index(rows[static_cast<std::size_t>(r)]));
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(I.transpose());
-  qr.setThreshold(1e-9);
-  const Eigen::MatrixXd Q = qr.householderQ();
-  return Q.rightCols(Q.cols() - qr.rank());
+  return orthogonal_complement(I.transpose());
 }
 
 /// (1) for the nonholonomic rows among `rows`.

@@ -18,6 +18,14 @@ namespace {
 constexpr Eigen::Index dense_entries = 100'000;
 
 using Columns = Eigen::SparseMatrix<double>;
+using DenseQr = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
+
+DenseQr dense_qr(const Eigen::MatrixXd& columns, double threshold) {
+  DenseQr qr(columns.rows(), columns.cols());
+  qr.setThreshold(threshold);
+  qr.compute(columns);
+  return qr;
+}
 
 /// How many rows to choose: what a threshold finds, or a number.
 struct Wanted {
@@ -71,9 +79,7 @@ std::vector<std::size_t> first_of(const Permutation& permutation, Eigen::Index r
 /// As many columns as are independent; of those that depend on each other the longer ones.
 std::vector<std::size_t> independent_columns(const Columns& columns, const Wanted& wanted) {
   const auto dense = [&] {
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns.rows(), columns.cols());
-    qr.setThreshold(wanted.threshold);
-    qr.compute(Eigen::MatrixXd(columns));
+    const DenseQr qr = dense_qr(columns, wanted.threshold);
     return first_of(qr.colsPermutation(), wanted.count.value_or(qr.rank()));
   };
   if (columns.rows() * columns.cols() <= dense_entries) return dense();
@@ -168,6 +174,14 @@ ActiveRows independent_rows(const System& system, std::span<const double> w, dou
 
 ActiveRows independent_rows(const System& system, std::span<const double> w, const ActiveRows& like) {
   return choose(system, w, rank_threshold, &like);
+}
+
+Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& columns, double threshold) {
+  const Eigen::Index n = columns.rows();
+  if (columns.cols() == 0) return Eigen::MatrixXd::Identity(n, n);
+  const DenseQr qr = dense_qr(columns, threshold);
+  const Eigen::MatrixXd Q = qr.householderQ();
+  return Q.rightCols(n - qr.rank());
 }
 
 }  // namespace dalembert

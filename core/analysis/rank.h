@@ -2,6 +2,7 @@
 
 #include <dalembert/core/scene/system.h>
 
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <span>
@@ -44,5 +45,10 @@ inline constexpr double rank_threshold = 1e-9;
 /// start; where the rank falls for an instant none may be left out for good.)
 [[nodiscard]] ActiveRows independent_rows(const System& system, std::span<const double> w,
                                           const ActiveRows& like);
+
+/// Orthonormal columns that span all that is orthogonal to the given ones, by the same QR: what rows of unit
+/// length leave free.
+[[nodiscard]] Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& columns,
+                                                    double threshold = rank_threshold);
 
 }  // namespace dalembert

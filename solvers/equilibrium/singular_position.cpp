@@ -2,8 +2,6 @@
 
 #include <dalembert/solvers/equilibrium/linear_terms.h>
 
-#include <Eigen/SVD>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -49,16 +47,13 @@ bool is_singular_position(const System& system, const Carrier& carrier, const In
     length[k] = W.row(k).norm();
     W.row(k) /= length[k];
   }
-  Eigen::BDCSVD<MatrixXd> svd(W, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  svd.setThreshold(rank_threshold);
-  const MatrixXd N = svd.matrixV().rightCols(W.cols() - svd.rank());
+  const MatrixXd N = orthogonal_complement(W.transpose()), dependences = orthogonal_complement(W);
   std::vector<double> mu(system.rows(), 0.0);
   const MatrixXd without = stiffness(system, carrier, at, mu);
   // Positions are known to rank_threshold at best, and so is what they leave of a sum that is 0.
   const double known = std::sqrt(rank_threshold);
-  for (Index dependence = svd.rank(); dependence < W.rows(); ++dependence) {
-    for (Index k = 0; k < W.rows(); ++k)
-      mu[rigid[static_cast<std::size_t>(k)]] = svd.matrixU()(k, dependence) / length[k];
+  for (const auto dependence : dependences.colwise()) {
+    for (Index k = 0; k < W.rows(); ++k) mu[rigid[static_cast<std::size_t>(k)]] = dependence[k] / length[k];
     const MatrixXd K = stiffness(system, carrier, at, mu) - without;
     const MatrixXd left = N.transpose() * K * N;
     if (left.norm() > known * K.norm()) return true;

@@ -40,21 +40,10 @@ Matrix onto(const Matrix& N, const Matrix& X) {
   return (Y.array().abs() > round_off * size.array()).select(Y, Matrix::Zero(Y.rows(), Y.cols()));
 }
 
-/// An orthonormal basis of what rows of unit length leave.
-Matrix tangent_basis(const Matrix& rows) {
-  Matrix Q = Matrix::Identity(rows.cols(), rows.cols());
-  if (rows.rows() == 0) return Q;
-  Eigen::ColPivHouseholderQR<Matrix> qr(rows.cols(), rows.rows());
-  qr.setThreshold(rank_threshold);
-  qr.compute(rows.transpose());
-  Q.applyOnTheLeft(qr.householderQ());
-  return Q.rightCols(rows.cols() - qr.rank());
-}
-
 Tangent tangent(const System& system, const LinearTerms& terms, std::vector<std::size_t> coordinates,
                 std::span<const std::size_t> rows) {
   const MassMetric metric(system, terms, coordinates, rows);
-  const Matrix N = tangent_basis(metric.W.topRows(metric.holonomic));
+  const Matrix N = orthogonal_complement(metric.W.topRows(metric.holonomic).transpose());
   Matrix skew = Matrix(circulatory(terms, system.coordinates()));
   skew = skew(coordinates, coordinates).eval();
   skew = onto(N, metric.root.asDiagonal() * skew * metric.root.asDiagonal());
@@ -212,7 +201,7 @@ struct Deflated {
     if (zeros.cols() == 0) return x;
     Eigen::MatrixXcd T = -(zeros.transpose() * A * zeros).cast<std::complex<double>>();
     T.diagonal().array() += s;
-    return x + zeros * T.fullPivLu().solve((zeros.transpose() * A) * x);
+    return x + zeros * T.partialPivLu().solve((zeros.transpose() * A) * x);
   }
 };
 
