@@ -132,8 +132,9 @@ Mechanism door(int balls) {
 constexpr double largest_force_of_door = 26.0;
 
 Case redundant_hinge(int balls) {
-  return {.name = "redundant-hinge-" + std::to_string(balls),
-          .parameter = "tolerance, a door on " + std::to_string(balls) + " balls, a turn of its axis",
+  const std::string number = std::to_string(balls);
+  return {.name = "redundant-hinge-" + number,
+          .parameter = "tolerance, a door on " + number + " balls, a turn of its axis",
           .sweep = tolerances,
           .brief = {1e-6, 1e-8},
           .run =

@@ -2,8 +2,7 @@
 
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/equilibrium/tangent_modes.h>
-
-#include <Eigen/QR>
+#include <dalembert/solvers/linear/dense.h>
 
 #include <algorithm>
 #include <cmath>
@@ -134,10 +133,7 @@ std::optional<Eigen::VectorXd> Corrector::tangent(const Node& node) const {
   const Eigen::MatrixXd A = jacobian(here, s, node, here.balance.rows_at(s));
   const Index last = A.cols() - 1;
   const Eigen::VectorXd slope = A.col(last);
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr(A.rows(), last);
-  qr.setThreshold(no_stiffness);
-  qr.compute(A.leftCols(last));
-  const Eigen::VectorXd change = qr.solve(-slope);
+  const Eigen::VectorXd change = dense::least_squares(A.leftCols(last), -slope, no_stiffness);
   const double off = (A.leftCols(last) * change + slope).norm();
   if (!(off <= exact * slope.norm() + rounding * s.scale)) return std::nullopt;
   Eigen::VectorXd along(node.x.size());
@@ -156,7 +152,8 @@ void Corrector::newton_step(const Here& here, const Balance::State& s, double of
   A(n + m, n + m) = normal[n];
   Eigen::VectorXd b(n + m + 1);
   b << balance_of(s, rows), off;
-  const Eigen::VectorXd step = A.completeOrthogonalDecomposition().solve(-b);
+  const double rounding = std::numeric_limits<double>::epsilon() * static_cast<double>(A.rows());
+  const Eigen::VectorXd step = dense::least_squares(A, -b, rounding);
   node.x.head(n) += step.head(n);
   node.x[n] += step[n + m];
   for (Index a = 0; a < m; ++a) node.lambda[rows.rows[static_cast<std::size_t>(a)]] += step[n + a];

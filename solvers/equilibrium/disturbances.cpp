@@ -2,9 +2,7 @@
 
 #include <dalembert/solvers/equilibrium/equilibrium.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
-
-#include <Eigen/LU>
-#include <Eigen/QR>
+#include <dalembert/solvers/linear/dense.h>
 
 #include <array>
 #include <cmath>
@@ -73,9 +71,7 @@ MatrixXd Disturbances::basis() const {
   rows.topLeftCorner(G.rows(), n) = G;
   rows.bottomLeftCorner(W.rows(), n) = E;
   rows.bottomRightCorner(W.rows(), n) = W;
-  MatrixXd Q = MatrixXd::Identity(2 * n, 2 * n);
-  if (rows.rows() > 0) Q.applyOnTheLeft(Eigen::HouseholderQR<MatrixXd>(rows.transpose()).householderQ());
-  return Q.rightCols(2 * n - rows.rows());
+  return orthogonal_complement(rows.transpose());
 }
 
 /// With (u, w) of stage i, and y, z there times h,
@@ -105,7 +101,7 @@ MatrixXd radau_step(std::span<const Disturbances> nodes, double h, const MatrixX
     A.block(row + 2 * n, row + n, m, n) = own.W;
     A.block(row + 2 * n + m, row, mh, n) = own.G;
   }
-  return A.partialPivLu().solve(b).middleRows(2 * size, 2 * n);
+  return dense::solve(A, b).middleRows(2 * size, 2 * n);
 }
 
 }  // namespace dalembert

@@ -2,8 +2,7 @@
 
 #include <dalembert/solvers/equilibrium/disturbances.h>
 #include <dalembert/solvers/integrator.h>
-
-#include <Eigen/Eigenvalues>
+#include <dalembert/solvers/linear/dense.h>
 
 #include <algorithm>
 #include <cmath>
@@ -143,7 +142,7 @@ Floquet find_multipliers(const std::function<System()>& system, std::span<const 
       throw NoEquilibrium("Floquet multipliers of scene \"" + motion->layout->scene +
                           "\" do not settle: its motion is not smooth, or the period too long");
     if (map.size() == 0) return {{}, steps};
-    const Eigen::VectorXcd all = Eigen::EigenSolver<MatrixXd>(map, false).eigenvalues();
+    const Eigen::VectorXcd all = dense::eigenvalues(map);
     Floquet found{{all.data(), all.data() + all.size()}, steps};
     std::ranges::stable_sort(found.multipliers, std::greater{}, [](auto m) { return std::abs(m); });
     return found;

@@ -2,10 +2,7 @@
 
 #include <dalembert/core/analysis/islands.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
+#include <dalembert/solvers/linear/dense.h>
 
 #include <algorithm>
 #include <cmath>
@@ -107,14 +104,13 @@ void refute(Modes& found, Stability stability, const std::string& reason) {
 
 /// K z = omega^2 z. What lies within round-off of 0 is called 0, to be told by a finite motion.
 void of_conservative(const Tangent& t, Modes& found) {
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(t.K);
-  const Vector& square = solver.eigenvalues();
+  const auto [square, shapes] = dense::symmetric_eigen(t.K);
   const double zero = round_off * (square.size() > 0 ? square.cwiseAbs().maxCoeff() : 0.0);
   for (Index k = 0; k < square.size(); ++k) {
     std::complex<double> s = std::sqrt(std::complex<double>(-square[k]));
     if (std::abs(square[k]) <= zero) s = 0.0;
     s = {std::abs(s.real()), std::abs(s.imag())};
-    found.modes.push_back(mode(s, solver.eigenvectors().col(k).cast<std::complex<double>>(), t));
+    found.modes.push_back(mode(s, shapes.col(k).cast<std::complex<double>>(), t));
     if (s.real() > 0.0) refute(found, Stability::unstable, grows(s));
   }
 }
@@ -139,11 +135,8 @@ FirstOrder first_order(const Tangent& t) {
   const Index d = t.K.rows();
   Matrix P = Matrix::Identity(d, d), lifted = Matrix::Zero(d, d);  // lifted: B^+ E
   if (!t.B.isZero(0.0)) {
-    Eigen::CompleteOrthogonalDecomposition<Matrix> qr(t.B.rows(), d);
-    qr.setThreshold(rank_threshold);
-    qr.compute(t.B);
-    lifted = qr.solve(t.E);
-    P = Matrix(qr.colsPermutation() * qr.matrixZ().transpose()).rightCols(d - qr.rank());
+    lifted = dense::least_squares(t.B, t.E, rank_threshold);
+    P = orthogonal_complement(t.B.transpose());
   }
   const Index c = P.cols();
   Matrix matrix(d + c, d + c);
@@ -151,34 +144,18 @@ FirstOrder first_order(const Tangent& t) {
   return {std::move(P), std::move(matrix)};
 }
 
-/// A basis of S x = 0, rows of S of whatever sizes.
-Matrix kernel(const Matrix& S) {
-  if (S.cols() == 0 || S.isZero(0.0)) return Matrix::Identity(S.cols(), S.cols());
-  Eigen::FullPivLU<Matrix> lu(S.rows(), S.cols());
-  lu.setThreshold(round_off);
-  lu.compute(S.rowwise().normalized());
-  if (lu.dimensionOfKernel() == 0) return Matrix(S.cols(), 0);
-  return lu.kernel();
-}
-
 /// A basis of the states at rest: P^T K z = 0, E z = 0. (Not by rows of unit length: those of K may be
 /// round-off.)
 Matrix states_at_rest(const Tangent& t, const FirstOrder& f) {
   Matrix S(f.P.cols() + t.E.rows(), t.K.cols());
   S << f.P.transpose() * t.K, t.E;
-  if (S.cols() == 0 || S.isZero(0.0)) return Matrix::Identity(S.cols(), S.cols());
-  Eigen::FullPivLU<Matrix> lu(S.rows(), S.cols());
-  lu.setThreshold(round_off);
-  lu.compute(S);
-  if (lu.dimensionOfKernel() == 0) return Matrix(S.cols(), 0);
-  return lu.kernel();
+  return dense::kernel(S, round_off);
 }
 
 /// Orthonormal bases of what some columns span, and of the rest.
 std::pair<Matrix, Matrix> split(const Matrix& columns) {
-  Matrix Q = Matrix::Identity(columns.rows(), columns.rows());
-  if (columns.cols() > 0) Q.applyOnTheLeft(Eigen::HouseholderQR<Matrix>(columns).householderQ());
-  return {Q.leftCols(columns.cols()), Q.rightCols(columns.rows() - columns.cols())};
+  Matrix rest = orthogonal_complement(columns);
+  return {orthogonal_complement(rest), std::move(rest)};
 }
 
 /// What is left of a matrix without its zero eigenvalues that are known: those of the states at rest, and
@@ -188,7 +165,8 @@ struct Deflated {
 
   Deflated(const Matrix& A, const Matrix& at_rest) {
     const auto [still, moving] = split(at_rest);
-    const Matrix further = kernel(moving.transpose() * A * moving);
+    const Matrix again = moving.transpose() * A * moving;  // rows of whatever sizes
+    const Matrix further = dense::kernel(again.rowwise().normalized(), round_off);
     const auto [steady, others] = split(further.leftCols(std::min(further.cols(), at_rest.cols())));
     zeros.resize(A.rows(), still.cols() + steady.cols());
     zeros << still, moving * steady;
@@ -201,7 +179,7 @@ struct Deflated {
     if (zeros.cols() == 0) return x;
     Eigen::MatrixXcd T = -(zeros.transpose() * A * zeros).cast<std::complex<double>>();
     T.diagonal().array() += s;
-    return x + zeros * T.partialPivLu().solve((zeros.transpose() * A) * x);
+    return x + zeros * dense::solve(T, (zeros.transpose() * A) * x);
   }
 };
 
@@ -217,9 +195,8 @@ bool has_energy(const Tangent& t) {
     if (D(i, i) < 0.0 || (D(i, i) == 0.0 && !D.row(i).isZero(0.0))) return false;
     scale[i] = D(i, i) > 0.0 ? 1.0 / std::sqrt(D(i, i)) : 0.0;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(scale.asDiagonal() * D * scale.asDiagonal(),
-                                                     Eigen::EigenvaluesOnly);
-  return D.rows() == 0 || solver.eigenvalues().minCoeff() >= -round_off;
+  const Vector shares = dense::symmetric_eigen(scale.asDiagonal() * D * scale.asDiagonal()).values;
+  return D.rows() == 0 || shares.minCoeff() >= -round_off;
 }
 
 /// Adds what an eigenvalue says that is known to an error.
@@ -246,12 +223,11 @@ void of_any(Tangent t, Modes& found) {
   const Deflated deflated(f.matrix, at_rest);
   const Matrix A = deflated.rest.transpose() * f.matrix * deflated.rest;
   if (A.size() == 0) return;
-  const Eigen::EigenSolver<Matrix> solver(A);
-  const Eigen::MatrixXcd right = solver.eigenvectors();
-  const Eigen::MatrixXcd left = right.inverse();
+  const auto [values, right] = dense::complex_eigen(A);
+  const Eigen::MatrixXcd left = dense::inverse(right);
   const bool energy_tells = has_energy(t);
   for (Index k = 0; k < A.rows(); ++k) {
-    const std::complex<double> s = solver.eigenvalues()[k];
+    const std::complex<double> s = values[k];
     if (s.imag() < 0.0) continue;
     // First-order perturbation: |ds| <= |dA| / |y^H x| for left and right eigenvectors of length 1.
     const double condition = left.row(k).norm() * right.col(k).norm();
@@ -281,9 +257,8 @@ Modes dense_modes(const System& system, const LinearTerms& terms) {
 
 TangentStiffness tangent_stiffness(const System& system, const LinearTerms& terms) {
   const Tangent t = tangent(system, terms, up_to(system.coordinates()), up_to(system.rows()));
-  if (t.K.rows() == 0) return {Vector(0), t.shapes};
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver((t.K + t.K.transpose()) / 2);
-  return {solver.eigenvalues(), t.shapes * solver.eigenvectors()};
+  auto [values, shapes] = dense::symmetric_eigen((t.K + t.K.transpose()) / 2);
+  return {std::move(values), t.shapes * shapes};
 }
 
 }  // namespace dalembert

@@ -1,0 +1,46 @@
+#include "dalembert/solvers/linear/dense.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+namespace dalembert::dense {
+
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+
+SymmetricEigen symmetric_eigen(const MatrixXd& A) {
+  if (A.size() == 0) return {Eigen::VectorXd(0), MatrixXd(0, 0)};
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(A);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+ComplexEigen complex_eigen(const MatrixXd& A) {
+  const Eigen::EigenSolver<MatrixXd> solver(A);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+VectorXcd eigenvalues(const MatrixXd& A) { return Eigen::EigenSolver<MatrixXd>(A, false).eigenvalues(); }
+
+MatrixXd least_squares(const MatrixXd& A, const MatrixXd& b, double threshold) {
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> qr(A.rows(), A.cols());
+  qr.setThreshold(threshold);
+  qr.compute(A);
+  return qr.solve(b);
+}
+
+MatrixXd solve(const MatrixXd& A, const MatrixXd& b) { return A.partialPivLu().solve(b); }
+VectorXcd solve(const MatrixXcd& A, const VectorXcd& b) { return A.partialPivLu().solve(b); }
+MatrixXcd inverse(const MatrixXcd& A) { return A.inverse(); }
+
+MatrixXd kernel(const MatrixXd& A, double threshold) {
+  if (A.cols() == 0 || A.isZero(0.0)) return MatrixXd::Identity(A.cols(), A.cols());
+  Eigen::FullPivLU<MatrixXd> lu(A.rows(), A.cols());
+  lu.setThreshold(threshold);
+  lu.compute(A);
+  if (lu.dimensionOfKernel() == 0) return MatrixXd(A.cols(), 0);
+  return lu.kernel();
+}
+
+}  // namespace dalembert::dense

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <dalembert/solvers/base/hidden.h>
+
+#include <Eigen/Core>
+
+namespace DALEMBERT_HIDDEN dalembert {
+/// Decompositions of dense matrices by Eigen: each takes seconds to compile, here once.
+namespace dense {
+
+/// Eigenvalues, increasing, and orthonormal eigenvectors of a symmetric matrix.
+struct SymmetricEigen {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;
+};
+[[nodiscard]] SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A);
+
+/// Those of any square matrix; eigenvectors of length 1.
+struct ComplexEigen {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd vectors;
+};
+[[nodiscard]] ComplexEigen complex_eigen(const Eigen::MatrixXd& A);
+[[nodiscard]] Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A);
+
+/// The shortest x of those for which |A x - b| is least; what makes a smaller part of A's largest pivot than
+/// `threshold` counts as dependent.
+[[nodiscard]] Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b,
+                                            double threshold);
+
+/// A x = b of a regular matrix.
+[[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
+[[nodiscard]] Eigen::VectorXcd solve(const Eigen::MatrixXcd& A, const Eigen::VectorXcd& b);
+[[nodiscard]] Eigen::MatrixXcd inverse(const Eigen::MatrixXcd& A);
+
+/// A basis of A x = 0, as far as can be told to `threshold`.
+[[nodiscard]] Eigen::MatrixXd kernel(const Eigen::MatrixXd& A, double threshold);
+
+}  // namespace dense
+}  // namespace dalembert
