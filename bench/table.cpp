@@ -21,8 +21,13 @@ bool is_number(const std::string& cell) {
   return !cell.empty() && *end == '\0';
 }
 
+/// As RFC 4180 has it; what is refused may say why with commas.
+void write_cell(std::ostream& out, const std::string& cell) {
+  cell.find(',') == std::string::npos ? out << cell : out << std::quoted(cell, '"', '"');
+}
+
 void write_row(std::ostream& out, const Row& row) {
-  for (std::size_t i = 0; i < row.size(); ++i) out << (i == 0 ? "" : ",") << row[i];
+  for (std::size_t i = 0; i < row.size(); ++i) write_cell(out << (i == 0 ? "" : ","), row[i]);
   out << '\n';
 }
 

@@ -75,7 +75,7 @@ TwoFormulations polar() {
         return 0.5 * (v[0] * v[0] + q[0] * q[0] * v[1] * v[1]) - 2.0 * x * x - 3.0 * y * y;
       });
   return same_motion(
-      "plane-oscillator", "mex79", "x, y and r, phi", cartesian, system,
+      "plane-oscillator", "mex79", "Cartesian and polar", cartesian, system,
       [](double, const Vec<2>& q) { return vec(q[0] * std::cos(q[1]), q[0] * std::sin(q[1])); });
 }
 
