@@ -46,6 +46,9 @@ inline constexpr double rank_threshold = 1e-9;
 [[nodiscard]] ActiveRows independent_rows(const System& system, std::span<const double> w,
                                           const ActiveRows& like);
 
+/// The threshold for columns that are known to be independent, of whatever lengths and angles.
+inline constexpr double of_full_rank = 0.0;
+
 /// Orthonormal columns that span all that is orthogonal to the given ones, by the same QR: what rows of unit
 /// length leave free.
 [[nodiscard]] Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& columns,

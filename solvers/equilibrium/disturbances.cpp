@@ -52,16 +52,17 @@ std::vector<double> multipliers(const System& system, const FlatSample& at) {
 
 std::span<const double> radau_nodes() { return c; }
 
-Disturbances::Disturbances(const System& system, const ActiveRows& rows, const FlatSample& at) {
+Disturbances::Disturbances(const System& system, const ActiveRows& rows, const FlatSample& at,
+                           double unit_of_time) {
   const Carrier rest(*system.layout(), {});
   const LinearTerms terms = linear_terms(system, rest, {at.time, at.q, at.v}, multipliers(system, at));
   std::vector<std::size_t> all(system.coordinates());
   std::iota(all.begin(), all.end(), std::size_t{0});
   MassMetric metric(system, terms, all, rows.rows);
-  K = std::move(metric.K);
-  C = std::move(metric.C);
+  K = unit_of_time * unit_of_time * metric.K;
+  C = unit_of_time * metric.C;
   W = std::move(metric.W);
-  E = std::move(metric.E);
+  E = unit_of_time * metric.E;
   G = W.topRows(metric.holonomic);
 }
 
@@ -71,7 +72,7 @@ MatrixXd Disturbances::basis() const {
   rows.topLeftCorner(G.rows(), n) = G;
   rows.bottomLeftCorner(W.rows(), n) = E;
   rows.bottomRightCorner(W.rows(), n) = W;
-  return orthogonal_complement(rows.transpose());
+  return orthogonal_complement(rows.transpose(), of_full_rank);
 }
 
 /// With (u, w) of stage i, and y, z there times h,

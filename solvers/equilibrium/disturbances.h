@@ -15,11 +15,11 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///
 ///   u' = w + G^T z,   w' = -K u - C w + W^T y,   G u = 0,   W w + E u = 0                            (1)
 ///
-/// Compliant rows have become stiffness.
+/// with time, and so w, in a unit that makes the terms comparable. Compliant rows have become stiffness.
 struct Disturbances {
   Eigen::MatrixXd K, C, G, W, E;
 
-  Disturbances(const System& system, const ActiveRows& rows, const FlatSample& at);
+  Disturbances(const System& system, const ActiveRows& rows, const FlatSample& at, double unit_of_time);
   [[nodiscard]] Eigen::Index coordinates() const { return K.rows(); }
   /// An orthonormal basis of the x that obey the constraints.
   [[nodiscard]] Eigen::MatrixXd basis() const;

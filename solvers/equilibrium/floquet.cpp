@@ -80,13 +80,11 @@ void require_return(const Record& motion) {
 /// Throws unless forces and constraints answer a disturbance at the end of the period as at its start.
 void require_same_forces(const System& system, const Disturbances& first, const Disturbances& last,
                          double period) {
-  // Smaller ones than `least` do nothing within the period.
-  const auto differ = [](const MatrixXd& a, const MatrixXd& b, double least) {
-    return (a - b).norm() > returned * std::max({a.norm(), b.norm(), least});
+  // In units of the period smaller ones than 1 do nothing within it.
+  const auto differ = [](const MatrixXd& a, const MatrixXd& b) {
+    return (a - b).norm() > returned * std::max({a.norm(), b.norm(), 1.0});
   };
-  if (!differ(first.K, last.K, 1.0 / (period * period)) && !differ(first.C, last.C, 1.0 / period) &&
-      !differ(first.W, last.W, 1.0))
-    return;
+  if (!differ(first.K, last.K) && !differ(first.C, last.C) && !differ(first.W, last.W)) return;
   std::ostringstream what;
   what << "Scene \"" << system.layout()->scene << "\": its forces or constraints are others after " << period
        << ", so that is no period of theirs; give their whole period";
@@ -99,7 +97,8 @@ MatrixXd monodromy(const System& system, const Record& motion, double period) {
   auto e = system.evaluation();
   system.evaluate({start.time, start.q, start.v}, e);
   const ActiveRows rows = independent_rows(system, e.w);
-  const Disturbances first(system, rows, start), last(system, rows, motion.sample(motion.times.size() - 1));
+  const Disturbances first(system, rows, start, period),
+      last(system, rows, motion.sample(motion.times.size() - 1), period);
   require_same_forces(system, first, last, period);
   const MatrixXd basis = first.basis();
   const std::size_t steps = (motion.times.size() - 1) / 3;
@@ -107,8 +106,8 @@ MatrixXd monodromy(const System& system, const Record& motion, double period) {
   MatrixXd x = basis;
   for (std::size_t k = 0; k < steps; ++k) {
     std::vector<Disturbances> nodes;
-    for (std::size_t i = 1; i <= 3; ++i) nodes.emplace_back(system, rows, motion.sample(3 * k + i));
-    x = radau_step(nodes, period / static_cast<double>(steps), x);
+    for (std::size_t i = 1; i <= 3; ++i) nodes.emplace_back(system, rows, motion.sample(3 * k + i), period);
+    x = radau_step(nodes, 1.0 / static_cast<double>(steps), x);
   }
   return basis.transpose() * x;
 }

@@ -152,9 +152,9 @@ Matrix states_at_rest(const Tangent& t, const FirstOrder& f) {
   return dense::kernel(S, round_off);
 }
 
-/// Orthonormal bases of what some columns span, and of the rest.
+/// Orthonormal bases of what independent columns span, and of the rest.
 std::pair<Matrix, Matrix> split(const Matrix& columns) {
-  Matrix rest = orthogonal_complement(columns);
+  Matrix rest = orthogonal_complement(columns, of_full_rank);
   return {orthogonal_complement(rest), std::move(rest)};
 }
 

@@ -122,6 +122,22 @@ TEST(Floquet, OfALibrationAreOneTwice) {
   EXPECT_EQ(found.stability(), Stability::undecided);
 }
 
+TEST(Floquet, DoNotDependOnTheUnitOfTime) {
+  // A bob goes round on a turntable's rod without gravity, at one turn in a time unit of any size: its
+  // distance and its turning are 1 and 1, coupled. (In small units velocity rows are far longer than position
+  // rows.)
+  for (const double unit : {1.0, 1e-12, 1e12}) {
+    const double rate = 2.0 * pi / unit;
+    Scene<2> scene;
+    const auto bob = scene.add_particle({.mass = 2.0, .position = {1.0, 0.0}, .velocity = {0.0, rate}});
+    scene.add(Distance{Fixed<2>{}, bob, 1.0});
+    const auto found = floquet(scene, unit);
+    ASSERT_EQ(found.multipliers.size(), 2U) << unit;
+    // A double multiplier is known to the root.
+    for (const auto& m : found.multipliers) EXPECT_NEAR(std::abs(m - 1.0), 0.0, std::sqrt(known)) << unit;
+  }
+}
+
 TEST(Floquet, OfWhatDoesNotReturnAreRefused) {
   const models::PlanePendulum pendulum;
   EXPECT_THAT([&] { (void)floquet(pendulum.scene().scene, 1.0); },
