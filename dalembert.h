@@ -45,6 +45,7 @@
 #include <dalembert/constraints/prescribed.h>
 #include <dalembert/constraints/pursuit.h>
 #include <dalembert/constraints/rolling.h>
+#include <dalembert/constraints/unilateral.h>
 #include <dalembert/constraints/upright_rolling.h>
 /// running it;
 #include <dalembert/solvers/simulation.h>

@@ -1,8 +1,8 @@
 #include "dalembert/solvers/integrator.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/event_log.h>
 #include <dalembert/solvers/run/diagnosis.h>
-#include <dalembert/solvers/run/event_watch.h>
 #include <dalembert/solvers/stepping.h>
 
 #include <algorithm>
@@ -34,6 +34,20 @@ class Stopwatch {
   double start_ = processor_time();
 };
 
+/// An impact would have to give impulses to what reads the force of a contact.
+void require_no_force_reads(const System& system) {
+  for (std::size_t k = 0; k < system.friction_pattern().size(); ++k) {
+    for (const std::size_t c : system.contacts()) {
+      const Layout::Constraint& contact = system.layout()->constraints[c];
+      if (system.friction_pattern()[k].column != static_cast<std::size_t>(contact.first_row)) continue;
+      throw InvalidScene(
+          system.force_of_friction(k) + " reads the force of " + contact.label() +
+          ", which is one-sided: state that one as it holds both ways, and end the run by an event "
+          "where its force vanishes");
+    }
+  }
+}
+
 }  // namespace
 
 struct DALEMBERT_HIDDEN Integrator::State {
@@ -42,18 +56,40 @@ struct DALEMBERT_HIDDEN Integrator::State {
       : options(o),
         times(sample_times(o)),
         system(std::make_shared<const System>(std::move(s))),
-        stepping(system, q0, v0, o),
+        begin{q0, v0},
+        contacts(one_sided()),
+        stepping(contacts ? contacts->system() : system, begin.q, begin.v, o),
         now(*system, stepping.start()),
         next(now) {
     visit(o.t_start);
-    if (!events.empty()) {
-      seen = now;
-      watch.emplace(std::move(events), *system->layout(), now.flat());
-    }
+    if (!events.empty() || contacts)
+      log.emplace(std::move(events), contacts.get(), contacts ? &begin.change : nullptr, stepping);
   } catch (const StepFailure& failure) {  // before the first step it is a fault of the start
     throw InconsistentStart(failure.what);
   } catch (const EquationFault& fault) {
     throw InconsistentStart(fault.what());
+  }
+
+  /// A start, in q and v that stay where they are.
+  struct Begin {
+    std::span<const double> q, v;
+    std::vector<double> own_q{};
+    Contacts::Change change{};
+  };
+
+  /// The one-sided constraints, if there are any: where the others hold, with those closed that are, after
+  /// the impacts of the start.
+  std::unique_ptr<Contacts> one_sided() {
+    if (system->contacts().empty()) return nullptr;
+    require_no_force_reads(*system);
+    Start start = consistent_start(system->without(system->contacts()), begin.q, begin.v, options);
+    const Instant at{options.t_start, start.q, start.v};
+    auto found = std::make_unique<Contacts>(system, start.scales, options.tolerance, at);
+    begin.change = found->pass(at, found->touching_at_start());
+    begin.own_q = std::move(start.q);
+    begin.q = begin.own_q;
+    begin.v = begin.change.v;
+    return found;
   }
 
   /// If anything fails the current moment stays as it is.
@@ -68,27 +104,24 @@ struct DALEMBERT_HIDDEN Integrator::State {
                             " is used up; raise it, or ask for a looser tolerance",
                         stepping.time()};
     }
+    if (log) log->carry_out(stepping);
     stepping.step(wanted);
-    if (watch) watch->look([this](double t) { return read(t); }, stepping.time(), stepping.degree());
-  }
-  FlatSample read(double t) {
-    stepping.read(t, *seen);
-    return seen->flat();
+    if (log) log->look(stepping);
   }
 
   /// Where an event ends the run, or its last step went so far.
-  [[nodiscard]] double reached() const { return ended() ? *watch->end() : stepping.time(); }
-  [[nodiscard]] bool ended() const { return watch && watch->end(); }
+  [[nodiscard]] double reached() const { return log ? log->reached(stepping.time()) : stepping.time(); }
+  [[nodiscard]] bool ended() const { return log && log->end(); }
   void require_not_ended(const char* what) const {
-    if (!ended() || now.t < *watch->end()) return;
+    if (!ended() || now.t < *log->end()) return;
     std::ostringstream text;
-    text << what << ": an event has ended the run at t = " << *watch->end();
+    text << what << ": an event has ended the run at t = " << *log->end();
     throw InvalidArgument(text.str());
   }
 
   void go_to(double time) {
-    while (stepping.time() < time && !ended()) step_once(time);
-    visit(ended() ? std::min(time, reached()) : time);
+    while (reached() < time && !ended()) step_once(time);
+    visit(std::min(time, reached()));
   }
 
   template <class Observe>
@@ -119,7 +152,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
     auto kept = std::make_shared<Record>(record);
     kept->statistics = statistics();
     kept->dense = stepping.dense();
-    if (watch) watch->write(*kept);
+    if (log) log->write(*kept);
     std::ostringstream what;
     what.precision(10);
     what << "Scene \"" << system->layout()->scene << "\" stopped at t = " << time << ": " << why;
@@ -144,16 +177,19 @@ struct DALEMBERT_HIDDEN Integrator::State {
             .statistics = {},
             .dense = {},
             .events = {},
-            .at_events = {}};
+            .at_events = {},
+            .after_events = {},
+            .impulses = {}};
   }
 
   Options options;
   std::vector<double> times;
   std::shared_ptr<const System> system;
+  Begin begin;
+  std::unique_ptr<Contacts> contacts;  // if any constraint is one-sided
   Stepping stepping;
   Moment now, next;
-  std::optional<Moment> seen;  // by events
-  std::optional<EventWatch> watch;
+  std::optional<EventLog> log;  // if there is anything to be listed
   long steps = 0;
   double run_time = 0.0;
   Record record = empty_record();
@@ -168,7 +204,7 @@ Integrator::~Integrator() = default;
 FlatSample Integrator::sample() const { return state_->now.flat(); }
 const System& Integrator::system() const { return *state_->system; }
 std::span<const Occurrence> Integrator::events() const {
-  return state_->watch ? std::span<const Occurrence>(state_->watch->found()) : std::span<const Occurrence>();
+  return state_->log ? std::span<const Occurrence>(state_->log->occurred()) : std::span<const Occurrence>();
 }
 Statistics Integrator::statistics() const { return state_->statistics(); }
 
@@ -181,7 +217,7 @@ void Integrator::step() {
   }
   s.require_not_ended("step()");
   s.guarded([&s] {
-    if (s.stepping.time() < s.options.t_end && !s.ended()) s.step_once(s.options.t_end);
+    if (s.reached() < s.options.t_end && !s.ended()) s.step_once(s.options.t_end);
     s.visit(s.reached());
   });
 }
@@ -213,7 +249,7 @@ std::shared_ptr<const Record> Integrator::run() {
   auto record = std::make_shared<Record>(std::exchange(s.record, s.empty_record()));
   record->statistics = s.statistics();
   record->dense = s.stepping.dense();
-  if (s.watch) s.watch->write(*record);
+  if (s.log) s.log->write(*record);
   return record;
 }
 

@@ -48,7 +48,7 @@ Stepping::Stepping(std::shared_ptr<const System> system, std::span<const double>
   const auto number = [](std::size_t equations) { return static_cast<int>(equations); };
   past_.degrees_of_freedom =
       number(system_->coordinates() + system_->compliant_rows()) - number(start_.rows.size());
-  past_.redundant_equations = number(system_->rows() - start_.rows.size());
+  past_.redundant_equations = number(system_->rows_in_force() - start_.rows.size());
   if (options.dense) kept_ = std::make_shared<KeptSteps>(system_, options.tolerance);
   begin(options_);
   unkept_ = options.t_start;
@@ -123,7 +123,7 @@ const Springs* Stepping::springs_at(double t) {
 /// The rows in use are independent at the start of the run; on the way they may come to depend on each
 /// other while others do not.
 void Stepping::exchange_rows() {
-  if (start_.rows.size() == system_->rows()) return;
+  if (start_.rows.size() == system_->rows_in_force()) return;
   const State& now = interpolate(time());
   if (reader_->better_rows({time(), now.q, now.v})) restart(handed_over_ ? Stepper::erk : options_.stepper);
 }
@@ -154,6 +154,22 @@ void Stepping::watch_sliding() {
   if (!sticking_) return;
   const State& now = interpolate(time());
   sticking_->watch(time(), now.q, now.v);
+}
+
+void Stepping::begin_changed(double t, std::shared_ptr<const System> system, std::span<const double> q,
+                             std::span<const double> v) {
+  keep_step();  // if it could not be kept before
+  Start start = dalembert::begin_changed(*system, start_, t, q, v, options_.tolerance);
+  past_ = statistics();
+  past_.advice.clear();
+  start_ = std::move(start);
+  sticking_.reset();
+  handed_over_ = false;
+  Options from_here = options_;
+  from_here.t_start = t;
+  if (kept_) own_steps().change(t, system);
+  system_ = std::move(system);
+  begin(from_here);
 }
 
 /// A fresh choice of rows and a fresh stepper where the present one stands.

@@ -22,10 +22,16 @@ class Stepping {
            const Options& options);
 
   [[nodiscard]] double time() const { return stepper_->time(); }
+  /// The one whose equations are stepped.
+  [[nodiscard]] const System& system() const { return *system_; }
   /// See TimeStepper.
   [[nodiscard]] int degree() const { return stepper_->degree(); }
   /// Throws StepFailure, EquationFault.
   void step(double wanted);
+  /// Begins anew at a time inside the last step, with constraints that changed and velocities that may have.
+  /// Throws StepFailure, EquationFault.
+  void begin_changed(double t, std::shared_ptr<const System> system, std::span<const double> q,
+                     std::span<const double> v);
   /// Everything at a time inside the last step (or at the start, before the first). Throws StepFailure,
   /// EquationFault.
   void read(double t, Moment& m);

@@ -42,6 +42,9 @@ std::string System::describe() const {
       << " in " << layout_->dimension << " dimensions, " << n << " coordinates\n"
       << "constraints: " << kinds(parts_.constraints) << "; " << holonomic_rows() << " holonomic and "
       << nonholonomic << " nonholonomic equations, " << (rheonomic() ? "rheonomic" : "scleronomic") << '\n'
+      << (contacts().empty()
+              ? ""
+              : "one-sided of these: " + std::to_string(contacts().size()) + ", counted as closed\n")
       << "degrees of freedom: " << freedom(n, holonomic_rows() - compliant_rows()) << " of position, "
       << freedom(n, rows() - compliant_rows()) << " of velocity (if the constraints are independent)\n"
       << "islands that do not act on each other: " << islands(*this).count << '\n'

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <span>
 
@@ -50,10 +49,11 @@ Columns with_elongations(const System& system, const Columns& rows) {
   return extended;
 }
 
-std::vector<std::size_t> all_rows(const System& system) {
-  std::vector<std::size_t> all(system.rows());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  return all;
+std::vector<std::size_t> rows_in_force(const System& system) {
+  std::vector<std::size_t> rows;
+  for (std::size_t r = 0; r < system.rows(); ++r)
+    if (system.in_force(r)) rows.push_back(r);
+  return rows;
 }
 
 /// Whether no row makes a smaller angle than a thousandth with those before it, by the pivots of
@@ -62,8 +62,10 @@ std::vector<std::size_t> all_rows(const System& system) {
 bool clearly_independent(const Columns& rows) {
   constexpr double square_of_angle = 1e-6;
   constexpr Eigen::Index most_fill = 16;
-  const Columns gram = (rows.transpose() * rows).pruned();
+  Columns gram = (rows.transpose() * rows).pruned();
   if (gram.nonZeros() > most_fill * rows.nonZeros()) return false;
+  for (Eigen::Index r = 0; r < rows.cols(); ++r)
+    if (rows.col(r).squaredNorm() == 0.0) gram.insert(r, r) = 1.0;  // a row that is not in force
   const Eigen::SimplicialLDLT<Columns> ldl(gram);
   return ldl.info() == Eigen::Success && ldl.vectorD().minCoeff() > square_of_angle;
 }
@@ -141,8 +143,8 @@ ActiveRows choose(const System& system, std::span<const double> w, double thresh
   if (system.rows() == 0) return {};
   const Columns columns = rows_in_mass_metric(system, w);
   const Columns extended = system.compliant() ? with_elongations(system, columns) : columns;
-  const bool all = like != nullptr ? like->size() == system.rows() : clearly_independent(extended);
-  auto rows = all ? all_rows(system) : independent(system, extended, threshold, like);
+  const bool all = like != nullptr ? like->size() == system.rows_in_force() : clearly_independent(extended);
+  auto rows = all ? rows_in_force(system) : independent(system, extended, threshold, like);
   const auto holonomic =
       std::ranges::count_if(rows, [&](std::size_t r) { return r < system.holonomic_rows(); });
   auto parallel = parallel_rows(system, columns, rows, threshold);

@@ -38,6 +38,15 @@ void for_each_element(const std::vector<Element>& elements, const F& f) {
   for_each_element(elements, 0, elements.size(), f);
 }
 
+/// The same for those that are not left out; none is if `left_out` is empty.
+template <class Element, class F>
+void for_each_element(const std::vector<Element>& elements, std::span<const char> left_out, const F& f) {
+  if (left_out.empty()) return for_each_element(elements, f);
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (!left_out[i]) for_each_element(elements, i, i + 1, f);
+  }
+}
+
 /// Sizes that all constraints of one type have in common.
 struct ConstraintShape {
   std::string_view kind;
@@ -68,6 +77,7 @@ class ConstraintBatch {
   /// The coordinates of each constraint in turn, `width` numbers each.
   [[nodiscard]] virtual std::span<const int> coordinates() const = 0;
 
+  /// What is left out writes nothing, here and below, and its equation is not called.
   virtual void evaluate(const Instant& at, const ConstraintValues& out) const = 0;
   /// Per constraint `rows x inputs` numbers U, one row after the other, out of its part of w: lambda has
   /// the size |U^T lambda|, that of the force at one of its points. See detail::forces_at_points.
@@ -81,6 +91,20 @@ class ConstraintBatch {
   /// d(W^T lambda)/dq.
   virtual void linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
                          std::span<double> stiffness) const = 0;
+  /// g and dg/dt of one-sided constraints, left out or not: no gradient is asked for.
+  virtual void gaps(const Instant& /*at*/, std::span<double> /*g*/, std::span<double> /*rate*/) const {}
+
+  /// Whether an element takes part.
+  void leave_out(std::size_t element, bool out = true) {
+    left_out_.resize(size());
+    left_out_[element] = out;
+  }
+
+ protected:
+  [[nodiscard]] std::span<const char> left_out() const { return left_out_; }
+
+ private:
+  std::vector<char> left_out_;  // empty if none is
 };
 
 /// What all forces of one type have in common.

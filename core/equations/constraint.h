@@ -2,9 +2,11 @@
 
 #include <dalembert/core/autodiff/mistakes.h>
 #include <dalembert/core/equations/batch.h>
+#include <dalembert/core/equations/contact.h>
 
 #include <cmath>
 #include <concepts>
+#include <optional>
 #include <sstream>
 
 namespace dalembert {
@@ -39,6 +41,12 @@ concept HasCompliance = requires(const C& c) {
   { c.compliance } -> std::convertible_to<double>;
 };
 
+/// A holonomic constraint that holds one way only: `Contact contact`, see Unilateral.
+template <class C>
+concept OneSided = requires(const C& c) {
+  { c.contact } -> std::convertible_to<Contact>;
+};
+
 namespace detail {
 
 /// What an equation is tried with to see whether it can be called: a scalar it is evaluated with as well,
@@ -64,6 +72,15 @@ template <class S, class T>
     return S(residual[k]);
   } else {
     return S(residual);
+  }
+}
+
+template <class C>
+[[nodiscard]] constexpr std::optional<Contact> contact_of(const C& constraint) {
+  if constexpr (OneSided<C>) {
+    return constraint.contact;
+  } else {
+    return std::nullopt;
   }
 }
 

@@ -33,7 +33,7 @@ class HolonomicBatch final : public ConstraintBatch {
 
   void evaluate(const Instant& at, const ConstraintValues& out) const override {
     using S = Dual<inputs + timed, 1>;
-    for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
+    for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {
       const auto g = residual<S>(c, time<S>(at.t), at, AsInput<S>{});
       const auto coordinate = elements_.coordinates(i);
       for (int k = 0; k < rows; ++k) {
@@ -71,7 +71,7 @@ class HolonomicBatch final : public ConstraintBatch {
 
   void bias(const Instant& at, std::span<double> gamma) const override {
     using S = Dual<1, 2>;
-    for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
+    for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {
       const auto g = residual<S>(c, S::input(at.t, 0), at, AlongMotion<S>{});
       for (int k = 0; k < rows; ++k) {
         const double second = detail::row_of<S>(g, k).hessian(0, 0);
@@ -81,10 +81,22 @@ class HolonomicBatch final : public ConstraintBatch {
     });
   }
 
+  void gaps(const Instant& at, std::span<double> g, std::span<double> rate) const override {
+    if constexpr (OneSided<C>) {
+      using S = Dual<1, 2>;
+      for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
+        const S along = detail::row_of<S>(residual<S>(c, S::input(at.t, 0), at, AlongMotion<S>{}), 0);
+        detail::require_finite(std::isfinite(along.value), i, "is not a finite number");
+        g[i] = along.value;
+        rate[i] = along.gradient[0];
+      });
+    }
+  }
+
   void linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
                  std::span<double> stiffness) const override {
     using S = Dual<inputs + timed, 2>;
-    for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
+    for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {
       const auto g = residual<S>(c, time<S>(at.t), at, AsInput<S>{});
       const auto v = gather_inputs(c, at.v);
       std::array<double, inputs * inputs> curvature{};

@@ -30,7 +30,7 @@ class NonholonomicBatch final : public ConstraintBatch {
 
   void evaluate(const Instant& at, const ConstraintValues& out) const override {
     using S = Dual<inputs, 1>;
-    for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
+    for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {
       const auto a = residual<S>(c, S(at.t), at, Held<S>{}, AsInput<S>{}, 0);
       for (int k = 0; k < rows; ++k) {
         const S a_k = detail::row_of<S>(a, k);
@@ -52,7 +52,7 @@ class NonholonomicBatch final : public ConstraintBatch {
 
   void bias(const Instant& at, std::span<double> gamma) const override {
     using S = Dual<1, 1>;
-    for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
+    for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {
       const auto a = residual<S>(c, S::input(at.t, 0), at, AlongMotion<S>{}, Held<S>{}, 0);
       for (int k = 0; k < rows; ++k) {
         const double rate = detail::row_of<S>(a, k).gradient[0];
@@ -65,7 +65,7 @@ class NonholonomicBatch final : public ConstraintBatch {
   void linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
                  std::span<double> stiffness) const override {
     using S = Dual<2 * inputs, 2>;
-    for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
+    for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {
       const auto a = residual<S>(c, S(at.t), at, AsInput<S>{}, AsInput<S>{}, inputs);
       std::array<double, inputs * inputs> turning{};
       for (int k = 0; k < rows; ++k) {

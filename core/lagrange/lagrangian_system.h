@@ -66,6 +66,7 @@ class LagrangianSystem {
   /// nonholonomic one, a(q, v) = 0 or a(t, q, v) = 0, linear in v. Written for any scalar.
   template <class G>
   auto constrain(G equation, const std::string& name = {}) {
+    static_assert(!OneSided<G>, "the constraints of a Lagrangian hold both ways");
     return enter(kinematics_.add(detail::OnPositions<N, G>{coordinates_, scale_, std::move(equation)}, name));
   }
   template <class A>

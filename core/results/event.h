@@ -33,10 +33,16 @@ struct FlatEvent {
   bool ends;
 };
 
-/// That an event happened in a run: which, counted from 0, and when.
+/// What a run lists: an event that was asked for, or that a one-sided constraint opened, was struck, or came
+/// to rest after impacts without number.
+enum class Happened { event, opened, struck, rested };
+
+/// That something happened in a run, and when.
 struct Occurrence {
-  std::size_t event;
+  std::size_t
+      event;  ///< which of those that were asked for, counted from 0; of a contact the constraint's index
   double time;
+  Happened what = Happened::event;
 };
 
 }  // namespace dalembert

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <dalembert/core/equations/contact.h>
 #include <dalembert/core/points/handles.h>
 #include <dalembert/core/points/points.h>
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,6 +42,7 @@ struct Layout {
     int first_row;   ///< in lambda
     int first_slot;  ///< in the slots of constraint forces, `width` of them
     std::uint64_t scene;
+    std::optional<Contact> contact{};  ///< if it holds one way only
 
     [[nodiscard]] std::string label() const { return kind + " \"" + name + '"'; }
   };

@@ -52,12 +52,23 @@ Trajectory<D>::Trajectory(std::shared_ptr<const Record> record) : record_(std::m
 }
 
 template <int D>
+void Trajectory<D>::require_event(std::size_t k) const {
+  if (k < record_->events.size()) return;
+  throw InvalidArgument("There is no event " + std::to_string(k) + ": in this run " +
+                        std::to_string(record_->events.size()) + " happened, counted from 0");
+}
+
+template <int D>
 Sample<D> Trajectory<D>::event_sample(std::size_t k) const& {
-  if (k >= record_->events.size()) {
-    throw InvalidArgument("There is no event " + std::to_string(k) + ": in this run " +
-                          std::to_string(record_->events.size()) + " happened, counted from 0");
-  }
+  require_event(k);
   return {*record_->layout, record_->at_events->sample(k)};
+}
+
+template <int D>
+Sample<D> Trajectory<D>::sample_after(std::size_t k) const& {
+  require_event(k);
+  const auto& after = record_->after_events ? record_->after_events : record_->at_events;
+  return {*record_->layout, after->sample(k)};
 }
 
 template <int D>

@@ -35,9 +35,12 @@ struct Record {
   std::vector<double> values;  ///< per sample: q, v, a, lambda, constraint forces, energy
   std::vector<char> unique;    ///< per sample and row, see FlatSample; empty if all are
   Statistics statistics;
-  std::shared_ptr<const DenseOutput> dense;  ///< if the option `dense` asks for it
-  std::vector<Occurrence> events;            ///< in the order of time,
-  std::shared_ptr<const Record> at_events;   ///< with a sample of each; null if none were asked for
+  std::shared_ptr<const DenseOutput> dense;    ///< if the option `dense` asks for it
+  std::vector<Occurrence> events;              ///< in the order of time,
+  std::shared_ptr<const Record> at_events;     ///< with a sample of each; null if none were asked for
+  std::shared_ptr<const Record> after_events;  ///< and of the state after it,
+  std::vector<double> impulses;                ///< with the impulses of all rows; both null or empty if no
+                                               ///< constraint is one-sided
 
   /// Makes room, so that `append` allocates nothing for this many samples.
   void reserve(std::size_t samples, const FlatSample& like);
@@ -120,6 +123,24 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   /// InvalidArgument if there are not so many.
   [[nodiscard]] std::span<const Occurrence> events() const& { return record_->events; }
   [[nodiscard]] Sample<D> event_sample(std::size_t k) const&;
+  /// The state that the run goes on with: with other velocities where a contact was struck.
+  [[nodiscard]] Sample<D> sample_after(std::size_t k) const&;
+  /// The impulse of a constraint at the k-th such instant, like a multiplier [force time]: it is not 0 for
+  /// what was struck, and what holds against that.
+  template <int Rows>
+  [[nodiscard]] Multiplier<Rows> impulse(Constraint<Rows> constraint, std::size_t k) const {
+    const std::size_t first = of(constraint) - 3 * record_->coordinates;
+    require_event(k);
+    Eigen::Vector<double, Rows> own = Eigen::Vector<double, Rows>::Zero();
+    if (!record_->impulses.empty())
+      own =
+          Eigen::Map<const Eigen::Vector<double, Rows>>(record_->impulses.data() + k * record_->rows + first);
+    if constexpr (Rows == 1) {
+      return own[0];
+    } else {
+      return own;
+    }
+  }
   [[nodiscard]] Iterator begin() const { return {*record_, 0}; }
   [[nodiscard]] Iterator end() const { return {*record_, size()}; }
   [[nodiscard]] const Statistics& statistics() const& { return record_->statistics; }
@@ -151,6 +172,7 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   void sample(std::size_t) const&& = delete;
   void events() const&& = delete;
   void event_sample(std::size_t) const&& = delete;
+  void sample_after(std::size_t) const&& = delete;
   void positions(Particle<D>) const&& = delete;
   void velocities(Particle<D>) const&& = delete;
   void accelerations(Particle<D>) const&& = delete;
@@ -165,6 +187,7 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   void write_csv(const std::string& path) const { record_->write_csv(path); }
 
  private:
+  void require_event(std::size_t k) const;
   /// Where the numbers of something begin in each sample.
   template <class Handle>
   [[nodiscard]] std::size_t of(const Handle& handle) const {

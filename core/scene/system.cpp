@@ -51,7 +51,7 @@ void System::place_constraints() {
   std::iota(order.begin(), order.end(), 0U);
   std::stable_partition(order.begin(), order.end(),
                         [&](std::size_t b) { return batches[b]->shape().holonomic; });
-  std::vector<std::unique_ptr<ConstraintBatch>> sorted;
+  std::vector<detail::Owned<ConstraintBatch>> sorted;
   std::vector<std::vector<int>> numbers;
   for (const std::size_t b : order) {
     sorted.push_back(std::move(batches[b]));
@@ -85,6 +85,7 @@ void System::place_constraints() {
     batches[b]->compliance(std::span(compliance_).last(row_count));
     if (shape.holonomic) holonomic_rows_ = rows();
   }
+  rows_in_force_ = rows();
   compliant_rows_ =
       static_cast<std::size_t>(std::ranges::count_if(compliance_, [](double C) { return C > 0.0; }));
 }
@@ -151,6 +152,9 @@ std::string System::force_label(std::size_t batch, std::size_t element) const {
 
 void System::evaluate(const Instant& at, Evaluation& out) const {
   std::ranges::copy(parts_.constant_force, out.force.begin());
+  if (!out_of_force_.empty()) {
+    for (auto* part : {&out.g, &out.psi, &out.w}) std::ranges::fill(*part, 0.0);
+  }
   on_forces(at.t, [&](const ForceBatch& batch, const Offsets&) { batch.add_force(at, out.force); });
   on_constraints(at.t, [&](const ConstraintBatch& batch, const Offsets& first) {
     batch.evaluate(at, {first.holonomic ? part(out.g, first.row, first.row_count) : std::span<double>{},
@@ -159,13 +163,27 @@ void System::evaluate(const Instant& at, Evaluation& out) const {
 }
 
 void System::bias(const Instant& at, std::span<double> gamma) const {
+  if (!out_of_force_.empty()) std::ranges::fill(gamma, 0.0);
   on_constraints(at.t, [&](const ConstraintBatch& batch, const Offsets& first) {
     batch.bias(at, gamma.subspan(first.row, first.row_count));
   });
 }
 
+void System::gaps(const Instant& at, std::span<double> g, std::span<double> psi) const {
+  std::ranges::fill(g, 0.0);
+  std::ranges::fill(psi, 0.0);
+  on_constraints(at.t, [&](const ConstraintBatch& batch, const Offsets& first) {
+    if (first.holonomic)
+      batch.gaps(at, g.subspan(first.row, first.row_count), psi.subspan(first.row, first.row_count));
+  });
+}
+
 void System::linearise_constraints(const Instant& at, std::span<const double> lambda,
                                    Linearisation& out) const {
+  if (!out_of_force_.empty()) {
+    std::ranges::fill(out.psi_q, 0.0);
+    std::fill_n(out.stiffness.begin(), stiffness_of_constraints_, 0.0);
+  }
   on_constraints(at.t, [&](const ConstraintBatch& batch, const Offsets& first) {
     const ConstraintShape shape = batch.shape();
     const auto width = static_cast<std::size_t>(shape.width);

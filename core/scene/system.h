@@ -3,6 +3,7 @@
 #include <dalembert/core/equations/batch.h>
 #include <dalembert/core/results/applied_forces.h>
 #include <dalembert/core/results/layout.h>
+#include <dalembert/core/scene/value.h>
 
 #include <array>
 #include <functional>
@@ -18,7 +19,7 @@ struct SystemParts {
   Layout layout{};                       ///< rows, slots and applied forces are filled in by System
   std::vector<double> masses{};          ///< one per coordinate; a rotor's inertia
   std::vector<double> constant_force{};  ///< one per coordinate
-  std::vector<std::unique_ptr<ConstraintBatch>> constraints{};
+  std::vector<detail::Owned<ConstraintBatch>> constraints{};
   std::vector<std::vector<int>> constraint_numbers{};  ///< per batch: the scene's number of each element
   // Shared with the results of a run, which evaluate forces where they are read.
   std::vector<std::shared_ptr<const ForceBatch>> forces{};
@@ -112,6 +113,18 @@ class System {
   /// Places of dF_f/dlambda: a coordinate and a row. Empty if no force reads a multiplier.
   [[nodiscard]] std::span<const Entry> friction_pattern() const { return friction_pattern_; }
   [[nodiscard]] bool frictional() const { return !friction_pattern_.empty(); }
+
+  /// One-sided constraints, by their numbers in the layout.
+  [[nodiscard]] std::vector<std::size_t> contacts() const;
+  /// g and psi of the rows of one-sided constraints at an instant, also of those that are not in force; 0 in
+  /// other rows. Throws like `evaluate`.
+  void gaps(const Instant& at, std::span<double> g, std::span<double> psi) const;
+  /// The same system without some constraints, by their numbers in the layout: they exert no force, and their
+  /// rows say 0 = 0.
+  [[nodiscard]] System without(std::span<const std::size_t> constraints) const;
+  /// Whether a row is in force, and how many are.
+  [[nodiscard]] bool in_force(std::size_t row) const { return out_of_force_.empty() || !out_of_force_[row]; }
+  [[nodiscard]] std::size_t rows_in_force() const { return rows_in_force_; }
 
   /// Work space of the right sizes; the functions below allocate nothing.
   [[nodiscard]] Evaluation evaluation() const;
@@ -216,6 +229,8 @@ class System {
   std::size_t holonomic_rows_ = 0;
   std::vector<std::size_t> row_start_;
   std::vector<std::size_t> w_columns_;
+  std::vector<char> out_of_force_;  // empty if none is
+  std::size_t rows_in_force_ = 0;
   std::vector<double> compliance_;
   std::size_t compliant_rows_ = 0;
   std::vector<Entry> stiffness_pattern_;

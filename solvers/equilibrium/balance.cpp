@@ -31,6 +31,13 @@ void require_frictionless(const System& system) {
                       "rest");
 }
 
+void require_bilateral(const System& system) {
+  if (system.contacts().empty()) return;
+  throw InvalidScene("Equilibria of scene \"" + system.layout()->scene +
+                     "\": " + system.layout()->constraints[system.contacts().front()].label() +
+                     " is one-sided; state it as it holds both ways, and see that its force pushes");
+}
+
 double largest(std::span<const double> x) {
   double m = 0.0;
   for (const double y : x) m = std::max(m, std::abs(y));
@@ -43,6 +50,7 @@ Balance::Balance(const System& system, std::span<const double> guess, double tim
     : system_(&system), time_(time), carrier_(*system.layout(), turning) {
   require_finite(time, turning, system.layout()->dimension);
   require_frictionless(system);
+  require_bilateral(system);
   std::vector<double> v(guess.size());
   carrier_.velocity(guess, v);
   // A duration only for scenes without a length; a turn, where there is one.

@@ -17,7 +17,8 @@ constexpr double margin = 10.0;
 std::vector<Eigen::Index> others(const System& system, const ActiveRows& active) {
   std::vector<Eigen::Index> dropped;
   for (std::size_t r = 0; r < system.rows(); ++r) {
-    if (!std::ranges::binary_search(active.rows, r)) dropped.push_back(static_cast<Eigen::Index>(r));
+    if (system.in_force(r) && !std::ranges::binary_search(active.rows, r))
+      dropped.push_back(static_cast<Eigen::Index>(r));
   }
   return dropped;
 }

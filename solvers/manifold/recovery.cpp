@@ -24,7 +24,8 @@ Moment::Moment(const System& system, const Start& start)
       a(start.a),
       lambda(start.lambda),
       forces(system.layout()->slot_coordinate.size()) {
-  if (start.rows.size() < system.rows()) unique.resize(lambda.size());
+  // With contacts constraints may come to repeat each other that do not at the start.
+  if (start.rows.size() < system.rows_in_force() || !system.contacts().empty()) unique.resize(lambda.size());
 }
 
 Recovery::Recovery(const System& system, const Start& start, double tolerance)

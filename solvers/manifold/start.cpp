@@ -14,9 +14,6 @@ namespace dalembert {
 
 namespace {
 
-/// A start that violates a constraint by less than this, relative to the scene's length or speed,
-/// is taken for one that obeys it in rounded numbers, and projected without a word.
-constexpr double rounding_of_the_user = 1e-8;
 /// What Newton's iteration leaves when it has converged; a few units of round-off.
 constexpr double converged = 1e-14;
 
@@ -52,7 +49,7 @@ void evaluate_relaxed(const System& system, const Instant& at, System::Evaluatio
 void require_gradients(const System& system, const System::Evaluation& e, double t) {
   for (std::size_t r = 0; r < system.rows(); ++r) {
     const auto own = std::span(e.w).subspan(system.row(r).front(), system.row(r).size());
-    if (largest_entry(own) > 0.0) continue;
+    if (!system.in_force(r) || largest_entry(own) > 0.0) continue;
     std::ostringstream what;
     what << system.row_label(r) << " has no gradient: " << system.singular_hint(r) << " (t = " << t << ')';
     throw InconsistentStart(what.str());
@@ -75,7 +72,7 @@ double smallest_radius(const System& system, const Instant& at, const System::Ev
     for (const std::size_t k : system.row(r)) {
       square += e.w[k] * e.w[k];
     }
-    unit[r] = 1.0 / std::sqrt(square);
+    if (system.in_force(r)) unit[r] = 1.0 / std::sqrt(square);
   }
   auto bent = system.linearisation();
   system.linearise_constraints(at, unit, bent);
@@ -158,6 +155,7 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
   const auto lengths = start.scales.lengths();
   double scale = 0.0;
   for (std::size_t r = 0; r < residual.size(); ++r) {
+    if (!system.in_force(r)) continue;
     const double gradient = gradient_length(system, w, lengths, r);
     residual[r] /= gradient;
     for (const std::size_t k : system.row(r)) {
@@ -267,6 +265,24 @@ Start consistent_start(const System& system, std::span<const double> q, std::spa
     throw InconsistentStart(std::string(fault.what()) +
                             ": correct the equation, or start where it is defined");
   }
+  return start;
+}
+
+Start begin_changed(const System& system, const Start& before, double t, std::span<const double> q,
+                    std::span<const double> v, double known) {
+  Start start = before;
+  start.q.assign(q.begin(), q.end());
+  start.v.assign(v.begin(), v.end());
+  auto e = system.evaluation();
+  system.evaluate({t, q, v}, e);
+  const auto lengths = start.scales.lengths();
+  const ActiveRows apart = independent_rows(system, e.w, std::max(rank_threshold, known));
+  Manifold(system, apart, lengths).project_positions(t, start.q, start.v, converged * start.scales.length);
+  system.evaluate({t, start.q, start.v}, e);
+  start.rows = independent_rows(system, e.w);
+  Manifold manifold(system, start.rows, lengths);
+  if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda))
+    throw StepFailure{"the constraints became dependent on each other", t};
   return start;
 }
 

@@ -10,6 +10,10 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
+/// A start that violates a constraint by less than this, relative to the scene's length or speed,
+/// is taken for one that obeys it in rounded numbers, and projected without a word.
+inline constexpr double rounding_of_the_user = 1e-8;
+
 /// A state that obeys the constraints at position, velocity and acceleration level.
 struct Start {
   std::vector<double> q, v, a, lambda;
@@ -21,6 +25,12 @@ struct Start {
 /// and finds accelerations and multipliers. Throws InconsistentStart, naming the constraint.
 [[nodiscard]] Start consistent_start(const System& system, std::span<const double> q,
                                      std::span<const double> v, const Options& options);
+
+/// A start from a state on the way of a run whose constraints have changed since it began with `before`: put
+/// onto those that there are now, of which it is right to `known`, a part of the scene's length. Throws
+/// StepFailure where they contradict each other.
+[[nodiscard]] Start begin_changed(const System& system, const Start& before, double t,
+                                  std::span<const double> q, std::span<const double> v, double known);
 
 /// A start from a state on the way of a run that began with `before`, in its scales: put onto the
 /// constraints, with as many rows as before, chosen anew. Throws StepFailure where they are dependent.

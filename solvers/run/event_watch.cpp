@@ -56,14 +56,21 @@ struct Interpolant {
 
 }  // namespace
 
-EventWatch::EventWatch(std::vector<FlatEvent> events, const Layout& layout, const FlatSample& start)
-    : events_(std::move(events)), from_(start.time) {
+EventWatch::EventWatch(std::vector<FlatEvent> events, const Layout& layout) : events_(std::move(events)) {
+  for (const FlatEvent& event : events_) {
+    if (!event.function)
+      throw InvalidArgument("Event \"" + event.name + "\" of scene \"" + layout.scene + "\" has no function");
+  }
+}
+
+void EventWatch::begin_anew(const FlatSample& start, std::size_t positive) {
+  from_ = start.time;
+  at_from_.clear();
+  side_.clear();
   for (std::size_t e = 0; e < events_.size(); ++e) {
-    if (!events_[e].function)
-      throw InvalidArgument("Event \"" + events_[e].name + "\" of scene \"" + layout.scene +
-                            "\" has no function");
     at_from_.push_back(value(e, start));
     side_.push_back(sign(at_from_.back()));
+    if (side_.back() == 0 && e >= positive) side_.back() = 1;
   }
 }
 
@@ -121,14 +128,7 @@ void EventWatch::find(std::size_t event, const Read& read, const std::vector<dou
   }
 }
 
-void EventWatch::write(Record& record) const {
-  record.events = found_;
-  auto samples = std::make_shared<Record>(samples_);
-  samples->layout = record.layout;
-  record.at_events = std::move(samples);
-}
-
-void EventWatch::look(const Read& read, double to, int degree) {
+std::vector<Occurrence> EventWatch::look(const Read& read, double to, int degree) {
   std::vector<std::vector<double>> values;
   for (const double first : at_from_) values.push_back({first});
   for (int j = 1; j <= degree; ++j) {
@@ -138,15 +138,9 @@ void EventWatch::look(const Read& read, double to, int degree) {
   std::vector<Occurrence> occurred;
   for (std::size_t e = 0; e < events_.size(); ++e) find(e, read, values[e], to, occurred);
   std::ranges::stable_sort(occurred, {}, &Occurrence::time);
-  for (const Occurrence& one : occurred) {
-    if (end_ && one.time > *end_) break;
-    const FlatSample at = read(one.time);
-    samples_.append(at);
-    found_.push_back(one);
-    if (events_[one.event].ends) end_ = one.time;
-  }
   for (std::size_t e = 0; e < events_.size(); ++e) at_from_[e] = values[e].back();
   from_ = to;
+  return occurred;
 }
 
 }  // namespace dalembert

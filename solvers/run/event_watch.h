@@ -23,17 +23,16 @@ class EventWatch {
   /// What the last step says at a time inside it.
   using Read = std::function<FlatSample(double t)>;
 
-  /// Throws InvalidArgument for an event without function; StepFailure as `look`.
-  EventWatch(std::vector<FlatEvent> events, const Layout& layout, const FlatSample& start);
+  /// Throws InvalidArgument for an event without function.
+  EventWatch(std::vector<FlatEvent> events, const Layout& layout);
 
-  /// Looks at a step that ended at `to`; steps follow each other. Events are appended to `found`. Throws
+  /// What happened in a step that ended at `to`, in the order of time; steps follow each other. Throws
   /// StepFailure if a function throws or gives no number.
-  void look(const Read& read, double to, int degree);
-  /// Where an event has ended the run.
-  [[nodiscard]] std::optional<double> end() const { return end_; }
-  [[nodiscard]] const std::vector<Occurrence>& found() const { return found_; }
-  /// Puts them, and a sample of each, among the results of a run.
-  void write(Record& record) const;
+  [[nodiscard]] std::vector<Occurrence> look(const Read& read, double to, int degree);
+  /// From here on steps are those of a run that begins, or begins anew, at a sample; what the functions give
+  /// there is no crossing. Those from number `positive` on come from above 0 where they are 0.
+  void begin_anew(const FlatSample& start, std::size_t positive);
+  [[nodiscard]] const FlatEvent& event(std::size_t number) const { return events_[number]; }
 
  private:
   struct Place {
@@ -46,12 +45,9 @@ class EventWatch {
             std::vector<Occurrence>& occurred);
 
   std::vector<FlatEvent> events_;
-  double from_;
+  double from_ = 0.0;
   std::vector<double> at_from_;  ///< of each event its value where the last step ended,
   std::vector<int> side_;        ///< and its sign there or before, if it is 0; 0 if it never had one
-  std::vector<Occurrence> found_;
-  Record samples_;
-  std::optional<double> end_;
 };
 
 }  // namespace dalembert

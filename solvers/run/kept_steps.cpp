@@ -24,11 +24,16 @@ std::string at(double t) {
 
 }  // namespace
 
-void KeptSteps::begin(const Start& start, double t) { legs_.push_back({start, t, steps_.size()}); }
+void KeptSteps::begin(const Start& start, double t) { legs_.push_back({system_, start, t, steps_.size()}); }
+
+void KeptSteps::change(double t, std::shared_ptr<const System> system) {
+  steps_.back().end = t;
+  system_ = std::move(system);
+}
 
 void KeptSteps::add(TimeStepper& stepper, double from, long number) {
   const std::size_t n = system_->coordinates(), m = system_->compliant() ? system_->rows() : 0;
-  Step step{from, stepper.time(), number, stepper.degree(), end_, 0.0};
+  Step step{from, stepper.time(), stepper.time(), number, stepper.degree(), end_, 0.0};
   Springs springs(m);
   values_.resize(end_);
   for (int j = 0; j <= step.degree; ++j) {
@@ -45,13 +50,13 @@ void KeptSteps::add(TimeStepper& stepper, double from, long number) {
 }
 
 const KeptSteps::Step& KeptSteps::step_at(double t) const {
-  if (!(t >= steps_.front().from && t <= steps_.back().to)) {
+  if (!(t >= steps_.front().from && t <= steps_.back().end)) {
     std::ostringstream what;
     what << at(t) << "must lie within the steps of the run, between " << steps_.front().from << " and "
-         << steps_.back().to;
+         << steps_.back().end;
     throw InvalidArgument(what.str());
   }
-  return *std::ranges::lower_bound(steps_, t, {}, &Step::to);
+  return *std::ranges::lower_bound(steps_, t, {}, &Step::end);
 }
 
 void KeptSteps::interpolate(const Step& step, double t, Moment& m, Springs& springs) const {
@@ -78,8 +83,8 @@ void KeptSteps::read(std::span<const double> times, Record& out) const {
     const auto number = static_cast<std::size_t>(&step - steps_.data());
     const Leg& own = *std::prev(std::ranges::upper_bound(legs_, number, {}, &Leg::first_step));
     if (std::exchange(leg, &own) != &own) {
-      reader.emplace(*system_, own.start, own.t, tolerance_);
-      now.emplace(*system_, own.start);
+      reader.emplace(*own.system, own.start, own.t, tolerance_);
+      now.emplace(*own.system, own.start);
     }
     interpolate(step, t, *now, springs);
     try {

@@ -23,6 +23,8 @@ class KeptSteps final : public DenseOutput {
 
   /// From here on the steps are those of a run that begins, or begins anew, with `start` at time t.
   void begin(const Start& start, double t);
+  /// And those of another system; what the last step said beyond that time is no part of the run.
+  void change(double t, std::shared_ptr<const System> system);
   /// The last step, the so many-th of the run, and where it began; before the first, the start. Throws
   /// EquationFault, and nothing has changed.
   void add(TimeStepper& stepper, double from, long number);
@@ -31,12 +33,14 @@ class KeptSteps final : public DenseOutput {
 
  private:
   struct Leg {
+    std::shared_ptr<const System> system;
     Start start;
     double t;
     std::size_t first_step;
   };
   struct Step {
     double from, to;
+    double end;  // of what of it belongs to the run
     long number;
     int degree;
     std::size_t first;  // of its values

@@ -22,7 +22,7 @@ Reader::Reader(const System& system, const Start& start, double t, double tolera
       lengths_(start.scales.lengths()),
       manifold_(system, rows_, lengths_),
       recovery_(system, start, tolerance),
-      redundant_(rows_.size() < system.rows()) {
+      redundant_(rows_.size() < system.rows_in_force()) {
   if (redundant_) best_sine_ = manifold_.sine({t, start.q, start.v});
 }
 

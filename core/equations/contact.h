@@ -1,0 +1,18 @@
+#pragma once
+
+namespace dalembert {
+
+/// The sign that g may have in a one-sided constraint: a floor keeps g >= 0, a string g <= 0.
+enum class Allowed { positive, negative };
+
+/// What a one-sided constraint adds to its equation.
+struct Contact {
+  Allowed allowed = Allowed::positive;
+  /// Newton's: the part of the speed of approach with which an impact ends, 0 to 1.
+  double restitution = 0.0;
+
+  /// g and lambda times this are >= 0.
+  [[nodiscard]] double sign() const { return allowed == Allowed::positive ? 1.0 : -1.0; }
+};
+
+}  // namespace dalembert

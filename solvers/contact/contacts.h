@@ -1,0 +1,115 @@
+#pragma once
+
+#include <dalembert/core/results/event.h>
+#include <dalembert/core/scene/system.h>
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/contact/accumulation.h>
+#include <dalembert/solvers/manifold/scales.h>
+
+#include <Eigen/Core>
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+class Coupling;
+
+/// The one-sided constraints of a run: which of them are closed, and what happens where that changes.
+///
+/// With gaps s g >= 0 and forces s lambda >= 0, s the sign that each contact allows, U = d(s g)/dt,
+///
+///   impact:        P >= 0,       U+ + e U- >= 0,   P (U+ + e U-) = 0    (Newton; Moreau for several) (1)
+///   acceleration:  lambda >= 0,  dU/dt >= 0,       lambda dU/dt = 0                                      (2)
+///
+/// over the contacts that touch, P the impulses, U+ - U- and dU/dt by Coupling. Both are solved exactly, and
+/// both have one U+ and one dU/dt. Energy changes by sum (1 - e) U- P / 2 <= 0. A contact that (2) leaves at
+/// dU/dt = 0 is closed: it is in force, like any other constraint, until its force changes its sign.
+///
+/// Where impacts of a contact accumulate (see Accumulation) and the time left for that is less than the root
+/// of the tolerance, of the scene's time, accelerations change by no more than that meanwhile: all that was
+/// struck since the contact was last comes to rest. How far it bounces until then is below the tolerance.
+class Contacts {
+ public:
+  /// At a state that obeys all other constraints. Throws InconsistentStart where a gap is negative.
+  Contacts(std::shared_ptr<const System> stated, const Scales& scales, double tolerance,
+           const Instant& start);
+  /// Those that touch at the start: their gaps have fallen to 0 before.
+  [[nodiscard]] const std::vector<std::size_t>& touching_at_start() const { return touching_at_start_; }
+
+  /// The system with the closed contacts in force, and the others not.
+  [[nodiscard]] const std::shared_ptr<const System>& system() const { return system_; }
+  [[nodiscard]] std::size_t size() const { return contacts_.size(); }
+  /// The index of its constraint in the layout.
+  [[nodiscard]] std::size_t index(std::size_t contact) const { return contacts_[contact].number; }
+  [[nodiscard]] std::string label(std::size_t contact) const {
+    return stated_->row_label(contacts_[contact].row);
+  }
+  /// A function of each that falls through 0 where the contact opens or closes: the force of a closed one;
+  /// the gap of an open one, over the time since it opened: that has no root there.
+  [[nodiscard]] double watched(std::size_t contact, const FlatSample& now) const;
+  /// That no open contact has been run through unseen. Throws StepFailure, which names it.
+  void require_open(const FlatSample& now) const;
+
+  struct Happening {
+    std::size_t contact;
+    Happened what;
+    double time;
+  };
+  /// The velocities after an instant, impulses, one per row of the system, and what happened.
+  struct Change {
+    std::vector<double> v{}, impulses{};
+    std::vector<Happening> what{};
+  };
+  /// Goes on from an instant at which the watched functions of some contacts have fallen to 0. Throws
+  /// StepFailure where no velocities or accelerations do, naming the contacts; EquationFault.
+  Change pass(const Instant& at, const std::vector<std::size_t>& fallen);
+  /// Where the forces of closed contacts are not determined the smallest ones may pull, though there are
+  /// others that push: opens the one that pulls most. Whether there was one.
+  [[nodiscard]] bool open_pulling(const FlatSample& now);
+
+ private:
+  struct Contact {
+    std::size_t number;  // in the layout
+    std::size_t row;
+    double sign, restitution;
+    bool closed = false;
+    std::optional<double> opened_at{};  // if it was closed before
+    double rate_at_opening = 0.0;
+    Accumulation impacts{};
+    double gradient = 1.0;  // its length at the start
+    double zero = 0.0;      // what counts as no gap: round-off of the positions
+  };
+
+  void find_gaps(const Instant& at) const;
+  [[nodiscard]] double gradient_of(const Contact& contact, const Instant& at) const;
+  [[nodiscard]] std::vector<std::size_t> touching(const Instant& at,
+                                                  const std::vector<std::size_t>& fallen) const;
+  [[nodiscard]] std::vector<std::size_t> numbers(const std::vector<std::size_t>& chosen) const;
+  [[nodiscard]] std::shared_ptr<const System> only(const std::vector<std::size_t>& in_force) const;
+  void strike(const Coupling& coupling, const std::vector<std::size_t>& touching, double t,
+              Eigen::VectorXd& U, Change& change) const;
+  [[nodiscard]] std::optional<double> limit_of_impacts(const Change& change, double t);
+  static void rest(const Coupling& coupling, const std::vector<std::size_t>& resting, double limit,
+                   Change& change);
+  void accelerate(Coupling& coupling, const std::vector<std::size_t>& touched,
+                  const std::vector<std::size_t>& fallen, const Eigen::VectorXd& U, const Instant& at,
+                  Change& change);
+  [[noreturn]] void refuse(const std::vector<std::size_t>& contacts, double t, const char* what) const;
+  void open(std::size_t number, double t, double rate, Change& change);
+  void settle();
+
+  std::shared_ptr<const System> stated_, system_;
+  Scales scales_;
+  double tolerance_;
+  std::vector<Contact> contacts_;
+  std::vector<std::size_t> touching_at_start_;
+  std::vector<std::size_t> in_force_;                                  // of them
+  mutable std::vector<double> g_, psi_;                                // of all rows,
+  mutable double gaps_at_ = std::numeric_limits<double>::quiet_NaN();  // at this time of the state watched
+};
+
+}  // namespace dalembert

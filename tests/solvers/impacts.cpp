@@ -1,0 +1,190 @@
+#include <dalembert/dalembert.h>
+#include <dalembert/tests/both_steppers.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace dalembert {
+namespace {
+
+constexpr double g = 9.81, tolerance = 1e-10;
+/// A run of a few seconds errs by some tens of its tolerance, and so do the times at which it gets anywhere.
+constexpr double met = 100.0 * tolerance;
+
+class Impacts : public testing::TestWithParam<Stepper> {
+ protected:
+  [[nodiscard]] static Options options(double t_end) {
+    return {.t_end = t_end, .samples = 11, .tolerance = tolerance, .stepper = GetParam()};
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Steppers, Impacts, both_steppers, stepper_name);
+
+/// A ball of mass 2 that falls from a height of 1, going sideways.
+struct Ball {
+  Scene<2> scene{"ball"};
+  Particle<2> ball;
+  Constraint<1> floor;
+  double first = std::sqrt(2.0 / g);  // impact
+
+  explicit Ball(double restitution) {
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    ball = scene.add_particle({.mass = 2.0, .position = {0.0, 1.0}, .velocity = {0.3, 0.0}}, "ball");
+    floor = scene.add(
+        unilateral(holonomic(points(ball), [](auto r) { return r.y(); }), {.restitution = restitution}),
+        "floor");
+  }
+};
+
+TEST_P(Impacts, OfABouncingBallAreAtTheirTimesWithTheirImpulses) {
+  // It strikes with u_k = e^k sqrt(2 g h), u_0 after sqrt(2 h/g), and flies for 2 e u_k/g; P = m (1 + e) u_k.
+  constexpr double e = 0.9;
+  const Ball scene(e);
+  const auto run = simulate(scene.scene, options(5.0));
+  ASSERT_EQ(run.events().size(), 8U);
+  double time = scene.first, u = g * time;
+  for (std::size_t k = 0; k < run.events().size(); ++k) {
+    EXPECT_EQ(run.events()[k].what, Happened::struck);
+    EXPECT_EQ(run.events()[k].event, static_cast<std::size_t>(scene.floor.index));
+    EXPECT_NEAR(run.events()[k].time, time, met);
+    EXPECT_NEAR(run.event_sample(k).velocity(scene.ball).y(), -u, met);
+    EXPECT_NEAR(run.sample_after(k).velocity(scene.ball).y(), e * u, met);
+    EXPECT_NEAR(run.impulse(scene.floor, k), 2.0 * (1.0 + e) * u, met);
+    u *= e;
+    time += 2.0 * u / g;
+  }
+  EXPECT_NEAR(run.position(scene.ball, 10).x(), 0.3 * 5.0, met);
+  EXPECT_EQ(run.multiplier(scene.floor, 10), 0.0);
+}
+
+TEST_P(Impacts, ThatAccumulateEndInRestAtTheirLimit) {
+  // The flights are a geometric series: sqrt(2 h/g) (1 + e)/(1 - e).
+  for (const double e : {0.3, 0.5, 0.8}) {
+    const Ball scene(e);
+    const double limit = scene.first * (1.0 + e) / (1.0 - e);
+    const auto run = simulate(scene.scene, options(limit + 1.0));
+    const Occurrence& last = run.events().back();
+    EXPECT_EQ(last.what, Happened::rested) << e;
+    EXPECT_NEAR(last.time, limit, met * limit) << e;
+    EXPECT_NEAR(run.multiplier(scene.floor, 10), 2.0 * g, met) << e;
+    EXPECT_NEAR(run.position(scene.ball, 10).y(), 0.0, tolerance) << e;
+    EXPECT_NEAR(run.position(scene.ball, 10).x(), 0.3 * (limit + 1.0), met * limit) << e;
+  }
+}
+
+TEST_P(Impacts, WithoutRestitutionCloseAtOnce) {
+  const Ball scene(0.0);
+  const auto run = simulate(scene.scene, options(1.0));
+  ASSERT_EQ(run.events().size(), 1U);
+  EXPECT_EQ(run.events()[0].what, Happened::struck);
+  EXPECT_NEAR(run.impulse(scene.floor, 0), 2.0 * std::sqrt(2.0 * g), met);
+  // The normal part of the energy is lost, and no other.
+  EXPECT_NEAR(run.sample_after(0).energy(), 0.3 * 0.3, met);
+  EXPECT_NEAR(run.multiplier(scene.floor, 10), 2.0 * g, met);
+}
+
+TEST_P(Impacts, ThatAreElasticKeepTheEnergy) {
+  const Ball scene(1.0);
+  const auto run = simulate(scene.scene, options(100.0));
+  EXPECT_EQ(run.events().size(), static_cast<std::size_t>((100.0 / scene.first - 1.0) / 2.0) + 1);
+  EXPECT_NEAR(run.energy(10), run.energy(0), met * run.energy(0));
+}
+
+TEST_P(Impacts, OfAPendulumGiveTheRodAnImpulseToo) {
+  // The bob meets a vertical wall at x = -0.2, where the rod makes sin a = 0.2. It goes along (cos a, sin a)
+  // at w = sqrt(2 g (cos a - cos 0.5)), and comes back at as much. The wall pushes along x: across the rod 2
+  // w = P cos a; along it the rod takes up P sin a.
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {std::sin(0.5), -std::cos(0.5)}});
+  const auto rod = scene.add(Distance{Fixed<2>{}, bob, 1.0});
+  const auto wall =
+      scene.add(unilateral(holonomic(points(bob), [](auto r) { return r.x() + 0.2; }), {.restitution = 1.0}));
+  const auto run = simulate(scene, options(10.0));
+  const double a = std::asin(0.2), w = std::sqrt(2.0 * g * (std::cos(a) - std::cos(0.5)));
+  ASSERT_GE(run.events().size(), 5U);
+  for (std::size_t k = 0; k < run.events().size(); ++k) {
+    EXPECT_NEAR(run.impulse(wall, k), 2.0 * w / std::cos(a), met * w);
+    EXPECT_NEAR(std::abs(run.impulse(rod, k)), 2.0 * w * std::tan(a), met * w);
+    // Together they are what the bob gains.
+    const Vec<2> gained = run.sample_after(k).velocity(bob) - run.event_sample(k).velocity(bob);
+    EXPECT_NEAR(gained.norm(), 2.0 * w, met * w);
+  }
+  EXPECT_NEAR(run.energy(10), run.energy(0), met * g);
+}
+
+/// Equal balls in a row at these places, the first of which goes to the others at 1.
+std::vector<double> cradle(const std::vector<double>& places, const Options& options) {
+  Scene<2> scene("cradle");
+  std::vector<Particle<2>> balls;
+  for (const double x : places)
+    balls.push_back(scene.add_particle(
+        {.mass = 1.0, .position = {x, 0.0}, .velocity = {balls.empty() ? 1.0 : 0.0, 0.0}}));
+  for (std::size_t i = 0; i + 1 < balls.size(); ++i) {
+    scene.add(unilateral(
+        holonomic(points(balls[i], balls[i + 1]), [](auto a, auto b) { return b.x() - a.x() - 1.0; }),
+        {.restitution = 1.0}));
+  }
+  const auto run = simulate(scene, options);
+  std::vector<double> speeds;
+  for (const auto ball : balls) speeds.push_back(run.velocity(ball, run.size() - 1).x());
+  return speeds;
+}
+
+TEST_P(Impacts, OfBallsThatTouchObeyMoreausLaw) {
+  // U+ = 1 at the first contact; the others stay closed, U+ = 0, as nothing parts them: n - 1 balls go on as
+  // one of mass n - 1 does, (1 - (n - 1))/n and 2/n.
+  for (const int n : {2, 3, 5, 10}) {
+    std::vector<double> places;
+    for (int i = 0; i < n; ++i) places.push_back(i);
+    const auto v = cradle(places, options(1.0));
+    EXPECT_NEAR(v[0], (2.0 - n) / n, 1e-13);
+    for (std::size_t i = 1; i < v.size(); ++i) EXPECT_NEAR(v[i], 2.0 / n, 1e-13) << n;
+  }
+}
+
+TEST_P(Impacts, OfBallsApartHandTheSpeedOn) {
+  // One after the other, however little they are apart: the last goes off at 1, all others rest.
+  for (const double apart : {1e-1, 1e-4, 1e-7}) {
+    const auto v = cradle({0.0, 1.0 + apart, 2.0 + 2.0 * apart, 3.0 + 3.0 * apart}, options(1.0));
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(v[i], 0.0, met) << apart;
+    EXPECT_NEAR(v[3], 1.0, met) << apart;
+  }
+}
+
+TEST_P(Impacts, AtOneTimeAreAllCarriedOut) {
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  std::vector<Particle<2>> balls;
+  for (int i = 0; i < 3; ++i) {
+    balls.push_back(scene.add_particle({.mass = 1.0 + i, .position = {2.0 * i, 1.0}}));
+    scene.add(unilateral(holonomic(points(balls.back()), [](auto r) { return r.y(); }),
+                         {.restitution = 0.5 + 0.1 * i}));
+  }
+  const auto run = simulate(scene, options(0.6));
+  ASSERT_EQ(run.events().size(), 3U);
+  const double first = std::sqrt(2.0 / g), left = 0.6 - first;
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(run.events()[i].time, first, met);
+    const double up = (0.5 + 0.1 * static_cast<double>(i)) * g * first;
+    EXPECT_NEAR(run.position(balls[i], 10).y(), up * left - g * left * left / 2.0, met);
+  }
+}
+
+TEST_P(Impacts, AreReadBetweenSamplesAndStepByStep) {
+  const Ball scene(1.0);
+  Options dense = options(1.0);
+  dense.dense = true;
+  const auto run = simulate(scene.scene, dense);
+  const double just_before = scene.first - 1e-6, just_after = scene.first + 1e-6, u = g * scene.first;
+  EXPECT_NEAR(run.at({just_before}).velocity(scene.ball, 0).y(), -u + g * 1e-6, met);
+  EXPECT_NEAR(run.at({just_after}).velocity(scene.ball, 0).y(), u - g * 1e-6, met);
+  Simulation<2> simulation(scene.scene, options(1.0));
+  while (simulation.time() < 1.0) simulation.step();
+  EXPECT_EQ(simulation.events().size(), run.events().size());
+  EXPECT_NEAR(simulation.position(scene.ball).y(), run.position(scene.ball, 10).y(), met);
+}
+
+}  // namespace
+}  // namespace dalembert
