@@ -100,8 +100,8 @@ int Scene<D>::find_constraint(std::string_view name, int rows) const {
 
 template <int D>
 void Scene<D>::check(const ParticleState<D>& state, const Label& label) {
-  require(std::isfinite(state.mass) && state.mass > 0.0, label, "mass", state.mass,
-          " and > 0; for a point without mass use Fixed or driven");
+  require(std::isnormal(state.mass) && state.mass > 0.0, label, "mass", state.mass,
+          " and > 0, above 2.2e-308; for a point without mass use Fixed or driven");
   if (!state.position.allFinite())
     throw InvalidScene(label.text() + ": position = " + text<D>(state.position) + ", must be finite");
   if (!state.velocity.allFinite())
@@ -138,7 +138,8 @@ void Scene<D>::replace(Particle<D> particle, const ParticleState<D>& state) {
 
 template <int D>
 void Scene<D>::check(const RotorState& state, const Label& label) {
-  require(std::isfinite(state.inertia) && state.inertia > 0.0, label, "inertia", state.inertia, " and > 0");
+  require(std::isnormal(state.inertia) && state.inertia > 0.0, label, "inertia", state.inertia,
+          " and > 0, above 2.2e-308");
   require(std::isfinite(state.angle), label, "angle", state.angle, "");
   require(std::isfinite(state.angular_velocity), label, "angular_velocity", state.angular_velocity, "");
 }

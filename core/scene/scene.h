@@ -22,7 +22,7 @@ namespace dalembert {
 /// A particle as its user states it. Units are the user's own, consistent ones.
 template <int D>
 struct ParticleState {
-  double mass = 0.0;  ///< finite and > 0; there is no default
+  double mass = 0.0;  ///< finite and > 0, no denormal number; there is no default
   Vec<D> position = Vec<D>::Zero();
   Vec<D> velocity = Vec<D>::Zero();
 };
