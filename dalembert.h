@@ -19,6 +19,7 @@
 #include <dalembert/constraints/bodies/thin_rod.h>
 #include <dalembert/constraints/coincident.h>
 #include <dalembert/constraints/compliant.h>
+#include <dalembert/constraints/coulomb.h>
 #include <dalembert/constraints/disk_on_plane.h>
 #include <dalembert/constraints/distance.h>
 #include <dalembert/constraints/geometry/moving.h>
@@ -45,6 +46,7 @@
 #include <dalembert/constraints/prescribed.h>
 #include <dalembert/constraints/pursuit.h>
 #include <dalembert/constraints/rolling.h>
+#include <dalembert/constraints/slip.h>
 #include <dalembert/constraints/unilateral.h>
 #include <dalembert/constraints/upright_rolling.h>
 /// running it;

@@ -8,10 +8,10 @@ namespace dalembert {
 
 namespace {
 
-std::vector<FlatEvent> with_contacts(std::vector<FlatEvent> events, const Contacts* contacts) {
-  for (std::size_t i = 0; contacts != nullptr && i < contacts->size(); ++i) {
-    events.push_back({contacts->label(i),
-                      [contacts, i](const FlatSample& now) { return contacts->watched(i, now); },
+std::vector<FlatEvent> with_transitions(std::vector<FlatEvent> events, const Transitions* transitions) {
+  for (std::size_t i = 0; transitions != nullptr && i < transitions->functions(); ++i) {
+    events.push_back({transitions->label(i),
+                      [transitions, i](const FlatSample& now) { return transitions->watched(i, now); },
                       Crossing::falling, false});
   }
   return events;
@@ -19,12 +19,12 @@ std::vector<FlatEvent> with_contacts(std::vector<FlatEvent> events, const Contac
 
 }  // namespace
 
-EventLog::EventLog(std::vector<FlatEvent> events, Contacts* contacts, const Contacts::Change* at_start,
-                   Stepping& stepping)
+EventLog::EventLog(std::vector<FlatEvent> events, Transitions* transitions,
+                   const Transitions::Change* at_start, Stepping& stepping)
     : asked_for_(events.size()),
-      contacts_(contacts),
+      transitions_(transitions),
       seen_(stepping.system(), stepping.start()),
-      watch_(with_contacts(std::move(events), contacts), *stepping.system().layout()) {
+      watch_(with_transitions(std::move(events), transitions), *stepping.system().layout()) {
   const double t = stepping.time();
   if (at_start != nullptr) go_on(*at_start, t, stepping);
   watch_.begin_anew(read(stepping, t), asked_for_);
@@ -45,7 +45,7 @@ void EventLog::look(Stepping& stepping) {
     const FlatSample at = read(stepping, one.time);
     occurred_.push_back(one);
     before_.append(at);
-    if (contacts_ != nullptr) {
+    if (transitions_ != nullptr) {
       after_.append(at);
       impulses_.resize(impulses_.size() + at.lambda.size());
     }
@@ -54,16 +54,16 @@ void EventLog::look(Stepping& stepping) {
       return;
     }
   }
-  if (contacts_ != nullptr) contacts_->require_open(read(stepping, stepping.time()));
+  if (transitions_ != nullptr) transitions_->require_open(read(stepping, stepping.time()));
 }
 
 void EventLog::carry_out(Stepping& stepping) {
   if (!change_) return;
   const double t = change_->time;
   const FlatSample at = read(stepping, t);
-  const Contacts::Change change = contacts_->pass({t, at.q, at.v}, {change_->contact});
+  const Transitions::Change change = transitions_->pass(at, change_->function);
   for (std::size_t k = 0; k < change.what.size(); ++k) before_.append(at);
-  stepping.begin_changed(t, contacts_->system(), at.q, change.v);
+  stepping.begin_changed(t, transitions_->system(), at.q, change.v);
   go_on(change, t, stepping);
   watch_.begin_anew(read(stepping, t), asked_for_);
   change_.reset();
@@ -71,15 +71,15 @@ void EventLog::carry_out(Stepping& stepping) {
 
 /// Lists a change, with the state after it and its impulses. Where contacts share a load in many ways, those
 /// are left out that would pull.
-void EventLog::go_on(const Contacts::Change& change, double t, Stepping& stepping) {
+void EventLog::go_on(const Transitions::Change& change, double t, Stepping& stepping) {
   FlatSample after = read(stepping, t);
-  while (contacts_->open_pulling(after)) {
+  while (transitions_->open_pulling(after)) {
     const std::vector<double> q(after.q.begin(), after.q.end()), v(after.v.begin(), after.v.end());
-    stepping.begin_changed(t, contacts_->system(), q, v);
+    stepping.begin_changed(t, transitions_->system(), q, v);
     after = read(stepping, t);
   }
-  for (const auto& happening : change.what) {
-    occurred_.push_back({contacts_->index(happening.contact), happening.time, happening.what});
+  for (const Occurrence& one : change.what) {
+    occurred_.push_back(one);
     if (before_.times.size() < occurred_.size()) before_.append(after);
     after_.append(after);
     impulses_.insert(impulses_.end(), change.impulses.begin(), change.impulses.end());
@@ -94,7 +94,7 @@ void EventLog::write(Record& record) const {
   };
   record.events = occurred_;
   record.at_events = of(before_);
-  if (contacts_ == nullptr) return;
+  if (transitions_ == nullptr) return;
   record.after_events = of(after_);
   record.impulses = impulses_;
 }

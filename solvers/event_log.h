@@ -2,7 +2,7 @@
 
 #include <dalembert/core/results/trajectory.h>
 #include <dalembert/solvers/base/hidden.h>
-#include <dalembert/solvers/contact/contacts.h>
+#include <dalembert/solvers/contact/transitions.h>
 #include <dalembert/solvers/run/event_watch.h>
 #include <dalembert/solvers/stepping.h>
 
@@ -11,19 +11,19 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// What happens in a run: the events that were asked for and the changes of its one-sided constraints, found
-/// step by step, listed, and carried out.
+/// What happens in a run: the events that were asked for and the changes of constraints that hold at times
+/// only, found step by step, listed, and carried out.
 class EventLog {
  public:
-  /// At the start of a run. `contacts`, with what happened to them there, may be null, else they must outlive
-  /// this. Throws as EventWatch.
-  EventLog(std::vector<FlatEvent> events, Contacts* contacts, const Contacts::Change* at_start,
+  /// At the start of a run. `transitions`, with what happened to them there, may be null, else they must
+  /// outlive this. Throws as EventWatch.
+  EventLog(std::vector<FlatEvent> events, Transitions* transitions, const Transitions::Change* at_start,
            Stepping& stepping);
 
-  /// Lists what happened in the last step, up to where an event ends the run or a contact changes. Throws
+  /// Lists what happened in the last step, up to where an event ends the run or a constraint changes. Throws
   /// StepFailure, EquationFault.
   void look(Stepping& stepping);
-  /// Goes on from a change of a contact, if the last step had one. Throws StepFailure, EquationFault.
+  /// Goes on from a change of a constraint, if the last step had one. Throws StepFailure, EquationFault.
   void carry_out(Stepping& stepping);
 
   /// Where an event has ended the run.
@@ -36,14 +36,14 @@ class EventLog {
 
  private:
   struct Pending {
-    std::size_t contact;
+    std::size_t function;
     double time;
   };
   FlatSample read(Stepping& stepping, double t);
-  void go_on(const Contacts::Change& change, double t, Stepping& stepping);
+  void go_on(const Transitions::Change& change, double t, Stepping& stepping);
 
   std::size_t asked_for_;
-  Contacts* contacts_;
+  Transitions* transitions_;
   Moment seen_;
   EventWatch watch_;
   std::vector<Occurrence> occurred_;

@@ -57,13 +57,13 @@ struct DALEMBERT_HIDDEN Integrator::State {
         times(sample_times(o)),
         system(std::make_shared<const System>(std::move(s))),
         begin{q0, v0},
-        contacts(one_sided()),
-        stepping(contacts ? contacts->system() : system, begin.q, begin.v, o),
+        transitions(conditional()),
+        stepping(transitions ? transitions->system() : system, begin.q, begin.v, o),
         now(*system, stepping.start()),
         next(now) {
     visit(o.t_start);
-    if (!events.empty() || contacts)
-      log.emplace(std::move(events), contacts.get(), contacts ? &begin.change : nullptr, stepping);
+    if (!events.empty() || transitions)
+      log.emplace(std::move(events), transitions.get(), transitions ? &begin.change : nullptr, stepping);
   } catch (const StepFailure& failure) {  // before the first step it is a fault of the start
     throw InconsistentStart(failure.what);
   } catch (const EquationFault& fault) {
@@ -74,18 +74,19 @@ struct DALEMBERT_HIDDEN Integrator::State {
   struct Begin {
     std::span<const double> q, v;
     std::vector<double> own_q{};
-    Contacts::Change change{};
+    Transitions::Change change{};
   };
 
-  /// The one-sided constraints, if there are any: where the others hold, with those closed that are, after
-  /// the impacts of the start.
-  std::unique_ptr<Contacts> one_sided() {
-    if (system->contacts().empty()) return nullptr;
+  /// The constraints that hold at times only, if there are any: where the others hold, with those in force
+  /// that are, after the impacts of the start.
+  std::unique_ptr<Transitions> conditional() {
+    const auto numbers = system->conditional();
+    if (numbers.empty()) return nullptr;
     require_no_force_reads(*system);
-    Start start = consistent_start(system->without(system->contacts()), begin.q, begin.v, options);
+    Start start = consistent_start(system->without(numbers), begin.q, begin.v, options);
     const Instant at{options.t_start, start.q, start.v};
-    auto found = std::make_unique<Contacts>(system, start.scales, options.tolerance, at);
-    begin.change = found->pass(at, found->touching_at_start());
+    auto found = std::make_unique<Transitions>(system, start.scales, options.tolerance, at);
+    begin.change = found->begin(at);
     begin.own_q = std::move(start.q);
     begin.q = begin.own_q;
     begin.v = begin.change.v;
@@ -186,7 +187,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
   std::vector<double> times;
   std::shared_ptr<const System> system;
   Begin begin;
-  std::unique_ptr<Contacts> contacts;  // if any constraint is one-sided
+  std::unique_ptr<Transitions> transitions;  // if any constraint holds at times only
   Stepping stepping;
   Moment now, next;
   std::optional<EventLog> log;  // if there is anything to be listed

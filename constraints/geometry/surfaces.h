@@ -7,10 +7,12 @@
 #include <cmath>
 #include <initializer_list>
 #include <string>
+#include <type_traits>
 
 /// Surfaces for OnSurface, each as its signed distance: a function of position whose gradient has
 /// unit length on the surface, so that the multiplier is the normal force, positive towards g > 0.
-/// Their equation is `prepared()`, with all that does not depend on r worked out once.
+/// Their equation is `prepared()`, with all that does not depend on r worked out once; `normal_at(r)` is
+/// its gradient.
 namespace dalembert {
 
 namespace detail {
@@ -52,6 +54,10 @@ struct Plane {
     return [point = point, n = Vec<D>(normal.normalized())](const auto& r) { return n.dot(r - point); };
   }
   auto operator()(const auto& r) const { return prepared()(r); }
+  [[nodiscard]] auto normal_at(const auto& r) const {
+    using T = typename std::remove_cvref_t<decltype(r)>::Scalar;
+    return VecOf<T, D>(normal.normalized().template cast<T>());
+  }
   [[nodiscard]] std::string fault() const {
     return detail::first_fault(
         {detail::place_fault(point, "point"), detail::direction_fault(normal, "normal")});
@@ -66,6 +72,7 @@ struct Sphere {
   double radius = 1.0;
 
   auto operator()(const auto& r) const { return (r - centre).norm() - radius; }
+  [[nodiscard]] auto normal_at(const auto& r) const { return (r - centre).normalized().eval(); }
   [[nodiscard]] std::string fault() const {
     return detail::first_fault(
         {detail::place_fault(centre, "centre"), detail::positive_fault(radius, "radius")});
@@ -85,6 +92,11 @@ struct Cylinder {
     };
   }
   auto operator()(const auto& r) const { return prepared()(r); }
+  [[nodiscard]] auto normal_at(const auto& r) const {
+    const Vec<3> e = axis.normalized();
+    const auto d = (r - point).eval();
+    return (d - e * e.dot(d)).normalized().eval();
+  }
   [[nodiscard]] std::string fault() const {
     return detail::first_fault({detail::place_fault(point, "point"), detail::direction_fault(axis, "axis"),
                                 detail::positive_fault(radius, "radius")});
@@ -112,6 +124,12 @@ struct Cone {
     };
   }
   auto operator()(const auto& r) const { return prepared()(r); }
+  [[nodiscard]] auto normal_at(const auto& r) const {
+    const Vec<3> e = axis.normalized();
+    const auto d = (r - apex).eval();
+    const auto out = (d - e * e.dot(d)).normalized().eval();
+    return (e * std::sin(half_angle) - out * std::cos(half_angle)).eval();
+  }
   [[nodiscard]] std::string fault() const {
     if (!(half_angle > 0.0 && half_angle < 1.5707963267948966)) {
       return "half_angle = " + detail::text(half_angle) + " rad, must lie between 0 and pi/2";

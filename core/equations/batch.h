@@ -91,7 +91,8 @@ class ConstraintBatch {
   /// d(W^T lambda)/dq.
   virtual void linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
                          std::span<double> stiffness) const = 0;
-  /// g and dg/dt of one-sided constraints, left out or not: no gradient is asked for.
+  /// g and dg/dt of one-sided constraints, the slip velocities of those of Coulomb's law, left out or not: no
+  /// gradient is asked for.
   virtual void gaps(const Instant& /*at*/, std::span<double> /*g*/, std::span<double> /*rate*/) const {}
 
   /// Whether an element takes part.

@@ -47,6 +47,12 @@ concept OneSided = requires(const C& c) {
   { c.contact } -> std::convertible_to<Contact>;
 };
 
+/// A constraint that nothing slides as long as friction can hold it: `Roughness roughness()`, see Coulomb.
+template <class C>
+concept Rough = requires(const C& c) {
+  { c.roughness() } -> std::convertible_to<Roughness>;
+};
+
 namespace detail {
 
 /// What an equation is tried with to see whether it can be called: a scalar it is evaluated with as well,
@@ -76,11 +82,13 @@ template <class S, class T>
 }
 
 template <class C>
-[[nodiscard]] constexpr std::optional<Contact> contact_of(const C& constraint) {
+[[nodiscard]] Condition condition_of(const C& constraint) {
   if constexpr (OneSided<C>) {
-    return constraint.contact;
+    return {.contact = constraint.contact};
+  } else if constexpr (Rough<C>) {
+    return {.roughness = constraint.roughness()};
   } else {
-    return std::nullopt;
+    return {};
   }
 }
 

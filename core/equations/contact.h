@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 namespace dalembert {
 
 /// The sign that g may have in a one-sided constraint: a floor keeps g >= 0, a string g <= 0.
@@ -13,6 +15,19 @@ struct Contact {
 
   /// g and lambda times this are >= 0.
   [[nodiscard]] double sign() const { return allowed == Allowed::positive ? 1.0 : -1.0; }
+};
+
+/// What Coulomb's law adds to the equation that nothing slides.
+struct Roughness {
+  int pressed_by = -1;  ///< index of the constraint whose force presses
+  double mu = 0.0;      ///< of sliding
+  double mu_static = 0.0;
+};
+
+/// When a constraint holds, if not always.
+struct Condition {
+  std::optional<Contact> contact{};
+  std::optional<Roughness> roughness{};
 };
 
 }  // namespace dalembert

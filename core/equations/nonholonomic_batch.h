@@ -62,6 +62,20 @@ class NonholonomicBatch final : public ConstraintBatch {
     });
   }
 
+  void gaps(const Instant& at, std::span<double> /*g*/, std::span<double> u) const override {
+    if constexpr (Rough<C>) {
+      using S = Dual<1, 1>;  // as in `bias`
+      for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
+        const auto a = residual<S>(c, S(at.t), at, Held<S>{}, Held<S>{}, 0);
+        for (int k = 0; k < rows; ++k) {
+          const double slip = detail::row_of<S>(a, k).value;
+          detail::require_finite(std::isfinite(slip), i, "is not a finite number");
+          u[i * rows + static_cast<std::size_t>(k)] = slip;
+        }
+      });
+    }
+  }
+
   void linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
                  std::span<double> stiffness) const override {
     using S = Dual<2 * inputs, 2>;

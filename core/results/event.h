@@ -33,14 +33,13 @@ struct FlatEvent {
   bool ends;
 };
 
-/// What a run lists: an event that was asked for, or that a one-sided constraint opened, was struck, or came
-/// to rest after impacts without number.
-enum class Happened { event, opened, struck, rested };
+/// What a run lists: an event that was asked for; that a one-sided constraint opened, was struck, or came to
+/// rest after impacts without number; that one of Coulomb's law sticks from there on, or slides.
+enum class Happened { event, opened, struck, rested, sticks, slides };
 
 /// That something happened in a run, and when.
 struct Occurrence {
-  std::size_t
-      event;  ///< which of those that were asked for, counted from 0; of a contact the constraint's index
+  std::size_t event;  ///< which of those that were asked for, from 0; of a constraint its index
   double time;
   Happened what = Happened::event;
 };

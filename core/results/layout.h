@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,7 +41,7 @@ struct Layout {
     int first_row;   ///< in lambda
     int first_slot;  ///< in the slots of constraint forces, `width` of them
     std::uint64_t scene;
-    std::optional<Contact> contact{};  ///< if it holds one way only
+    Condition holds{};  ///< when, if not always
 
     [[nodiscard]] std::string label() const { return kind + " \"" + name + '"'; }
   };

@@ -233,12 +233,11 @@ void Scene<D>::require_compliance(double compliance, const Label& label) {
 }
 
 template <int D>
-int Scene<D>::enter(Place place, const std::string& name, Surroundings around,
-                    std::optional<Contact> contact) {
+int Scene<D>::enter(Place place, const std::string& name, Surroundings around, const Condition& holds) {
   const int number = static_cast<int>(layout_.constraints.size());
   const ConstraintShape shape = constraints_[place.group].batch->shape();
   layout_.constraints.push_back({std::string(shape.kind), name, shape.rows, shape.width, shape.inputs,
-                                 shape.internal, 0, 0, identity_.number(), contact});
+                                 shape.internal, 0, 0, identity_.number(), holds});
   place.around = std::move(around);
   constraint_places_.push_back(std::move(place));
   names_.insert({name, {Kind::constraint, number}});

@@ -69,7 +69,7 @@ class Scene {
     const std::string own = unique_name(kind, name, layout_.constraints.size());
     Surroundings around = admit(constraint, {kind, own});
     const Place place = put(constraints_, constraint, layout_.constraints.size());
-    return {enter(place, own, std::move(around), detail::contact_of(constraint)), identity_.number()};
+    return {enter(place, own, std::move(around), detail::condition_of(constraint)), identity_.number()};
   }
 
   /// Adds a force; throws like a constraint. One that reads a multiplier throws InvalidArgument also if the
@@ -96,7 +96,7 @@ class Scene {
     Layout::Constraint& its = layout_.constraints[number];
     Surroundings around = admit(constraint, {its.kind, its.name});
     exchange(constraints_, constraint, constraint_places_[number], number, its.label(), std::move(around));
-    its.contact = detail::contact_of(constraint);
+    its.holds = detail::condition_of(constraint);
   }
   template <detail::AnyForce E>
   void replace(Force handle, E force) {
@@ -268,7 +268,7 @@ class Scene {
     place.around = std::move(around);
   }
   /// Takes the element last put into the layout.
-  int enter(Place place, const std::string& name, Surroundings around, std::optional<Contact> contact);
+  int enter(Place place, const std::string& name, Surroundings around, const Condition& holds);
   Force enter_force(Place place, std::string_view kind, const std::string& name, Surroundings around);
 
   detail::Identity identity_;

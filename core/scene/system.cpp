@@ -39,7 +39,9 @@ System::System(SystemParts parts) : parts_(std::move(parts)) {
   place_constraints();
   stiffness_of_constraints_ = stiffness_pattern_.size();
   place_forces();
-  place_frictions();
+  place_frictions(parts_.layout);
+  stated_frictions_ = parts_.frictions.size();
+  stated_friction_entries_ = friction_pattern_.size();
   index_layout();
   layout_ = std::make_shared<const Layout>(std::move(parts_.layout));
 }
@@ -173,8 +175,8 @@ void System::gaps(const Instant& at, std::span<double> g, std::span<double> psi)
   std::ranges::fill(g, 0.0);
   std::ranges::fill(psi, 0.0);
   on_constraints(at.t, [&](const ConstraintBatch& batch, const Offsets& first) {
-    if (first.holonomic)
-      batch.gaps(at, g.subspan(first.row, first.row_count), psi.subspan(first.row, first.row_count));
+    batch.gaps(at, first.holonomic ? g.subspan(first.row, first.row_count) : std::span<double>{},
+               psi.subspan(first.row, first.row_count));
   });
 }
 

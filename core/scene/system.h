@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/core/equations/batch.h>
+#include <dalembert/core/forces/sliding_friction.h>
 #include <dalembert/core/results/applied_forces.h>
 #include <dalembert/core/results/layout.h>
 #include <dalembert/core/scene/value.h>
@@ -113,15 +114,31 @@ class System {
   /// Places of dF_f/dlambda: a coordinate and a row. Empty if no force reads a multiplier.
   [[nodiscard]] std::span<const Entry> friction_pattern() const { return friction_pattern_; }
   [[nodiscard]] bool frictional() const { return !friction_pattern_.empty(); }
+  /// So many of them are those of forces that the scene states; the rest is of what slides.
+  [[nodiscard]] std::size_t stated_friction_entries() const { return stated_friction_entries_; }
 
-  /// One-sided constraints, by their numbers in the layout.
+  /// One-sided constraints, those of Coulomb's law, and both, by their numbers in the layout.
   [[nodiscard]] std::vector<std::size_t> contacts() const;
-  /// g and psi of the rows of one-sided constraints at an instant, also of those that are not in force; 0 in
+  [[nodiscard]] std::vector<std::size_t> rough() const;
+  [[nodiscard]] std::vector<std::size_t> conditional() const;
+  /// g and psi of the rows of these at an instant, also of those that are not in force; 0 in
   /// other rows. Throws like `evaluate`.
   void gaps(const Instant& at, std::span<double> g, std::span<double> psi) const;
   /// The same system without some constraints, by their numbers in the layout: they exert no force, and their
   /// rows say 0 = 0.
   [[nodiscard]] System without(std::span<const std::size_t> constraints) const;
+  /// The same system with constraints of Coulomb's law, by their numbers in the layout, that slide: their
+  /// rows say 0 = 0, and they exert what SlidingFriction says, by its `Sliding` of the same names.
+  struct Slide {
+    std::size_t constraint;
+    double strength;
+    std::vector<double> direction;
+    double slow;
+  };
+  [[nodiscard]] System sliding(std::span<const Slide> slides) const;
+  /// What these exert, as multipliers of their rows and in their slots. Throws like `evaluate`.
+  void exert_sliding(const Instant& at, std::span<double> lambda, std::span<double> slots) const;
+  [[nodiscard]] bool slides() const { return !slides_.empty(); }
   /// Whether a row is in force, and how many are.
   [[nodiscard]] bool in_force(std::size_t row) const { return out_of_force_.empty() || !out_of_force_[row]; }
   [[nodiscard]] std::size_t rows_in_force() const { return rows_in_force_; }
@@ -193,7 +210,8 @@ class System {
   static void append_blocks(std::span<const int> coordinates, std::size_t width, std::vector<Entry>& pattern);
   void place_constraints();
   void place_forces();
-  void place_frictions();
+  /// Those that have no place yet.
+  void place_frictions(const Layout& layout);
   /// Which slots act on each coordinate, and where each force is found.
   void index_layout();
   void linearise_frictions(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
@@ -237,6 +255,8 @@ class System {
   std::vector<Entry> damping_pattern_;
   std::size_t stiffness_of_constraints_ = 0;
   std::vector<FrictionPlace> friction_places_;
+  std::size_t stated_frictions_ = 0, stated_friction_entries_ = 0;  // the others are of what slides
+  std::vector<std::shared_ptr<const SlidingFriction>> slides_;
   std::vector<Entry> friction_pattern_;
 };
 

@@ -4,11 +4,27 @@
 
 namespace dalembert {
 
-std::vector<std::size_t> System::contacts() const {
+namespace {
+
+std::vector<std::size_t> constraints_that(const Layout& layout, const auto& hold) {
   std::vector<std::size_t> numbers;
-  for (std::size_t c = 0; c < layout_->constraints.size(); ++c)
-    if (layout_->constraints[c].contact) numbers.push_back(c);
+  for (std::size_t c = 0; c < layout.constraints.size(); ++c)
+    if (hold(layout.constraints[c].holds)) numbers.push_back(c);
   return numbers;
+}
+
+}  // namespace
+
+std::vector<std::size_t> System::contacts() const {
+  return constraints_that(*layout_, [](const Condition& c) { return c.contact.has_value(); });
+}
+
+std::vector<std::size_t> System::rough() const {
+  return constraints_that(*layout_, [](const Condition& c) { return c.roughness.has_value(); });
+}
+
+std::vector<std::size_t> System::conditional() const {
+  return constraints_that(*layout_, [](const Condition& c) { return c.contact || c.roughness; });
 }
 
 System System::without(std::span<const std::size_t> constraints) const {
@@ -26,6 +42,44 @@ System System::without(std::span<const std::size_t> constraints) const {
   }
   other.rows_in_force_ = static_cast<std::size_t>(std::ranges::count(other.out_of_force_, char{0}));
   return other;
+}
+
+System System::sliding(std::span<const Slide> slides) const {
+  std::vector<std::size_t> all;
+  for (const Slide& slide : slides) all.push_back(slide.constraint);
+  System other = without(all);
+  for (std::size_t b = 0; b < parts_.constraints.size(); ++b) {
+    std::vector<Sliding> own;
+    std::vector<int> numbers;
+    for (const Slide& slide : slides) {
+      const auto place = std::ranges::find(parts_.constraint_numbers[b], static_cast<int>(slide.constraint));
+      if (place == parts_.constraint_numbers[b].end()) continue;
+      own.push_back({static_cast<std::size_t>(place - parts_.constraint_numbers[b].begin()),
+                     layout_->constraints[slide.constraint].holds.roughness->pressed_by, slide.strength,
+                     slide.direction, slide.slow});
+      numbers.push_back(*place);
+    }
+    if (own.empty()) continue;
+    other.slides_.push_back(std::make_shared<const SlidingFriction>(parts_.constraints[b], std::move(own)));
+    other.parts_.frictions.push_back(other.slides_.back());
+    other.parts_.friction_numbers.push_back(std::move(numbers));
+  }
+  other.place_frictions(*layout_);
+  return other;
+}
+
+void System::exert_sliding(const Instant& at, std::span<double> lambda, std::span<double> slots) const {
+  for (std::size_t k = 0; k < slides_.size(); ++k) {
+    const std::size_t b = stated_frictions_ + k;
+    for (std::size_t i = 0; i < slides_[k]->size(); ++i) {
+      const Layout::Constraint& its =
+          layout_->constraints[static_cast<std::size_t>(parts_.friction_numbers[b][i])];
+      const auto first = [](int number) { return static_cast<std::size_t>(number); };
+      slides_[k]->exert(i, at, lambda[friction_places_[b].first_row[i]],
+                        lambda.subspan(first(its.first_row), first(its.rows)),
+                        slots.subspan(first(its.first_slot), first(its.width)));
+    }
+  }
 }
 
 }  // namespace dalembert

@@ -6,8 +6,9 @@
 
 namespace dalembert {
 
-void System::place_frictions() {
-  for (const auto& batch : parts_.frictions) {
+void System::place_frictions(const Layout& layout) {
+  for (std::size_t b = friction_places_.size(); b < parts_.frictions.size(); ++b) {
+    const auto& batch = parts_.frictions[b];
     const MultiplierForceShape shape = batch->shape();
     const auto width = static_cast<std::size_t>(shape.width);
     const auto rows = static_cast<std::size_t>(shape.rows);
@@ -17,7 +18,7 @@ void System::place_frictions() {
     append_blocks(batch->coordinates(), width, damping_pattern_);
     for (std::size_t i = 0; i < batch->size(); ++i) {
       const auto constraint = static_cast<std::size_t>(batch->constraints()[i]);
-      const auto first_row = static_cast<std::size_t>(parts_.layout.constraints[constraint].first_row);
+      const auto first_row = static_cast<std::size_t>(layout.constraints[constraint].first_row);
       place.first_row.push_back(first_row);
       for (std::size_t r = 0; r < rows; ++r) {
         for (const int coordinate : batch->coordinates().subspan(i * width, width))
@@ -29,7 +30,8 @@ void System::place_frictions() {
 }
 
 std::string System::friction_label(std::size_t batch, std::size_t element) const {
-  return layout_->forces[static_cast<std::size_t>(parts_.friction_numbers[batch][element])].label();
+  const auto number = static_cast<std::size_t>(parts_.friction_numbers[batch][element]);
+  return batch < stated_frictions_ ? layout_->forces[number].label() : layout_->constraints[number].label();
 }
 
 template <class F>

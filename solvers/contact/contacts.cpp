@@ -52,8 +52,8 @@ Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, d
     const Layout::Constraint& its = stated_->layout()->constraints[number];
     contacts_.push_back({.number = number,
                          .row = static_cast<std::size_t>(its.first_row),
-                         .sign = its.contact->sign(),
-                         .restitution = its.contact->restitution});
+                         .sign = its.holds.contact->sign(),
+                         .restitution = its.holds.contact->restitution});
   }
   find_gaps(start);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
@@ -176,7 +176,7 @@ void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& re
   for (const std::size_t i : resting) change.what.push_back({i, Happened::rested, limit});
 }
 
-Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t>& fallen) {
+Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t>& fallen, bool friction) {
   const auto unchanged = [&] {
     return Change{{at.v.begin(), at.v.end()}, std::vector<double>(stated_->rows())};
   };
@@ -199,23 +199,41 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
       U.setZero(static_cast<Index>(touched.size()));
     }
   }
-  accelerate(*coupling, touched, fallen, U, at, change);
+  const auto resting = part(touched, U, at.t, change);
+  if (!friction) {
+    accelerate(*coupling, touched, fallen, resting, at, change);
+  } else {
+    for (const Index k : resting) {
+      const std::size_t i = touched[static_cast<std::size_t>(k)];
+      if (among(fallen, i) && contacts_[i].closed) {
+        open(i, at.t, 0.0, change);
+      } else {
+        contacts_[i].closed = true;
+      }
+    }
+  }
   settle();
   return change;
 }
 
-/// (2), for the velocities that the change has come to; closes and opens.
-void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& touched,
-                          const std::vector<std::size_t>& fallen, const VectorXd& U, const Instant& at,
-                          Change& change) {
+/// Opens those that go apart; the others.
+std::vector<Index> Contacts::part(const std::vector<std::size_t>& touched, const VectorXd& U, double t,
+                                  Change& change) {
   std::vector<Index> resting;
   for (Index k = 0; k < U.size(); ++k) {
     if (U[k] > 0.0) {
-      open(touched[static_cast<std::size_t>(k)], at.t, U[k], change);
+      open(touched[static_cast<std::size_t>(k)], t, U[k], change);
     } else {
       resting.push_back(k);
     }
   }
+  return resting;
+}
+
+/// (2), for the velocities that the change has come to; closes and opens.
+void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& touched,
+                          const std::vector<std::size_t>& fallen, const std::vector<Index>& resting,
+                          const Instant& at, Change& change) {
   const VectorXd free = coupling.accelerations_without({at.t, at.q, change.v})(resting);
   const Eigen::MatrixXd S = coupling.S()(resting, resting);
   const auto lambda = complementary_solution(S, free);
@@ -240,12 +258,13 @@ void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& to
   }
 }
 
-bool Contacts::open_pulling(const FlatSample& now) {
+bool Contacts::open_pulling(const FlatSample& now, bool friction) {
   double largest = 0.0;
   for (const double lambda : now.lambda) largest = std::max(largest, std::abs(lambda));
   Contact* most = nullptr;
   for (Contact& c : contacts_) {
-    if (!c.closed || now.unique[c.row] || c.sign * now.lambda[c.row] >= -round_off * largest) continue;
+    if (!c.closed || (now.unique[c.row] && !friction) || c.sign * now.lambda[c.row] >= -round_off * largest)
+      continue;
     if (most == nullptr || c.sign * now.lambda[c.row] < most->sign * now.lambda[most->row]) most = &c;
   }
   if (most == nullptr) return false;
@@ -272,6 +291,13 @@ void Contacts::open(std::size_t number, double t, double rate, Change& change) {
   contact.closed = false;
   contact.opened_at = t;
   contact.rate_at_opening = rate;
+}
+
+std::vector<std::size_t> Contacts::open() const {
+  std::vector<std::size_t> open;
+  for (const Contact& c : contacts_)
+    if (!c.closed) open.push_back(c.number);
+  return open;
 }
 
 void Contacts::settle() {

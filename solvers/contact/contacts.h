@@ -66,10 +66,14 @@ class Contacts {
   };
   /// Goes on from an instant at which the watched functions of some contacts have fallen to 0. Throws
   /// StepFailure where no velocities or accelerations do, naming the contacts; EquationFault.
-  Change pass(const Instant& at, const std::vector<std::size_t>& fallen);
+  /// Where there is `friction` accelerations are not (2)'s: what touches and does not part is closed then,
+  /// what has fallen open, and `open_pulling` finds what else opens.
+  Change pass(const Instant& at, const std::vector<std::size_t>& fallen, bool friction = false);
   /// Where the forces of closed contacts are not determined the smallest ones may pull, though there are
-  /// others that push: opens the one that pulls most. Whether there was one.
-  [[nodiscard]] bool open_pulling(const FlatSample& now);
+  /// others that push; where there is friction any may: opens the one that pulls most. Whether there was one.
+  [[nodiscard]] bool open_pulling(const FlatSample& now, bool friction = false);
+  /// The numbers in the layout of those that are open.
+  [[nodiscard]] std::vector<std::size_t> open() const;
 
  private:
   struct Contact {
@@ -95,9 +99,11 @@ class Contacts {
   [[nodiscard]] std::optional<double> limit_of_impacts(const Change& change, double t);
   static void rest(const Coupling& coupling, const std::vector<std::size_t>& resting, double limit,
                    Change& change);
+  std::vector<Eigen::Index> part(const std::vector<std::size_t>& touched, const Eigen::VectorXd& U, double t,
+                                 Change& change);
   void accelerate(Coupling& coupling, const std::vector<std::size_t>& touched,
-                  const std::vector<std::size_t>& fallen, const Eigen::VectorXd& U, const Instant& at,
-                  Change& change);
+                  const std::vector<std::size_t>& fallen, const std::vector<Eigen::Index>& resting,
+                  const Instant& at, Change& change);
   [[noreturn]] void refuse(const std::vector<std::size_t>& contacts, double t, const char* what) const;
   void open(std::size_t number, double t, double rate, Change& change);
   void settle();

@@ -43,7 +43,7 @@ Coupling::Coupling(std::shared_ptr<const System> of, const std::vector<std::size
   for (const std::size_t c : contacts) {
     const Layout::Constraint& its = system.layout()->constraints[c];
     rows_.push_back(static_cast<std::size_t>(its.first_row));
-    signs_.push_back(its.contact->sign());
+    signs_.push_back(its.holds.contact->sign());
     std::vector<double> x(matrix_.size());
     for (const std::size_t k : system.row(rows_.back())) x[system.w_columns()[k]] += signs_.back() * e_.w[k];
     matrix_.solve(x);

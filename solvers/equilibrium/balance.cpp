@@ -32,10 +32,10 @@ void require_frictionless(const System& system) {
 }
 
 void require_bilateral(const System& system) {
-  if (system.contacts().empty()) return;
+  if (system.conditional().empty()) return;
   throw InvalidScene("Equilibria of scene \"" + system.layout()->scene +
-                     "\": " + system.layout()->constraints[system.contacts().front()].label() +
-                     " is one-sided; state it as it holds both ways, and see that its force pushes");
+                     "\": " + system.layout()->constraints[system.conditional().front()].label() +
+                     " holds at times only; state it as it holds both ways, and see what force it has");
 }
 
 double largest(std::span<const double> x) {

@@ -31,10 +31,10 @@ void require_period(const System& system, double period) {
          << ", must be finite and > 0";
     throw InvalidArgument(what.str());
   }
-  if (!system.contacts().empty())
+  if (!system.conditional().empty())
     throw InvalidScene(
-        "Floquet multipliers: " + system.layout()->constraints[system.contacts().front()].label() +
-        " is one-sided; they are of scenes without such constraints");
+        "Floquet multipliers: " + system.layout()->constraints[system.conditional().front()].label() +
+        " holds at times only; they are of scenes without such constraints");
   if (system.frictional())
     throw InvalidScene("Floquet multipliers: " + system.force_of_friction(0) +
                        " reads a multiplier; they are of scenes without such forces");

@@ -215,7 +215,11 @@ void Recovery::recover(Manifold& manifold, Moment& m, long steps) {
   if (system_->compliant()) m.energy += system_->elastic_energy(m.lambda);
   require_finite(m);
   leave_forces_out(m);
-  if (!std::ranges::count(left_out_, 0)) return;
+  if (std::ranges::count(left_out_, 0)) mark(manifold, m, steps);
+  if (system_->slides()) system_->exert_sliding({m.t, m.q, m.v}, m.lambda, m.forces);
+}
+
+void Recovery::mark(Manifold& manifold, Moment& m, long steps) {
   if (manifold.sine() <= constants.well_conditioned) mark_undetermined(manifold, m);
   if (system_->compliant() && !manifold.following()) mark_springs(manifold, m, steps);
 }

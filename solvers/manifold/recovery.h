@@ -51,6 +51,7 @@ class Recovery {
   void project(Manifold& manifold, Moment& m);
   void find_moved_too_far(const Moment& m);
   void require_agreement(const Moment& m) const;
+  void mark(Manifold& manifold, Moment& m, long steps);
   void mark_undetermined(Manifold& manifold, Moment& m);
   [[nodiscard]] bool mark_multipliers(Moment& m) const;
   void mark_accelerations(Moment& m) const;

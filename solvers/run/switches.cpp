@@ -10,11 +10,11 @@ Switches::Switches(const System& system, const Instant& at, std::span<const doub
     : system_(&system) {
   work_ = system.linearisation();
   std::string label;
-  for (std::size_t k = 0; k < system.friction_pattern().size(); ++k) {
+  for (std::size_t k = 0; k < system.stated_friction_entries(); ++k) {
     const std::string own = system.force_of_friction(k);
     if (own != std::exchange(label, own)) first_.push_back(k);
   }
-  first_.push_back(system.friction_pattern().size());
+  first_.push_back(system.stated_friction_entries());
   Branches::Outcomes heard;
   const Branches listening(heard);
   try {

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <dalembert/core/equations/constraint.h>
+#include <dalembert/core/points/handles.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace dalembert {
+
+/// Coulomb's friction on a constraint that presses, as returned by `coulomb`. With the slip velocities u, one
+/// or two, the friction sigma, which is the multiplier of u = 0, and the force lambda that presses
+///
+///   sticks:  u = 0,   |sigma| <= mu_static |lambda|
+///   slides:  sigma = -mu |lambda| u/|u|
+///
+/// whatever sign lambda has. In space two slip velocities along directions at right angles make the cone
+/// round. A multiplier of this constraint is sigma in both cases, and its force W^T sigma, W = du/dv. Which
+/// case holds the run finds, and lists when it changes (Happened::sticks, Happened::slides).
+///
+/// Where no motion agrees with the law (Painleve) the run stops and says so; so it does where an impact
+/// presses: the law does not tell the friction of an impact. Equilibria and small motions are not for it.
+template <class Slip>
+struct Coulomb {
+  static constexpr std::string_view kind = "Coulomb";
+  static constexpr std::string_view singular = detail::singular_hint_of<Slip>();
+  static constexpr bool velocity_level = true;
+  Slip slip;
+  Constraint<1> pressing;
+  double mu, mu_static;
+
+  decltype(auto) points() const { return slip.points(); }
+  auto operator()(const auto&... a) const requires requires { slip(a...); }
+  { return slip(a...); }
+
+  [[nodiscard]] const Constraint<1>& constraint() const { return pressing; }
+  [[nodiscard]] Roughness roughness() const { return {pressing.index, mu, mu_static}; }
+  [[nodiscard]] std::string fault() const {
+    if (!(std::isfinite(mu) && mu >= 0.0)) return "mu = " + detail::text(mu) + ", must be finite and >= 0";
+    if (!(std::isfinite(mu_static) && mu_static >= mu))
+      return "mu_static = " + detail::text(mu_static) +
+             ", must be finite and at least mu = " + detail::text(mu);
+    if constexpr (requires { slip.fault(); }) return slip.fault();
+    return {};
+  }
+};
+
+/// Makes a constraint rough. What slides is stated like any constraint on velocities, a block on a belt that
+/// moves at 1
+///
+///   auto belt = scene.add(OnCurve{block, Plane<2>{}});
+///   auto rough = scene.add(coulomb(belt, Slip{block, Plane<2>{}, {1.0, 0.0}}, 0.3, 0.4));
+///
+/// or as one's own equation, `nonholonomic(points(block), [](auto r, auto v) { return v.x() - 1.0; })`; a
+/// wheel that may skid is coulomb(track, Rolling{...}, mu). The slip velocities must be those of the points
+/// that touch, and lambda the force there: of a constraint of the user's own whose gradient has not length 1
+/// divide mu by that length.
+///
+/// Scene::add throws InvalidScene unless 0 <= mu <= mu_static, and InvalidArgument if the constraint that
+/// presses is not one of the scene's.
+template <class Slip>
+[[nodiscard]] Coulomb<Slip> coulomb(Constraint<1> pressing, Slip slip, double mu, double mu_static) {
+  static_assert(NonholonomicConstraint<Slip>,
+                "coulomb takes the constraint that presses and one on velocities: that nothing slides");
+  static_assert(rows_of_constraint<Slip> <= 2, "there are one or two slip velocities, in space two");
+  return {std::move(slip), pressing, mu, mu_static};
+}
+template <class Slip>
+[[nodiscard]] Coulomb<Slip> coulomb(Constraint<1> pressing, Slip slip, double mu) {
+  return coulomb(pressing, std::move(slip), mu, mu);
+}
+
+}  // namespace dalembert

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <dalembert/core/equations/batch.h>
+#include <dalembert/core/scene/value.h>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace dalembert {
+
+/// A constraint of Coulomb's law that slides.
+struct Sliding {
+  std::size_t element;            ///< among those of its type
+  int pressed_by;                 ///< the scene's number of the constraint whose force presses
+  double strength;                ///< mu, with the sign of lambda
+  std::vector<double> direction;  ///< of one slip velocity: +-1, which holds; of two: where sliding begins
+  double slow = 0.0;              ///< below about this speed two slip velocities have that direction
+};
+
+/// What constraints of one type exert while they slide. With u the slip velocities and W = du/dv
+///
+///   sigma = -mu |lambda| d,   F = W^T sigma,   d = (u + s d0)/|u + s d0|     (one u: d = d0 = +-1)       (1)
+///
+/// where d0 is the direction and s the slowness of `Sliding`: beside u, s is below what velocities are known
+/// to, so that d is that of sliding, and has a value where sliding begins.
+///
+/// The work space is its own: not for two threads at once.
+class SlidingFriction final : public MultiplierForceBatch {
+ public:
+  SlidingFriction(const detail::Owned<ConstraintBatch>& of, std::vector<Sliding> sliding);
+
+  [[nodiscard]] std::unique_ptr<MultiplierForceBatch> clone() const override {
+    return std::make_unique<SlidingFriction>(*this);
+  }
+  [[nodiscard]] MultiplierForceShape shape() const override;
+  [[nodiscard]] std::size_t size() const override { return sliding_.size(); }
+  [[nodiscard]] std::span<const int> coordinates() const override { return coordinates_; }
+  [[nodiscard]] std::span<const int> constraints() const override { return pressed_by_; }
+
+  void add_force(const Instant& at, const Multipliers& lambda, std::span<double> F) const override;
+  void slope(const Instant& at, const Multipliers& lambda, std::span<double> out) const override;
+  void linearise(const Instant& at, const Multipliers& lambda, std::span<double> stiffness,
+                 std::span<double> damping) const override;
+  void power(const Instant& at, const Multipliers& lambda, std::span<double> out) const override;
+  void force(std::size_t element, const Instant& at, std::span<const double> lambda,
+             std::span<double> out) const override;
+
+  /// Sigma of one of them, one number per equation, and the force that it is on each coordinate.
+  void exert(std::size_t i, const Instant& at, double lambda, std::span<double> sigma,
+             std::span<double> F) const;
+
+ private:
+  void evaluate(const Instant& at) const;
+  /// d of (1), and per unit of lambda the force along it.
+  void find_direction(std::size_t i) const;
+  void find_force_per_lambda(std::size_t i) const;
+
+  detail::Owned<ConstraintBatch> batch_;  // all others left out
+  std::vector<Sliding> sliding_;
+  std::vector<int> coordinates_, pressed_by_;
+  std::size_t rows_, width_;
+  mutable std::vector<double> psi_, w_, psi_q_, stiffness_, sigma_;  // of the whole batch
+  mutable std::vector<double> d_, f_;                                // of one
+  mutable double speed_ = 0.0;                                       // |u + s d0|
+};
+
+}  // namespace dalembert

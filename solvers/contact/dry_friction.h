@@ -1,0 +1,101 @@
+#pragma once
+
+#include <dalembert/core/results/event.h>
+#include <dalembert/core/scene/system.h>
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/manifold/scales.h>
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// The constraints of Coulomb's law in a run: which of them stick, which slide, and what happens where that
+/// changes. With u the slip velocities, sigma the friction that is the multiplier of u = 0, lambda the force
+/// that presses,
+///
+///   sticks:  u = 0,   |sigma| <= mu_static |lambda|
+///   slides:  sigma = -mu |lambda| d,   d = u/|u|; from rest d = u'/|u'|                                  (1)
+///
+/// What sticks slides where |sigma| comes to its bound, the way that sigma held it; what slides comes to rest
+/// where u comes to 0, and sticks there or slides on the other way. Of several those that would need more
+/// than their bound are let go one by one, that which exceeds it most first, until all agree with (1); if
+/// none of what is tried does, that is an error.
+class DryFriction {
+ public:
+  /// What happened to a constraint, by its number in the layout.
+  struct Happening {
+    std::size_t constraint;
+    Happened what;
+    double time;
+  };
+
+  /// Of the constraints that a scene states.
+  DryFriction(std::shared_ptr<const System> stated, const Scales& scales, double tolerance);
+
+  [[nodiscard]] bool any() const { return !all_.empty(); }
+  /// Functions that fall through 0 where something changes, two of each constraint: what is left until it
+  /// sticks or slides, and the force that presses, if that may change its sign.
+  [[nodiscard]] std::size_t functions() const { return 2 * all_.size(); }
+  [[nodiscard]] std::string label(std::size_t function) const;
+  [[nodiscard]] double watched(std::size_t function, const FlatSample& now) const;
+
+  /// Decides what sticks, at a state where constraints with these numbers are not in force. `fallen` is the
+  /// function that has fallen, `lambda` and `a` what the motion was. Throws StepFailure, which names the
+  /// constraints, where nothing agrees with (1); EquationFault.
+  std::vector<Happening> settle(const std::vector<std::size_t>& open, const Instant& at,
+                                std::optional<std::size_t> fallen = {}, std::span<const double> lambda = {},
+                                std::span<const double> a = {});
+  /// That an impact has not pressed any of them. Throws StepFailure.
+  void require_no_impulse(std::span<const double> impulses, double t) const;
+  /// With what sticks in force, and what slides.
+  [[nodiscard]] const std::shared_ptr<const System>& system() const { return system_; }
+
+ private:
+  enum class Mode { absent, sticks, slides };
+  struct Rough {
+    std::size_t number, row, rows;  // in the layout
+    std::size_t pressed_by, pressing_row;
+    double mu, mu_static;
+    bool one_sided;
+    double sign;  // of lambda
+    double rest;  // a speed that is none
+    Mode mode = Mode::absent;
+    bool from_rest = false;
+    Eigen::VectorXd direction{};
+    double slow = 0.0;
+  };
+  /// Accelerations and multipliers with the modes as they are.
+  struct Motion {
+    std::vector<double> a, lambda;
+  };
+
+  void find_slip(const Instant& at) const;
+  [[nodiscard]] Eigen::VectorXd slip(const Rough& rough) const;
+  void let_go(Rough& rough, const Eigen::VectorXd& held_by) const;
+  [[nodiscard]] std::shared_ptr<const System> with_modes(const std::vector<std::size_t>& open) const;
+  [[nodiscard]] Motion solve(const std::vector<std::size_t>& open, const Instant& at) const;
+  [[nodiscard]] Eigen::VectorXd slip_acceleration(const Rough& rough, const Instant& at,
+                                                  const Motion& motion) const;
+  [[nodiscard]] double rests_at(const Rough& rough, const Instant& at, std::span<const double> a) const;
+  void find_direction(Rough& rough, const std::vector<std::size_t>& open, const Instant& at);
+  void begin(Rough& rough, const std::vector<std::size_t>& open, std::optional<std::size_t> fallen,
+             std::span<const double> lambda) const;
+  [[nodiscard]] bool amend(const std::vector<std::size_t>& open, const Instant& at, const Motion& motion);
+  [[nodiscard]] std::vector<int> modes() const;
+  [[noreturn]] void refuse(double t) const;
+
+  std::shared_ptr<const System> stated_, system_;
+  Scales scales_;
+  double tolerance_;
+  std::vector<Rough> all_;
+  mutable std::vector<double> g_, u_;
+  mutable double slip_at_ = std::numeric_limits<double>::quiet_NaN();
+};
+
+}  // namespace dalembert

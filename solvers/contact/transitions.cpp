@@ -1,0 +1,53 @@
+#include "dalembert/solvers/contact/transitions.h"
+
+#include <utility>
+
+namespace dalembert {
+
+Transitions::Transitions(const std::shared_ptr<const System>& stated, const Scales& scales, double tolerance,
+                         const Instant& start)
+    : contacts_(std::make_shared<const System>(stated->without(stated->rough())), scales, tolerance, start),
+      friction_(stated, scales, tolerance) {}
+
+std::string Transitions::label(std::size_t function) const {
+  return function < contacts_.size() ? contacts_.label(function)
+                                     : friction_.label(function - contacts_.size());
+}
+
+double Transitions::watched(std::size_t function, const FlatSample& now) const {
+  return function < contacts_.size() ? contacts_.watched(function, now)
+                                     : friction_.watched(function - contacts_.size(), now);
+}
+
+Transitions::Change Transitions::pass_contacts(const Instant& at, const std::vector<std::size_t>& fallen) {
+  Contacts::Change contacts = contacts_.pass(at, fallen, friction_.any());
+  friction_.require_no_impulse(contacts.impulses, at.t);
+  Change change{std::move(contacts.v), std::move(contacts.impulses)};
+  for (const auto& one : contacts.what)
+    change.what.push_back({contacts_.index(one.contact), one.time, one.what});
+  for (const auto& one : friction_.settle(contacts_.open(), {at.t, at.q, change.v}))
+    change.what.push_back({one.constraint, one.time, one.what});
+  return change;
+}
+
+Transitions::Change Transitions::begin(const Instant& at) {
+  return pass_contacts(at, contacts_.touching_at_start());
+}
+
+Transitions::Change Transitions::pass(const FlatSample& at, std::size_t function) {
+  const Instant now{at.time, at.q, at.v};
+  if (function < contacts_.size()) return pass_contacts(now, {function});
+  Change change{{at.v.begin(), at.v.end()}, std::vector<double>(at.lambda.size())};
+  for (const auto& one :
+       friction_.settle(contacts_.open(), now, function - contacts_.size(), at.lambda, at.a))
+    change.what.push_back({one.constraint, one.time, one.what});
+  return change;
+}
+
+bool Transitions::open_pulling(const FlatSample& now) {
+  if (!contacts_.open_pulling(now, friction_.any())) return false;
+  friction_.settle(contacts_.open(), {now.time, now.q, now.v});
+  return true;
+}
+
+}  // namespace dalembert

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/contact/contacts.h>
+#include <dalembert/solvers/contact/dry_friction.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// All constraints of a run that hold at times only: contacts, and what sticks and slides on what presses.
+class Transitions {
+ public:
+  /// What happened at an instant, by numbers of constraints in the layout; the velocities after it, and the
+  /// impulses, one per row of the system.
+  struct Change {
+    std::vector<double> v{}, impulses{};
+    std::vector<Occurrence> what{};
+  };
+
+  /// At a state that obeys all constraints that always hold. Throws InconsistentStart where a gap is
+  /// negative.
+  Transitions(const std::shared_ptr<const System>& stated, const Scales& scales, double tolerance,
+              const Instant& start);
+
+  /// Those in force as they are now, and the others not.
+  [[nodiscard]] const std::shared_ptr<const System>& system() const {
+    return friction_.any() ? friction_.system() : contacts_.system();
+  }
+  /// Functions that fall through 0 where something changes, and what each belongs to.
+  [[nodiscard]] std::size_t functions() const { return contacts_.size() + friction_.functions(); }
+  [[nodiscard]] std::string label(std::size_t function) const;
+  [[nodiscard]] double watched(std::size_t function, const FlatSample& now) const;
+  /// See Contacts.
+  void require_open(const FlatSample& now) const { contacts_.require_open(now); }
+
+  /// What happens at the start. Throws as Contacts::pass and DryFriction::settle.
+  [[nodiscard]] Change begin(const Instant& at);
+  /// Goes on from where a function has fallen to 0. Throws likewise.
+  [[nodiscard]] Change pass(const FlatSample& at, std::size_t function);
+  /// See Contacts.
+  [[nodiscard]] bool open_pulling(const FlatSample& now);
+
+ private:
+  [[nodiscard]] Change pass_contacts(const Instant& at, const std::vector<std::size_t>& fallen);
+
+  Contacts contacts_;
+  DryFriction friction_;
+};
+
+}  // namespace dalembert

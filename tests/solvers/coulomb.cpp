@@ -1,0 +1,242 @@
+#include <dalembert/dalembert.h>
+#include <dalembert/tests/both_steppers.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace dalembert {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr double g = 9.81, tolerance = 1e-10;
+/// As in the tests of events.
+constexpr double met = 100.0 * tolerance;
+
+class CoulombFriction : public testing::TestWithParam<Stepper> {
+ protected:
+  [[nodiscard]] static Options options(double t_end) {
+    return {.t_end = t_end, .samples = 11, .tolerance = tolerance, .stepper = GetParam()};
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Steppers, CoulombFriction, both_steppers, stepper_name);
+
+/// A block of mass 2 on a line at this angle.
+struct Incline {
+  Scene<2> scene{"incline"};
+  Particle<2> block;
+  Constraint<1> floor, rough;
+  Vec<2> up;
+
+  Incline(double angle, double speed, double mu, double mu_static) : up(std::cos(angle), std::sin(angle)) {
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    block = scene.add_particle({.mass = 2.0, .velocity = speed * up}, "block");
+    const Plane<2> plane{{0.0, 0.0}, {-std::sin(angle), std::cos(angle)}};
+    floor = scene.add(OnCurve{block, plane}, "floor");
+    rough = scene.add(coulomb(floor, Slip{block, plane}, mu, mu_static), "rough");
+  }
+};
+
+TEST_P(CoulombFriction, BringsABlockToRestThatStays) {
+  // v' = -g (sin a + mu cos a); at rest sigma = m g sin a < mu_static m g cos a.
+  const double angle = 0.3, mu = 0.4, v0 = 2.0;
+  const Incline scene(angle, v0, mu, mu);
+  const double slows = g * (std::sin(angle) + mu * std::cos(angle)), rests = v0 / slows;
+  const auto run = simulate(scene.scene, options(1.0));
+  ASSERT_EQ(run.events().size(), 1U);
+  EXPECT_EQ(run.events()[0].what, Happened::sticks);
+  EXPECT_EQ(run.events()[0].event, static_cast<std::size_t>(scene.rough.index));
+  EXPECT_NEAR(run.events()[0].time, rests, met);
+  EXPECT_NEAR(run.multiplier(scene.rough, 0), -mu * 2.0 * g * std::cos(angle), met * g);
+  EXPECT_NEAR(run.constraint_force(scene.rough, scene.block, 0).dot(scene.up),
+              -mu * 2.0 * g * std::cos(angle), met * g);
+  EXPECT_NEAR(run.multiplier(scene.rough, 10), 2.0 * g * std::sin(angle), met * g);
+  EXPECT_NEAR(run.position(scene.block, 10).dot(scene.up), v0 * v0 / (2.0 * slows), met);
+  EXPECT_NEAR(run.velocity(scene.block, 10).norm(), 0.0, tolerance);
+}
+
+TEST_P(CoulombFriction, LetsABlockSlideBackWhereItIsSteep) {
+  const double angle = 0.6, mu = 0.4, v0 = 2.0;
+  const Incline scene(angle, v0, mu, mu);
+  const double turns = v0 / (g * (std::sin(angle) + mu * std::cos(angle)));
+  const auto run = simulate(scene.scene, options(1.0));
+  ASSERT_EQ(run.events().size(), 1U);
+  EXPECT_EQ(run.events()[0].what, Happened::slides);
+  EXPECT_NEAR(run.events()[0].time, turns, met);
+  const double back = g * (std::sin(angle) - mu * std::cos(angle));
+  EXPECT_NEAR(run.velocity(scene.block, 10).dot(scene.up), -back * (1.0 - turns), met * g);
+  EXPECT_NEAR(run.multiplier(scene.rough, 10), mu * 2.0 * g * std::cos(angle), met * g);
+}
+
+TEST_P(CoulombFriction, HoldsFromTheStartOrLetsGo) {
+  const Incline held(0.3, 0.0, 0.2, 0.4), slides(0.3, 0.0, 0.2, 0.25);
+  const auto stays = simulate(held.scene, options(1.0));
+  EXPECT_TRUE(stays.events().empty());
+  EXPECT_NEAR(stays.velocity(held.block, 10).norm(), 0.0, tolerance);
+  EXPECT_NEAR(stays.multiplier(held.rough, 10), 2.0 * g * std::sin(0.3), met * g);
+  const auto goes = simulate(slides.scene, options(1.0));
+  EXPECT_NEAR(goes.position(slides.block, 10).dot(slides.up),
+              -g * (std::sin(0.3) - 0.2 * std::cos(0.3)) / 2.0, met * g);
+}
+
+TEST_P(CoulombFriction, LetsGoWhereItsBoundIsReached) {
+  // A force that grows as k t pulls at a block: it goes at k t = mu_static m g, and then m v' = k t - mu m g.
+  constexpr double k = 5.0, mu = 0.3, mu_static = 0.5;
+  Incline scene(0.0, 0.0, mu, mu_static);
+  scene.scene.add(force_law(points(scene.block), [](auto t, auto, auto) { return vec(k * t, 0.0); }));
+  const double goes = mu_static * 2.0 * g / k, t = goes + 1.0;
+  const auto run = simulate(scene.scene, options(t));
+  ASSERT_EQ(run.events().size(), 1U);
+  EXPECT_EQ(run.events()[0].what, Happened::slides);
+  EXPECT_NEAR(run.events()[0].time, goes, met);
+  const double v = (k * (t * t - goes * goes) / 2.0 - mu * 2.0 * g * (t - goes)) / 2.0;
+  EXPECT_NEAR(run.velocity(scene.block, 10).x(), v, met * v);
+}
+
+TEST_P(CoulombFriction, IsRoundInSpace) {
+  // A puck on a plane that is pulled along x by m f, below what friction holds:
+  //
+  //   u' = -mu g u/|u| + f e_x,   d(mu g |u| + f u_x)/dt = f^2 - (mu g)^2
+  //
+  // so it rests after (mu g |u0| + f u0_x)/((mu g)^2 - f^2), whatever the bend of its path.
+  constexpr double mu = 0.3, a = mu * g;
+  for (const double f : {0.0, 0.5 * a, 0.8 * a}) {
+    for (const double angle : {0.0, 0.7, 2.0, 3.0}) {
+      Scene<3> scene;
+      scene.add(UniformGravity<3>{{f, 0.0, -g}});
+      const Vec<3> along(std::cos(angle), std::sin(angle), 0.0);
+      const auto puck = scene.add_particle({.mass = 2.0, .velocity = 2.0 * along});
+      const auto table = scene.add(OnSurface{puck, Plane<3>{}});
+      const auto rough = scene.add(coulomb(table, Slip{puck, Plane<3>{}}, mu));
+      const double rests = 2.0 * (a + f * along.x()) / (a * a - f * f);
+      const auto run = simulate(scene, options(rests + 1.0));
+      EXPECT_NEAR((run.constraint_force(rough, puck, 0) + 2.0 * a * along).norm(), 0.0, met * g);
+      ASSERT_EQ(run.events().size(), 1U) << f << ' ' << angle;
+      EXPECT_EQ(run.events()[0].what, Happened::sticks);
+      EXPECT_NEAR(run.events()[0].time, rests, met * rests) << f << ' ' << angle;
+      EXPECT_NEAR(run.constraint_force(rough, puck, 10).x(), -2.0 * f, met * g);
+      if (f == 0.0) {
+        EXPECT_NEAR((run.position(puck, 10) - 2.0 / a * along).norm(), 0.0, met);
+      }
+    }
+  }
+}
+
+TEST_P(CoulombFriction, InSpaceGoesTheWayItIsPulled) {
+  // From rest, by a force that grows: as the block in the plane.
+  constexpr double k = 5.0, mu = 0.3, mu_static = 0.5;
+  Scene<3> scene;
+  scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
+  const auto puck = scene.add_particle({.mass = 2.0});
+  const auto table = scene.add(OnSurface{puck, Plane<3>{}});
+  scene.add(coulomb(table, Slip{puck, Plane<3>{}}, mu, mu_static));
+  const Vec<3> way = Vec<3>(0.6, -0.8, 0.0);
+  scene.add(force_law(points(puck), [way](auto t, auto, auto) { return (k * t * way).eval(); }));
+  const double goes = mu_static * 2.0 * g / k, t = goes + 1.0;
+  const auto run = simulate(scene, options(t));
+  ASSERT_EQ(run.events().size(), 1U);
+  EXPECT_NEAR(run.events()[0].time, goes, met);
+  const double v = (k * (t * t - goes * goes) / 2.0 - mu * 2.0 * g * (t - goes)) / 2.0;
+  EXPECT_NEAR((run.velocity(puck, 10) - v * way).norm(), 0.0, met * v);
+}
+
+TEST_P(CoulombFriction, OfAWireThatPressesEitherWay) {
+  // A bead on a horizontal ring, no gravity: v' = -mu v^2/R, v = v0/(1 + mu v0 t/R). With gravity across the
+  // ring's plane its multiplier changes sign on the way.
+  constexpr double mu = 0.2, R = 1.5, v0 = 3.0;
+  for (const double side : {1.0, -1.0}) {
+    Scene<2> scene;
+    const auto bead = scene.add_particle({.mass = 1.0, .position = {R, 0.0}, .velocity = {0.0, side * v0}});
+    const Sphere<2> ring{.radius = R};
+    const auto wire = scene.add(OnCurve{bead, ring});
+    const auto rough = scene.add(coulomb(wire, Slip{bead, ring}, mu));
+    const auto run = simulate(scene, options(2.0));
+    const double v = v0 / (1.0 + mu * v0 * 2.0 / R);
+    EXPECT_NEAR(run.velocity(bead, 10).norm(), v, met * v0);
+    EXPECT_NEAR(std::abs(run.multiplier(rough, 10)), mu * v * v / R, met * v0 * v0);
+  }
+}
+
+TEST_P(CoulombFriction, OfAWireWhoseForceTurns) {
+  // Up a circular wire from its lowest point, theta from there, y = theta'^2: its force y + G cos theta, G =
+  // g/R, turns above the height of the centre, where gravity takes over, and with it the sign s of
+  //
+  //   dy/dtheta = -2 G sin theta - m (y + G cos theta),   m = 2 mu s
+  //   y = A cos theta + B sin theta + C exp(-m theta),   A = G (2 - m^2)/(1 + m^2),   B = -3 m G/(1 + m^2).
+  constexpr double mu = 0.1, R = 1.0, G = g / R;
+  const auto solution = [](double sign, double theta0, double square0, double theta) {
+    const double m = 2.0 * mu * sign, A = G * (2.0 - m * m) / (1.0 + m * m), B = -3.0 * m * G / (1.0 + m * m);
+    const double C = square0 - A * std::cos(theta0) - B * std::sin(theta0);
+    return C * std::exp(-m * (theta - theta0)) + A * std::cos(theta) + B * std::sin(theta);
+  };
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const double square = 4.6 * G;
+  const auto bead =
+      scene.add_particle({.mass = 1.0, .position = {0.0, -R}, .velocity = {R * std::sqrt(square), 0.0}});
+  const Sphere<2> ring{.radius = R};
+  const auto wire = scene.add(OnCurve{bead, ring});
+  scene.add(coulomb(wire, Slip{bead, ring}, mu));
+  const auto run = simulate(scene, options(0.68));
+  double theta = std::atan2(run.position(bead, 10).x(), -run.position(bead, 10).y());
+  if (theta < 0.0) theta += 2.0 * std::numbers::pi;
+  double turn = 0.5 * std::numbers::pi;
+  for (double step = 0.5; step > 1e-16; step /= 2.0)
+    if (solution(1.0, 0.0, square, turn + step) + G * std::cos(turn + step) > 0.0) turn += step;
+  ASSERT_GT(theta, turn);
+  const double at_turn = solution(1.0, 0.0, square, turn);
+  const double w2 = solution(-1.0, turn, at_turn, theta);
+  EXPECT_LT(run.multiplier(wire, 10) * run.multiplier(wire, 0), 0.0);
+  EXPECT_NEAR(run.velocity(bead, 10).squaredNorm() / R / R, w2, met * square);
+  EXPECT_TRUE(run.events().empty());
+}
+
+TEST_P(CoulombFriction, OfASkiddingWheelEndsInRolling) {
+  // A disk set down at v0 without spin: v' = -mu g, R w' = mu g m R^2/I: rolls from t = v0/(mu g (1 + m
+  // R^2/I)).
+  constexpr double mu = 0.2, R = 0.5, v0 = 3.0, m = 2.0, I = 0.25;
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto centre = scene.add_particle({.mass = m, .position = {0.0, R}, .velocity = {v0, 0.0}});
+  const auto wheel = scene.add_rotor({.inertia = I});
+  const Fixed<2> a{{0.0, 0.0}}, b{{1.0, 0.0}};
+  const auto track = scene.add(LineOffset{centre, a, b, R});
+  const auto rough = scene.add(coulomb(track, Rolling{centre, wheel, a, b, R}, mu));
+  const auto run = simulate(scene, options(2.0));
+  const double rolls = v0 / (mu * g * (1.0 + m * R * R / I));
+  ASSERT_EQ(run.events().size(), 1U);
+  EXPECT_NEAR(run.events()[0].time, rolls, met);
+  EXPECT_NEAR(run.velocity(centre, 10).x(), v0 - mu * g * rolls, met);
+  EXPECT_NEAR(run.multiplier(rough, 10), 0.0, met * g);
+}
+
+TEST_P(CoulombFriction, WithoutForceDoesNotChatter) {
+  // Nothing presses, nothing pulls.
+  Scene<2> scene;
+  const auto block = scene.add_particle({.mass = 1.0});
+  const auto floor = scene.add(unilateral(OnCurve{block, Plane<2>{}}));
+  scene.add(coulomb(floor, Slip{block, Plane<2>{}}, 0.3));
+  const auto run = simulate(scene, options(1.0));
+  EXPECT_EQ(run.position(block, 10).norm(), 0.0);
+  EXPECT_TRUE(run.events().empty());
+}
+
+TEST(Coulomb, RefusesWhatItIsNotFor) {
+  Incline scene(0.0, 0.0, 0.1, 0.2);
+  const auto add = [&scene](double mu, double mu_static) {
+    scene.scene.add(coulomb(scene.floor, Slip{scene.block, Plane<2>{}}, mu, mu_static));
+  };
+  EXPECT_THAT([&] { add(-0.1, 0.2); }, ThrowsMessage<InvalidScene>(HasSubstr("mu = -0.1")));
+  EXPECT_THAT([&] { add(0.3, 0.2); }, ThrowsMessage<InvalidScene>(HasSubstr("mu_static = 0.2")));
+  EXPECT_THROW(scene.scene.add(coulomb(Constraint<1>{}, Slip{scene.block, Plane<2>{}}, 0.1)),
+               InvalidArgument);
+  EXPECT_THAT([&] { (void)equilibrium(scene.scene); }, ThrowsMessage<InvalidScene>(HasSubstr("\"rough\"")));
+}
+
+}  // namespace
+}  // namespace dalembert
