@@ -69,7 +69,7 @@ struct Slip {
 };
 template <class P, class Surface>
 Slip(P, Surface) -> Slip<P, Surface>;
-template <class P, class Surface, class V>
-Slip(P, Surface, V) -> Slip<P, Surface>;
+template <class P, class Surface>
+Slip(P, Surface, Vec<P::dimension>) -> Slip<P, Surface>;
 
 }  // namespace dalembert

@@ -1,6 +1,11 @@
 #include "dalembert/solvers/event_log.h"
 
+#include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/manifold/start.h>
+
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -23,11 +28,16 @@ EventLog::EventLog(std::vector<FlatEvent> events, Transitions* transitions,
                    const Transitions::Change* at_start, Stepping& stepping)
     : asked_for_(events.size()),
       transitions_(transitions),
-      seen_(stepping.system(), stepping.start()),
-      watch_(with_transitions(std::move(events), transitions), *stepping.system().layout()) {
+      seen_(stepping.system(), stepping.start(), changes(events)),
+      watch_(with_transitions(std::move(events), transitions), *stepping.system().layout()),
+      changes_(asked_for_) {
   const double t = stepping.time();
   if (at_start != nullptr) go_on(*at_start, t, stepping);
   watch_.begin_anew(read(stepping, t), asked_for_);
+}
+
+bool EventLog::changes(const std::vector<FlatEvent>& events) {
+  return std::ranges::any_of(events, [](const FlatEvent& event) { return bool(event.change); });
 }
 
 FlatSample EventLog::read(Stepping& stepping, double t) {
@@ -38,17 +48,17 @@ FlatSample EventLog::read(Stepping& stepping, double t) {
 void EventLog::look(Stepping& stepping) {
   const auto reader = [&](double t) { return read(stepping, t); };
   for (const Occurrence& one : watch_.look(reader, stepping.time(), stepping.degree())) {
-    if (one.event >= asked_for_) {
-      change_ = {one.event - asked_for_, one.time};
+    if (one.event >= asked_for_ || watch_.event(one.event).change) {
+      change_ = one;
       return;
     }
     const FlatSample at = read(stepping, one.time);
     occurred_.push_back(one);
-    before_.append(at);
-    if (transitions_ != nullptr) {
-      after_.append(at);
-      impulses_.resize(impulses_.size() + at.lambda.size());
+    for (Record* record : {&before_, &after_}) {
+      record->go_on_with(stepping.system().layout());
+      record->append(at);
     }
+    impulses_.resize(impulses_.size() + at.lambda.size());
     if (watch_.event(one.event).ends) {
       end_ = one.time;
       return;
@@ -61,23 +71,84 @@ void EventLog::carry_out(Stepping& stepping) {
   if (!change_) return;
   const double t = change_->time;
   const FlatSample at = read(stepping, t);
-  const Transitions::Change change = transitions_->pass(at, change_->function);
+  std::vector<double> q(at.q.begin(), at.q.end());
+  const Transitions::Change change = pass(at, stepping, q);
+  require_progress(stepping);
+  before_.go_on_with(stepping.system().layout());
   for (std::size_t k = 0; k < change.what.size(); ++k) before_.append(at);
-  stepping.begin_changed(t, transitions_->system(), at.q, change.v);
+  stepping.begin_changed(t, system_, q, change.v);
   go_on(change, t, stepping);
   watch_.begin_anew(read(stepping, t), asked_for_);
   change_.reset();
+}
+
+/// Throws StepFailure where changes of one kind accumulate, as impacts do (see Accumulation): what comes
+/// after their limit they do not tell. (Contacts come to rest there by themselves.) A parabola that takes a
+/// time D rises by D^2/8 of its acceleration: ten times the roots below keep that in sight of EventWatch.
+void EventLog::require_progress(const Stepping& stepping) {
+  const double t = change_->time, time = stepping.start().scales.time;
+  if (change_->event < asked_for_) {
+    Accumulation& changes = changes_[change_->event];
+    changes.add(t);
+    const double least = std::max(stepping.tolerance(), EventWatch::zero);
+    if (std::isfinite(changes.left()) && changes.interval() <= 10.0 * std::sqrt(least) * time) chatters();
+  }
+  constexpr int most = 8;
+  const double apart = 4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), time);
+  repeated_ = last_ && last_->event == change_->event && t - last_->time <= apart ? repeated_ + 1 : 0;
+  last_ = change_;
+  if (repeated_ == most) chatters();
+}
+
+void EventLog::chatters() const {
+  throw StepFailure{"\"" + watch_.event(change_->event).name +
+                        "\" chatters: its changes come faster and faster, without end. Let what accumulates "
+                        "come to rest, smooth what switches, or end the run before",
+                    change_->time};
+}
+
+Transitions::Change EventLog::pass(const FlatSample& at, Stepping& stepping, std::vector<double>& q) {
+  if (change_->event < asked_for_) return change_scene(at, stepping, q);
+  Transitions::Change change = transitions_->pass(at, change_->event - asked_for_);
+  system_ = transitions_->system();
+  return change;
+}
+
+Transitions::Change EventLog::change_scene(const FlatSample& at, Stepping& stepping, std::vector<double>& q) {
+  const FlatEvent& event = watch_.event(change_->event);
+  const auto refuse = [&](const std::string& what) {
+    throw StepFailure{"Event \"" + event.name + "\": " + what, at.time};
+  };
+  FlatEvent::Changed next;
+  try {
+    next = event.change(at);
+  } catch (const std::exception& error) {
+    refuse(std::string("its change threw \"") + error.what() + '"');
+  }
+  if (next.system->rows() != at.lambda.size() || next.system->coordinates() != at.q.size() ||
+      next.system->layout()->forces.size() != stepping.system().layout()->forces.size())
+    refuse("its change adds to the scene; add everything before the run, and release or impose it there");
+  Transitions::Change change{next.v, std::vector<double>(at.lambda.size())};
+  if (transitions_ != nullptr) change = transitions_->restate(next.system, {at.time, next.q, next.v});
+  system_ = transitions_ != nullptr ? transitions_->system() : next.system;
+  const auto impulses =
+      take_over(*system_, stepping.start().scales, at.time, next.q, change.v, stepping.tolerance());
+  for (std::size_t r = 0; r < impulses.size(); ++r) change.impulses[r] += impulses[r];
+  change.what.insert(change.what.begin(), *change_);
+  q = std::move(next.q);
+  return change;
 }
 
 /// Lists a change, with the state after it and its impulses. Where contacts share a load in many ways, those
 /// are left out that would pull.
 void EventLog::go_on(const Transitions::Change& change, double t, Stepping& stepping) {
   FlatSample after = read(stepping, t);
-  while (transitions_->open_pulling(after)) {
+  while (transitions_ != nullptr && transitions_->open_pulling(after)) {
     const std::vector<double> q(after.q.begin(), after.q.end()), v(after.v.begin(), after.v.end());
     stepping.begin_changed(t, transitions_->system(), q, v);
     after = read(stepping, t);
   }
+  after_.go_on_with(stepping.system().layout());
   for (const Occurrence& one : change.what) {
     occurred_.push_back(one);
     if (before_.times.size() < occurred_.size()) before_.append(after);
@@ -94,7 +165,6 @@ void EventLog::write(Record& record) const {
   };
   record.events = occurred_;
   record.at_events = of(before_);
-  if (transitions_ == nullptr) return;
   record.after_events = of(after_);
   record.impulses = impulses_;
 }

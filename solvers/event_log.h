@@ -20,10 +20,14 @@ class EventLog {
   EventLog(std::vector<FlatEvent> events, Transitions* transitions, const Transitions::Change* at_start,
            Stepping& stepping);
 
-  /// Lists what happened in the last step, up to where an event ends the run or a constraint changes. Throws
-  /// StepFailure, EquationFault.
+  /// Whether any of them changes the scene.
+  [[nodiscard]] static bool changes(const std::vector<FlatEvent>& events);
+
+  /// Lists what happened in the last step, up to where an event ends the run or changes the scene, or a
+  /// constraint changes. Throws StepFailure, EquationFault.
   void look(Stepping& stepping);
-  /// Goes on from a change of a constraint, if the last step had one. Throws StepFailure, EquationFault.
+  /// Goes on from a change of a constraint or of the scene, if the last step had one. Throws StepFailure,
+  /// EquationFault.
   void carry_out(Stepping& stepping);
 
   /// Where an event has ended the run.
@@ -35,21 +39,25 @@ class EventLog {
   void write(Record& record) const;
 
  private:
-  struct Pending {
-    std::size_t function;
-    double time;
-  };
   FlatSample read(Stepping& stepping, double t);
+  void require_progress(const Stepping& stepping);
+  [[noreturn]] void chatters() const;
+  [[nodiscard]] Transitions::Change pass(const FlatSample& at, Stepping& stepping, std::vector<double>& q);
+  [[nodiscard]] Transitions::Change change_scene(const FlatSample& at, Stepping& stepping,
+                                                 std::vector<double>& q);
   void go_on(const Transitions::Change& change, double t, Stepping& stepping);
 
   std::size_t asked_for_;
   Transitions* transitions_;
   Moment seen_;
   EventWatch watch_;
+  std::vector<Accumulation> changes_;  // of each event that was asked for
   std::vector<Occurrence> occurred_;
   Record before_, after_;
   std::vector<double> impulses_;
-  std::optional<Pending> change_;
+  std::shared_ptr<const System> system_;  // that goes on after a change
+  std::optional<Occurrence> change_, last_;
+  int repeated_ = 0;  // times that the last change was due at one time
   std::optional<double> end_;
 };
 

@@ -59,7 +59,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
         begin{q0, v0},
         transitions(conditional()),
         stepping(transitions ? transitions->system() : system, begin.q, begin.v, o),
-        now(*system, stepping.start()),
+        now(*system, stepping.start(), EventLog::changes(events)),
         next(now) {
     visit(o.t_start);
     if (!events.empty() || transitions)
@@ -170,6 +170,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
 
   [[nodiscard]] Record empty_record() const {
     return {.layout = system->layout(),
+            .later = {},
             .stepper = name(options.stepper),
             .tolerance = options.tolerance,
             .times = {},
@@ -203,7 +204,7 @@ Integrator::Integrator(Integrator&&) noexcept = default;
 Integrator::~Integrator() = default;
 
 FlatSample Integrator::sample() const { return state_->now.flat(); }
-const System& Integrator::system() const { return *state_->system; }
+const System& Integrator::system() const { return state_->stepping.system(); }
 std::span<const Occurrence> Integrator::events() const {
   return state_->log ? std::span<const Occurrence>(state_->log->occurred()) : std::span<const Occurrence>();
 }
@@ -245,7 +246,10 @@ std::shared_ptr<const Record> Integrator::run() {
   State& s = *state_;
   s.record.clear();
   s.record.reserve(s.times.size(), s.now.flat());
-  s.for_each_sample([&s](const FlatSample& sample) { s.record.append(sample); });
+  s.for_each_sample([&s](const FlatSample& sample) {
+    s.record.go_on_with(s.stepping.system().layout());
+    s.record.append(sample);
+  });
   // The samples are handed over, not copied: they may be most of the memory.
   auto record = std::make_shared<Record>(std::exchange(s.record, s.empty_record()));
   record->statistics = s.statistics();

@@ -8,12 +8,27 @@ template <int D>
 Integrator Simulation<D>::watching(const Scene<D>& scene, const Options& options,
                                    const std::vector<Event<D>>& events) {
   System system = scene.system();
+  struct Now {  // shared by the events of one run
+    Scene<D> scene;
+    std::shared_ptr<const Layout> layout;
+  };
+  const auto current = std::make_shared<Now>(Now{scene, system.layout()});
   std::vector<FlatEvent> flat;
   for (const Event<D>& event : events) {
     flat.push_back({event.name, {}, event.crossing, event.ends});
-    if (!event.function) continue;
-    flat.back().function = [layout = system.layout(), function = event.function](const FlatSample& now) {
-      return function(Sample<D>(*layout, now));
+    if (event.function) {
+      flat.back().function = [current, function = event.function](const FlatSample& now) {
+        return function(Sample<D>(*current->layout, now));
+      };
+    }
+    if (!event.change) continue;
+    flat.back().change = [current, change = event.change](const FlatSample& now) {
+      current->scene.start_from(Sample<D>(*current->layout, now));
+      change(current->scene);
+      auto next = std::make_shared<const System>(current->scene.system());
+      current->layout = next->layout();
+      const auto q = current->scene.initial_positions(), v = current->scene.initial_velocities();
+      return FlatEvent::Changed{std::move(next), {q.begin(), q.end()}, {v.begin(), v.end()}};
     };
   }
   return {std::move(system), scene.initial_positions(), scene.initial_velocities(), options, std::move(flat)};

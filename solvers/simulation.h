@@ -43,8 +43,8 @@ class Simulation : public Readings<D, Simulation<D>> {
   /// Hands each sample to `observe(const Sample<D>&)` instead of keeping it.
   template <class Observe>
   void run(const Observe& observe) {
-    const Layout& layout = *integrator_.system().layout();
-    integrator_.run([&](const FlatSample& flat) { observe(Sample<D>(layout, flat)); });
+    integrator_.run(
+        [&](const FlatSample& flat) { observe(Sample<D>(*integrator_.system().layout(), flat)); });
   }
 
  private:

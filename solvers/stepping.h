@@ -26,6 +26,7 @@ class Stepping {
   [[nodiscard]] const System& system() const { return *system_; }
   /// See TimeStepper.
   [[nodiscard]] int degree() const { return stepper_->degree(); }
+  [[nodiscard]] double tolerance() const { return options_.tolerance; }
   /// Throws StepFailure, EquationFault.
   void step(double wanted);
   /// Begins anew at a time inside the last step, with constraints that changed and velocities that may have.

@@ -28,6 +28,7 @@ struct Roughness {
 struct Condition {
   std::optional<Contact> contact{};
   std::optional<Roughness> roughness{};
+  bool released = false;
 };
 
 }  // namespace dalembert

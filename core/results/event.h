@@ -3,9 +3,15 @@
 #include <dalembert/core/results/sample.h>
 
 #include <functional>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace dalembert {
+
+template <int D>
+class Scene;
+class System;
 
 /// Which way a function goes through 0.
 enum class Crossing { either, rising, falling };
@@ -23,6 +29,11 @@ struct Event {
   std::function<double(const Sample<D>&)> function;
   Crossing crossing = Crossing::either;
   bool ends = false;  ///< the run ends there, with a last sample at that time
+  /// Changes the scene there; empty if it does not. The scene has the state of that instant as its initial
+  /// one: `replace` states parameters anew, and with particles masses and velocities; `release` and `impose`
+  /// take constraints out of force and back. The run goes on with that, from velocities put onto the
+  /// constraints; what that takes is an impulse of theirs. A constraint comes into force only where it holds.
+  std::function<void(Scene<D>& scene)> change{};
 };
 
 /// The same without its dimension.
@@ -31,6 +42,12 @@ struct FlatEvent {
   std::function<double(const FlatSample&)> function;
   Crossing crossing;
   bool ends;
+  /// The equations from there on and the state they begin with.
+  struct Changed {
+    std::shared_ptr<const System> system;
+    std::vector<double> q, v;
+  };
+  std::function<Changed(const FlatSample&)> change{};
 };
 
 /// What a run lists: an event that was asked for; that a one-sided constraint opened, was struck, or came to

@@ -29,6 +29,12 @@ class DenseOutput {
 /// A run as flat arrays: what a stepper fills and a Trajectory reads.
 struct Record {
   std::shared_ptr<const Layout> layout;
+  /// Where events change the scene: the layouts after it, and the first sample of each.
+  struct Later {
+    std::size_t first;
+    std::shared_ptr<const Layout> layout;
+  };
+  std::vector<Later> later{};
   std::string stepper;
   double tolerance = 0.0;
   std::vector<double> times;
@@ -40,7 +46,11 @@ struct Record {
   std::shared_ptr<const Record> at_events;     ///< with a sample of each; null if none were asked for
   std::shared_ptr<const Record> after_events;  ///< and of the state after it,
   std::vector<double> impulses;                ///< with the impulses of all rows; both null or empty if no
-                                               ///< constraint is one-sided
+                                               ///< constraint changes
+
+  /// Samples that are appended from here on are of this layout, which differs in what forces and masses are.
+  void go_on_with(const std::shared_ptr<const Layout>& layout);
+  [[nodiscard]] const Layout& layout_of(std::size_t sample) const;
 
   /// Makes room, so that `append` allocates nothing for this many samples.
   void reserve(std::size_t samples, const FlatSample& like);
@@ -92,7 +102,7 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
     using reference = Sample<D>;
 
     Iterator(const Record& record, std::size_t i) : record_(&record), i_(i) {}
-    Sample<D> operator*() const { return {*record_->layout, record_->sample(i_)}; }
+    Sample<D> operator*() const { return {record_->layout_of(i_), record_->sample(i_)}; }
     Iterator& operator++() { return ++i_, *this; }
     Iterator operator++(int) { return {*record_, i_++}; }
     bool operator==(const Iterator&) const = default;

@@ -94,9 +94,11 @@ class Scene {
     layout_.require(handle);
     const auto number = static_cast<std::size_t>(handle.index);
     Layout::Constraint& its = layout_.constraints[number];
+    const bool released = its.holds.released;
     Surroundings around = admit(constraint, {its.kind, its.name});
     exchange(constraints_, constraint, constraint_places_[number], number, its.label(), std::move(around));
     its.holds = detail::condition_of(constraint);
+    its.holds.released = released;
   }
   template <detail::AnyForce E>
   void replace(Force handle, E force) {
@@ -111,6 +113,23 @@ class Scene {
   /// Another mass and another initial state.
   void replace(Particle<D> particle, const ParticleState<D>& state);
   void replace(Rotor rotor, const RotorState& state);
+
+  /// Takes a constraint out of force, and puts it back: while it is released it exerts none, and its equation
+  /// need not hold. Throws InvalidArgument for a handle of another scene, and for what holds at times by
+  /// itself (`unilateral`, `coulomb`).
+  template <int Rows>
+  void release(Constraint<Rows> constraint) {
+    layout_.require(constraint);
+    set_released(constraint.index, true);
+  }
+  template <int Rows>
+  void impose(Constraint<Rows> constraint) {
+    layout_.require(constraint);
+    set_released(constraint.index, false);
+  }
+
+  /// Takes the state of a sample for the initial one. Throws as `require_state`.
+  void start_from(const Sample<D>& sample);
 
   /// Handles by name. Throws InvalidArgument if nothing of the kind has it.
   [[nodiscard]] Particle<D> particle(std::string_view name) const;
@@ -182,6 +201,7 @@ class Scene {
     [[nodiscard]] std::string text() const;
   };
 
+  void set_released(int constraint, bool released);
   /// `name`, or if it is empty `kind` and the next free number; throws InvalidScene if it is taken.
   [[nodiscard]] std::string unique_name(std::string_view kind, const std::string& name,
                                         std::size_t number) const;

@@ -21,6 +21,21 @@ void Scene<D>::require_state(const Sample<D>& sample) const {
 }
 
 template <int D>
+void Scene<D>::start_from(const Sample<D>& sample) {
+  require_state(sample);
+  q_.assign(sample.flat().q.begin(), sample.flat().q.end());
+  v_.assign(sample.flat().v.begin(), sample.flat().v.end());
+}
+
+template <int D>
+void Scene<D>::set_released(int constraint, bool released) {
+  Layout::Constraint& its = layout_.constraints[static_cast<std::size_t>(constraint)];
+  if (its.holds.contact || its.holds.roughness)
+    throw InvalidArgument(its.label() + " holds at times by itself: it cannot be released or imposed");
+  its.holds.released = released;
+}
+
+template <int D>
 System Scene<D>::system() const {
   if (q_.empty()) {
     throw InvalidScene("Scene \"" + layout_.scene + "\" is empty: add at least one particle");
@@ -71,9 +86,15 @@ System Scene<D>::system() const {
     parts.frictions.push_back(group.batch->clone());
     parts.friction_numbers.push_back(group.numbers);
   }
-  return System(std::move(parts));
+  const System all(std::move(parts));
+  const auto released = all.released();
+  return released.empty() ? all : all.without(released);
 }
 
+template void Scene<2>::start_from(const Sample<2>&);
+template void Scene<3>::start_from(const Sample<3>&);
+template void Scene<2>::set_released(int, bool);
+template void Scene<3>::set_released(int, bool);
 template void Scene<2>::require_state(const Sample<2>&) const;
 template void Scene<3>::require_state(const Sample<3>&) const;
 template System Scene<2>::system() const;

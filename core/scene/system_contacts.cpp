@@ -27,6 +27,16 @@ std::vector<std::size_t> System::conditional() const {
   return constraints_that(*layout_, [](const Condition& c) { return c.contact || c.roughness; });
 }
 
+std::vector<std::size_t> System::released() const {
+  return constraints_that(*layout_, [](const Condition& c) { return c.released; });
+}
+
+std::string System::held_at_times() const {
+  for (const Layout::Constraint& c : layout_->constraints)
+    if (c.holds.contact || c.holds.roughness || c.holds.released) return c.label();
+  return {};
+}
+
 System System::without(std::span<const std::size_t> constraints) const {
   System other = *this;
   other.out_of_force_.resize(rows());

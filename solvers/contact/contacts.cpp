@@ -30,6 +30,15 @@ void clear_round_off(VectorXd& x, const VectorXd& unit, double largest) {
     if (std::abs(x[i]) * unit[i] <= round_off * largest) x[i] = 0.0;
 }
 
+/// Of constraint or inertia, on any coordinate; never 0.
+double largest_force(const System& system, const FlatSample& now) {
+  double largest = std::numeric_limits<double>::min();
+  for (const double force : now.forces) largest = std::max(largest, std::abs(force));
+  for (std::size_t i = 0; i < now.a.size(); ++i)
+    largest = std::max(largest, system.masses()[i] * std::abs(now.a[i]));
+  return largest;
+}
+
 bool among(const std::vector<std::size_t>& all, std::size_t i) {
   return std::ranges::find(all, i) != all.end();
 }
@@ -94,7 +103,7 @@ double Contacts::gradient_of(const Contact& contact, const Instant& at) const {
 
 double Contacts::watched(std::size_t contact, const FlatSample& now) const {
   const Contact& c = contacts_[contact];
-  if (c.closed) return c.sign * now.lambda[c.row];
+  if (c.closed) return c.sign * now.lambda[c.row] + tolerance_ * largest_force(*stated_, now);
   if (now.time == c.opened_at) return c.rate_at_opening;
   if (gaps_at_ != now.time) find_gaps({now.time, now.q, now.v});
   const double gap = c.sign * g_[c.row], since = c.opened_at ? now.time - *c.opened_at : 1.0;
@@ -186,7 +195,7 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
   std::optional<Coupling> coupling(std::in_place, only(touched), numbers(touched), at);
   VectorXd U = coupling->rates();
   for (std::size_t k = 0; k < touched.size(); ++k)
-    if (contacts_[touched[k]].closed) U[static_cast<Index>(k)] = 0.0;
+    if (contacts_[touched[k]].closed && !contacts_[touched[k]].moved) U[static_cast<Index>(k)] = 0.0;
   if (U.minCoeff() < 0.0) {
     strike(*coupling, touched, at.t, U, change);
     if (const auto limit = limit_of_impacts(change, at.t)) {
@@ -199,6 +208,7 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
       U.setZero(static_cast<Index>(touched.size()));
     }
   }
+  for (Contact& c : contacts_) c.moved = false;
   const auto resting = part(touched, U, at.t, change);
   if (!friction) {
     accelerate(*coupling, touched, fallen, resting, at, change);
@@ -291,6 +301,17 @@ void Contacts::open(std::size_t number, double t, double rate, Change& change) {
   contact.closed = false;
   contact.opened_at = t;
   contact.rate_at_opening = rate;
+}
+
+void Contacts::restate(std::shared_ptr<const System> stated, const Instant& at) {
+  stated_ = std::move(stated);
+  system_.reset();
+  find_gaps(at);
+  for (Contact& c : contacts_) {
+    c.restitution = stated_->layout()->constraints[c.number].holds.contact->restitution;
+    c.moved = c.closed && std::abs(psi_[c.row]) > tolerance_ * scales_.speed() * c.gradient;
+  }
+  settle();
 }
 
 std::vector<std::size_t> Contacts::open() const {

@@ -48,8 +48,13 @@ class Contacts {
   [[nodiscard]] std::string label(std::size_t contact) const {
     return stated_->row_label(contacts_[contact].row);
   }
+  /// Goes on with these equations, in which parameters may differ, at a state that may: what was closed need
+  /// not be at rest there.
+  void restate(std::shared_ptr<const System> stated, const Instant& at);
+
   /// A function of each that falls through 0 where the contact opens or closes: the force of a closed one;
-  /// the gap of an open one, over the time since it opened: that has no root there.
+  /// the gap of an open one, over the time since it opened: that has no root there. A force that is 0 to the
+  /// tolerance, of those there are, has not fallen.
   [[nodiscard]] double watched(std::size_t contact, const FlatSample& now) const;
   /// That no open contact has been run through unseen. Throws StepFailure, which names it.
   void require_open(const FlatSample& now) const;
@@ -80,8 +85,8 @@ class Contacts {
     std::size_t number;  // in the layout
     std::size_t row;
     double sign, restitution;
-    bool closed = false;
-    std::optional<double> opened_at{};  // if it was closed before
+    bool closed = false, moved = false;  // though closed
+    std::optional<double> opened_at{};   // if it was closed before
     double rate_at_opening = 0.0;
     Accumulation impacts{};
     double gradient = 1.0;  // its length at the start

@@ -66,6 +66,15 @@ DryFriction::DryFriction(std::shared_ptr<const System> stated, const Scales& sca
   }
 }
 
+void DryFriction::restate(std::shared_ptr<const System> stated) {
+  stated_ = std::move(stated);
+  for (Rough& r : all_) {
+    const Roughness& law = *stated_->layout()->constraints[r.number].holds.roughness;
+    r.mu = law.mu;
+    r.mu_static = law.mu_static;
+  }
+}
+
 std::string DryFriction::label(std::size_t function) const {
   return stated_->row_label(all_[function / 2].row);
 }
@@ -188,11 +197,11 @@ void DryFriction::begin(Rough& rough, const std::vector<std::size_t>& open, std:
   const auto index = static_cast<std::size_t>(&rough - all_.data());
   const bool turned = fallen && *fallen == 2 * index;
   if (fallen && *fallen == 2 * index + 1) rough.sign = -rough.sign;
-  if (before == Mode::sticks) {
+  const VectorXd u = slip(rough);
+  if (before == Mode::sticks && u.norm() <= rough.rest) {
     if (turned) let_go(rough, part(lambda, rough.row, rough.rows));
     return;
   }
-  const VectorXd u = slip(rough);
   if (turned || (u.norm() <= rough.rest && !(before == Mode::slides && rough.from_rest))) {
     rough.mode = Mode::sticks;
     return;

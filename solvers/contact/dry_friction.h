@@ -38,6 +38,9 @@ class DryFriction {
   /// Of the constraints that a scene states.
   DryFriction(std::shared_ptr<const System> stated, const Scales& scales, double tolerance);
 
+  /// Goes on with these equations, in which parameters may differ.
+  void restate(std::shared_ptr<const System> stated);
+
   [[nodiscard]] bool any() const { return !all_.empty(); }
   /// Functions that fall through 0 where something changes, two of each constraint: what is left until it
   /// sticks or slides, and the force that presses, if that may change its sign.

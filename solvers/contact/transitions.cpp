@@ -44,6 +44,12 @@ Transitions::Change Transitions::pass(const FlatSample& at, std::size_t function
   return change;
 }
 
+Transitions::Change Transitions::restate(const std::shared_ptr<const System>& stated, const Instant& at) {
+  friction_.restate(stated);
+  contacts_.restate(std::make_shared<const System>(stated->without(stated->rough())), at);
+  return pass_contacts(at, {});
+}
+
 bool Transitions::open_pulling(const FlatSample& now) {
   if (!contacts_.open_pulling(now, friction_.any())) return false;
   friction_.settle(contacts_.open(), {now.time, now.q, now.v});

@@ -40,6 +40,8 @@ class Transitions {
   [[nodiscard]] Change begin(const Instant& at);
   /// Goes on from where a function has fallen to 0. Throws likewise.
   [[nodiscard]] Change pass(const FlatSample& at, std::size_t function);
+  /// Goes on from a state that is given, with equations in which parameters may differ. Throws likewise.
+  [[nodiscard]] Change restate(const std::shared_ptr<const System>& stated, const Instant& at);
   /// See Contacts.
   [[nodiscard]] bool open_pulling(const FlatSample& now);
 

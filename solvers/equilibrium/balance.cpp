@@ -32,10 +32,10 @@ void require_frictionless(const System& system) {
 }
 
 void require_bilateral(const System& system) {
-  if (system.conditional().empty()) return;
-  throw InvalidScene("Equilibria of scene \"" + system.layout()->scene +
-                     "\": " + system.layout()->constraints[system.conditional().front()].label() +
-                     " holds at times only; state it as it holds both ways, and see what force it has");
+  const auto label = system.held_at_times();
+  if (label.empty()) return;
+  throw InvalidScene("Equilibria of scene \"" + system.layout()->scene + "\": " + label +
+                     " holds at times only; state it as it always holds, and see what force it has");
 }
 
 double largest(std::span<const double> x) {

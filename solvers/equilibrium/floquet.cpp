@@ -31,10 +31,9 @@ void require_period(const System& system, double period) {
          << ", must be finite and > 0";
     throw InvalidArgument(what.str());
   }
-  if (!system.conditional().empty())
-    throw InvalidScene(
-        "Floquet multipliers: " + system.layout()->constraints[system.conditional().front()].label() +
-        " holds at times only; they are of scenes without such constraints");
+  if (const auto label = system.held_at_times(); !label.empty())
+    throw InvalidScene("Floquet multipliers: " + label +
+                       " holds at times only; they are of scenes without such constraints");
   if (system.frictional())
     throw InvalidScene("Floquet multipliers: " + system.force_of_friction(0) +
                        " reads a multiplier; they are of scenes without such forces");

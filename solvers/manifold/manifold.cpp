@@ -205,6 +205,14 @@ bool Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
   return true;
 }
 
+bool Manifold::strike(double t, std::span<const double> q, std::span<double> v, std::span<double> impulses) {
+  evaluate({t, q, v});
+  if (!factorise()) return false;
+  correct_velocities(v);
+  multipliers(impulses);
+  return true;
+}
+
 void Manifold::multipliers(std::span<double> lambda) const {
   const std::size_t n = x_.size() - rows_.rows.size();
   std::ranges::fill(lambda, 0.0);

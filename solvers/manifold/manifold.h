@@ -63,6 +63,11 @@ class Manifold {
   [[nodiscard]] bool solve_motion(double t, std::span<const double> q, std::span<double> v,
                                   std::span<double> a, std::span<double> lambda);
 
+  /// (2) alone, where it takes more than a correction: the impulses that put v onto the constraints, one per
+  /// row of the system. False if singular.
+  [[nodiscard]] bool strike(double t, std::span<const double> q, std::span<double> v,
+                            std::span<double> impulses);
+
   /// (3) alone, at any state: the accelerations of the constrained motion. False if singular.
   [[nodiscard]] bool accelerate(const Instant& at, std::span<double> a);
   /// After a step: one step of (1), then (2) and (3) with the matrix of the new positions. What one

@@ -18,14 +18,14 @@ constexpr double undetermined = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-Moment::Moment(const System& system, const Start& start)
+Moment::Moment(const System& system, const Start& start, bool changes)
     : q(start.q),
       v(start.v),
       a(start.a),
       lambda(start.lambda),
       forces(system.layout()->slot_coordinate.size()) {
-  // With contacts constraints may come to repeat each other that do not at the start.
-  if (start.rows.size() < system.rows_in_force() || !system.contacts().empty()) unique.resize(lambda.size());
+  if (changes || start.rows.size() < system.rows_in_force() || !system.conditional().empty())
+    unique.resize(lambda.size());
 }
 
 Recovery::Recovery(const System& system, const Start& start, double tolerance)

@@ -12,7 +12,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 
 /// Everything that can be read at one instant.
 struct Moment {
-  Moment(const System& system, const Start& start);
+  /// `changes`: constraints may come into force that repeat others.
+  Moment(const System& system, const Start& start, bool changes = false);
 
   double t = 0.0;
   std::vector<double> q, v, a, lambda, forces;

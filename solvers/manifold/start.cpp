@@ -286,6 +286,25 @@ Start begin_changed(const System& system, const Start& before, double t, std::sp
   return start;
 }
 
+std::vector<double> take_over(const System& system, const Scales& scales, double t, std::span<const double> q,
+                              std::span<double> v, double known) {
+  const auto lengths = scales.lengths();
+  auto e = system.evaluation();
+  system.evaluate({t, q, v}, e);
+  const Violation violation = position_violation(system, e, lengths);
+  if (violation.size > std::max(rounding_of_the_user, known) * scales.length) {
+    std::ostringstream what;
+    what << system.row_label(violation.row) << " comes into force where it does not hold: it is violated by "
+         << violation.size << "; change the positions too, or wait until it holds";
+    throw StepFailure{what.str(), t};
+  }
+  std::vector<double> impulses(system.rows());
+  Manifold manifold(system, independent_rows(system, e.w), lengths);
+  if (!manifold.strike(t, q, v, impulses))
+    throw StepFailure{"the constraints became dependent on each other", t};
+  return impulses;
+}
+
 Start begin_anew(const System& system, const Start& before, double t, std::span<const double> q,
                  std::span<const double> v) {
   Start start = before;

@@ -32,6 +32,12 @@ struct Start {
 [[nodiscard]] Start begin_changed(const System& system, const Start& before, double t,
                                   std::span<const double> q, std::span<const double> v, double known);
 
+/// Puts the velocities onto the constraints of a system that takes over at a state that is given, in the
+/// scales of a run; the impulses that this takes, one per row. Throws StepFailure where the positions do not
+/// obey them, naming the constraint; EquationFault.
+[[nodiscard]] std::vector<double> take_over(const System& system, const Scales& scales, double t,
+                                            std::span<const double> q, std::span<double> v, double known);
+
 /// A start from a state on the way of a run that began with `before`, in its scales: put onto the
 /// constraints, with as many rows as before, chosen anew. Throws StepFailure where they are dependent.
 [[nodiscard]] Start begin_anew(const System& system, const Start& before, double t, std::span<const double> q,

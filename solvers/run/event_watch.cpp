@@ -56,10 +56,14 @@ struct Interpolant {
 
 }  // namespace
 
-EventWatch::EventWatch(std::vector<FlatEvent> events, const Layout& layout) : events_(std::move(events)) {
+EventWatch::EventWatch(std::vector<FlatEvent> events, const Layout& layout)
+    : events_(std::move(events)), largest_(events_.size()) {
   for (const FlatEvent& event : events_) {
     if (!event.function)
       throw InvalidArgument("Event \"" + event.name + "\" of scene \"" + layout.scene + "\" has no function");
+    if (event.ends && event.change)
+      throw InvalidArgument("Event \"" + event.name + "\" of scene \"" + layout.scene +
+                            "\" both ends the run and changes the scene; it does one of them");
   }
 }
 
@@ -69,12 +73,16 @@ void EventWatch::begin_anew(const FlatSample& start, std::size_t positive) {
   side_.clear();
   for (std::size_t e = 0; e < events_.size(); ++e) {
     at_from_.push_back(value(e, start));
-    side_.push_back(sign(at_from_.back()));
-    if (side_.back() == 0 && e >= positive) side_.back() = 1;
+    side_.push_back(e < positive ? first_side(e, at_from_.back()) : at_from_.back() < 0.0 ? -1 : 1);
   }
 }
 
-double EventWatch::value(std::size_t event, const FlatSample& at) const {
+/// After a change a function may stay at 0, to round-off.
+int EventWatch::first_side(std::size_t event, double value) const {
+  return std::abs(value) > zero * largest_[event] ? sign(value) : 0;
+}
+
+double EventWatch::value(std::size_t event, const FlatSample& at) {
   const auto fail = [&](const std::string& what) {
     throw StepFailure{"Event \"" + events_[event].name + "\" " + what, at.time};
   };
@@ -85,22 +93,26 @@ double EventWatch::value(std::size_t event, const FlatSample& at) const {
     fail(std::string("threw \"") + error.what() + '"');
   }
   if (!std::isfinite(value)) fail("gives no finite number");
+  largest_[event] = std::max(largest_[event], std::abs(value));
   return value;
 }
 
 /// The nodes of the step, and where the interpolant turns towards 0 between two of one sign.
 std::vector<EventWatch::Place> EventWatch::places(std::size_t event, const Read& read,
-                                                  const std::vector<double>& values, double to) const {
+                                                  const std::vector<double>& values, double to) {
   const Interpolant p{from_, to, values};
   const auto node = [&](int j) { return chebyshev_node(from_, to, j, p.degree()); };
   std::vector<Place> places{{from_, values.front()}};
   for (int j = 1; j <= p.degree(); ++j) {
     const double a = node(j - 1), b = node(j), f_a = values[static_cast<std::size_t>(j - 1)],
                  f_b = values[static_cast<std::size_t>(j)];
-    const int side = sign(f_a);
-    if (side != 0 && side == sign(f_b)) {
+    const int side = sign(f_b);
+    // What begins at 0 may have been on the other side meanwhile.
+    const bool from_zero = j == 1 && side_[event] == 0;
+    if (side != 0 && (from_zero || side == sign(f_a))) {
       const double t = p.turn(a, b, side);
-      if (side * p(t) < std::min(std::abs(f_a), std::abs(f_b))) places.push_back({t, value(event, read(t))});
+      const double high = from_zero ? -zero * largest_[event] : std::min(std::abs(f_a), std::abs(f_b));
+      if (side * p(t) < high) places.push_back({t, value(event, read(t))});
     }
     places.push_back({b, f_b});
   }
@@ -115,10 +127,11 @@ void EventWatch::find(std::size_t event, const Read& read, const std::vector<dou
     const auto [a, f_a] = all[i - 1];
     const auto [b, f_b] = all[i];
     const int before = side_[event], after = sign(f_b);
-    if (after == before || before == 0) {
-      side_[event] = after == 0 ? before : after;
+    if (before == 0) {
+      side_[event] = first_side(event, f_b);
       continue;
     }
+    if (after == before) continue;
     // It is 0 at b, or in between; where it was 0 at a that has been found.
     const double exact = 4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(a), std::abs(b));
     side_[event] = after == 0 ? -before : after;

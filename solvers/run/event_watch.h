@@ -5,6 +5,7 @@
 #include <dalembert/solvers/base/hidden.h>
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,10 +17,14 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// polynomial, with recovered forces.
 ///
 /// Within a step a function is known at the nodes of a Chebyshev interpolant of the polynomial's degree.
-/// Where that turns towards 0 between two nodes of one sign the function is asked there: so two roots within
-/// a step are found as well, if the interpolant resolves the function.
+/// Where that turns towards 0 between two nodes of one sign, or first to the other side of the 0 that it
+/// began with, the function is asked there: so two roots within a step are found as well, if the interpolant
+/// resolves the function.
 class EventWatch {
  public:
+  /// A value that is no more than this part of the largest so far is round-off.
+  static constexpr double zero = 1e4 * std::numeric_limits<double>::epsilon();
+
   /// What the last step says at a time inside it.
   using Read = std::function<FlatSample(double t)>;
 
@@ -30,7 +35,8 @@ class EventWatch {
   /// StepFailure if a function throws or gives no number.
   [[nodiscard]] std::vector<Occurrence> look(const Read& read, double to, int degree);
   /// From here on steps are those of a run that begins, or begins anew, at a sample; what the functions give
-  /// there is no crossing. Those from number `positive` on come from above 0 where they are 0.
+  /// there is no crossing, and as long as it is 0 to round-off of the largest before it has no sign.
+  /// Those from number `positive` on come from above 0 where they are 0.
   void begin_anew(const FlatSample& start, std::size_t positive);
   [[nodiscard]] const FlatEvent& event(std::size_t number) const { return events_[number]; }
 
@@ -38,16 +44,18 @@ class EventWatch {
   struct Place {
     double t, value;
   };
-  [[nodiscard]] double value(std::size_t event, const FlatSample& at) const;
+  [[nodiscard]] double value(std::size_t event, const FlatSample& at);
+  [[nodiscard]] int first_side(std::size_t event, double value) const;
   [[nodiscard]] std::vector<Place> places(std::size_t event, const Read& read,
-                                          const std::vector<double>& values, double to) const;
+                                          const std::vector<double>& values, double to);
   void find(std::size_t event, const Read& read, const std::vector<double>& values, double to,
             std::vector<Occurrence>& occurred);
 
   std::vector<FlatEvent> events_;
   double from_ = 0.0;
   std::vector<double> at_from_;  ///< of each event its value where the last step ended,
-  std::vector<int> side_;        ///< and its sign there or before, if it is 0; 0 if it never had one
+  std::vector<int> side_;        ///< its sign there or before, if it is 0; 0 if it never had one,
+  std::vector<double> largest_;  ///< and the largest value so far
 };
 
 }  // namespace dalembert

@@ -85,6 +85,7 @@ void KeptSteps::read(std::span<const double> times, Record& out) const {
     if (std::exchange(leg, &own) != &own) {
       reader.emplace(*own.system, own.start, own.t, tolerance_);
       now.emplace(*own.system, own.start);
+      out.go_on_with(own.system->layout());
     }
     interpolate(step, t, *now, springs);
     try {

@@ -22,7 +22,8 @@ struct Side {
 ///
 /// Between two states a switch was passed if a comparison changed its outcome, or if some friction's slope
 /// turned by more than a right angle: at zero sliding velocity a law changes its direction without comparing
-/// anything. What slides by Coulomb's law changes where a run finds that it does, not here. (A direction that turns so far within a step smoothly is no harm; the step is tried shorter.)
+/// anything. What slides by Coulomb's law changes where a run finds that it does, not here. (A direction that
+/// turns so far within a step smoothly is no harm; the step is tried shorter.)
 class Switches {
  public:
   /// Listens to the equations at a state: most scenes compare nothing and have no switches.

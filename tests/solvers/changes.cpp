@@ -1,0 +1,173 @@
+#include <dalembert/dalembert.h>
+#include <dalembert/tests/both_steppers.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace dalembert {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr double g = 9.81, tolerance = 1e-10;
+/// As in the tests of events.
+constexpr double met = 100.0 * tolerance;
+
+class Changes : public testing::TestWithParam<Stepper> {
+ protected:
+  [[nodiscard]] static Options options(double t_end) {
+    return {.t_end = t_end, .samples = 11, .tolerance = tolerance, .stepper = GetParam()};
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Steppers, Changes, both_steppers, stepper_name);
+
+/// A pendulum of length 1 that is let go where it is level.
+struct Pendulum {
+  Scene<2> scene{"pendulum"};
+  Particle<2> bob;
+  Constraint<1> rod;
+  Force gravity;
+
+  Pendulum() {
+    gravity = scene.add(UniformGravity<2>{{0.0, -g}});
+    bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}}, "bob");
+    rod = scene.add(Distance{Fixed<2>{}, bob, 1.0}, "rod");
+  }
+  [[nodiscard]] Event<2> at_the_bottom(std::function<void(Scene<2>&)> change) const {
+    return {"bottom", [bob = bob](const auto& now) { return now.position(bob).x(); }, Crossing::falling,
+            false, std::move(change)};
+  }
+};
+
+TEST_P(Changes, ReleaseAConstraint) {
+  // Cut where it hangs straight the bob flies on at sqrt(2 g).
+  const Pendulum p;
+  const auto cut = p.at_the_bottom([rod = p.rod](Scene<2>& scene) { scene.release(rod); });
+  auto o = options(1.0);
+  o.dense = true;
+  const auto run = simulate(p.scene, o, {cut});
+  ASSERT_EQ(run.events().size(), 1U);
+  const double left = 1.0 - run.events()[0].time, v = std::sqrt(2.0 * g);
+  EXPECT_NEAR(run.event_sample(0).multiplier(p.rod), -3.0 * g, met * g);
+  EXPECT_EQ(run.sample_after(0).multiplier(p.rod), 0.0);
+  EXPECT_NEAR(run.position(p.bob, 10).x(), -v * left, met);
+  EXPECT_NEAR(run.position(p.bob, 10).y(), -1.0 - g * left * left / 2.0, met);
+  EXPECT_EQ(run.multiplier(p.rod, 10), 0.0);
+  const auto between = run.at({0.3, 0.999});
+  EXPECT_LT(between.multiplier(p.rod, 0), -0.1 * g);
+  EXPECT_EQ(between.multiplier(p.rod, 1), 0.0);
+}
+
+TEST_P(Changes, ImposeAConstraintWithItsImpulse) {
+  // A ball in free fall is caught by a rod of length 1 where it is that far from the pivot.
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto ball = scene.add_particle({.mass = 2.0, .position = {0.6, 0.0}});
+  const auto rod = scene.add(Distance{Fixed<2>{}, ball, 1.0}, "rod");
+  scene.release(rod);
+  const Event<2> caught{"caught", [=](const auto& now) { return now.position(ball).norm() - 1.0; },
+                        Crossing::rising, false, [=](Scene<2>& s) { s.impose(rod); }};
+  const auto run = simulate(scene, options(1.0), {caught});
+  ASSERT_EQ(run.events().size(), 1U);
+  const double t = std::sqrt(2.0 * 0.8 / g), v = g * t;
+  EXPECT_NEAR(run.events()[0].time, t, met);
+  EXPECT_NEAR(run.impulse(rod, 0), -2.0 * 0.8 * v, met * g);
+  const auto after = run.sample_after(0);
+  EXPECT_NEAR(after.velocity(ball).dot(after.position(ball)), 0.0, met);
+  EXPECT_NEAR(after.velocity(ball).norm(), 0.6 * v, met * v);
+  EXPECT_NEAR(run.energy(10), after.energy(), met * g);
+  EXPECT_NEAR(run.position(ball, 10).norm(), 1.0, tolerance);
+}
+
+TEST_P(Changes, StateForcesMassesAndVelocitiesAnew) {
+  // At the bottom gravity doubles, the bob gets four times its mass, and is stopped: it stays.
+  const Pendulum p;
+  const auto change = p.at_the_bottom([p](Scene<2>& scene) {
+    scene.replace(p.gravity, UniformGravity<2>{{0.0, -2.0 * g}});
+    scene.replace(p.bob, ParticleState<2>{.mass = 4.0, .position = {0.0, -1.0}});
+  });
+  const auto run = simulate(p.scene, options(2.0), {change});
+  ASSERT_EQ(run.events().size(), 1U);
+  EXPECT_NEAR(run.multiplier(p.rod, 10), -8.0 * g, met * g);
+  EXPECT_NEAR((run.position(p.bob, 10) - Vec<2>(0.0, -1.0)).norm(), 0.0, tolerance);
+  EXPECT_NEAR(run.sample(0).force(p.gravity, p.bob).y(), -g, met);
+  EXPECT_NEAR(run.sample(10).force(p.gravity, p.bob).y(), -8.0 * g, met * g);
+  EXPECT_NEAR(run.event_sample(0).force(p.gravity, p.bob).y(), -g, met);
+  EXPECT_NEAR(run.sample_after(0).force(p.gravity, p.bob).y(), -8.0 * g, met * g);
+  Simulation<2> sim(p.scene, options(2.0), {change});
+  sim.advance_to(0.1);
+  EXPECT_NEAR(sim.sample().force(p.gravity, p.bob).y(), -g, met);
+  sim.advance_to(2.0);
+  EXPECT_NEAR(sim.sample().force(p.gravity, p.bob).y(), -8.0 * g, met * g);
+}
+
+TEST_P(Changes, KickWhatRestsOnAFloor) {
+  // Whenever t passes a whole number of half seconds a ball at rest is sent up at 1: it is back after 2/g.
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto ball = scene.add_particle({.mass = 1.0});
+  const auto floor = scene.add(unilateral(OnCurve{ball, Plane<2>{}}));
+  const Event<2> kick{"kick",
+                      [](const auto& now) { return std::sin(2.0 * std::numbers::pi * (now.time() - 0.5)); },
+                      Crossing::rising, false,
+                      [=](Scene<2>& s) {
+                        s.replace(ball, ParticleState<2>{.mass = 1.0, .velocity = {0.0, 1.0}});
+                      }};
+  const auto run = simulate(scene, options(2.2), {kick});
+  ASSERT_EQ(run.events().size(), 6U);  // kicked, and opened; struck, twice
+  for (std::size_t k = 0; k < 6; k += 3) {
+    const double t = 0.5 + static_cast<double>(k / 3);
+    EXPECT_EQ(run.events()[k].what, Happened::event);
+    EXPECT_NEAR(run.events()[k].time, t, met);
+    EXPECT_EQ(run.events()[k + 1].what, Happened::opened);
+    EXPECT_EQ(run.events()[k + 2].what, Happened::struck);
+    EXPECT_NEAR(run.events()[k + 2].time, t + 2.0 / g, met);
+    EXPECT_NEAR(run.impulse(floor, k + 2), 1.0, met);
+  }
+}
+
+TEST_P(Changes, ThatChatterAreErrors) {
+  // A ball that its user reflects to half its speed: the times accumulate.
+  Scene<2> scene("ball");
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto ball = scene.add_particle({.mass = 1.0, .position = {0.0, 1.0}});
+  const Event<2> bounce{"bounce", [=](const auto& now) { return now.position(ball).y(); }, Crossing::falling,
+                        false,
+                        [=](Scene<2>& s) {
+                          const double v = s.initial_velocities()[1];
+                          s.replace(ball, ParticleState<2>{.mass = 1.0, .velocity = {0.0, -0.5 * v}});
+                        }};
+  EXPECT_THAT([&] { (void)simulate(scene, options(5.0), {bounce}); },
+              ThrowsMessage<IntegrationFailure>(AllOf(HasSubstr("bounce"), HasSubstr("chatters"))));
+}
+
+TEST(Change, RefusesWhatCannotBe) {
+  const Pendulum p;
+  const Options options{.t_end = 1.0};
+  const auto fails = [&](std::function<void(Scene<2>&)> change, const char* what) {
+    EXPECT_THAT([&] { (void)simulate(p.scene, options, {p.at_the_bottom(change)}); },
+                ThrowsMessage<IntegrationFailure>(HasSubstr(what)));
+  };
+  fails([](Scene<2>& s) { s.add_particle({.mass = 1.0}); }, "adds to the scene");
+  fails([](Scene<2>&) { throw std::runtime_error("no"); }, "threw \"no\"");
+  fails(
+      [&](Scene<2>& s) {
+        s.replace(p.rod, Distance{Fixed<2>{}, p.bob, 2.0});
+      },
+      "\"rod\" comes into force where");
+  auto both = p.at_the_bottom([](Scene<2>&) {});
+  both.ends = true;
+  EXPECT_THAT([&] { (void)simulate(p.scene, options, {both}); },
+              ThrowsMessage<InvalidArgument>(HasSubstr("does one of them")));
+  Scene<2> scene;
+  const auto ball = scene.add_particle({.mass = 1.0});
+  const auto floor = scene.add(unilateral(OnCurve{ball, Plane<2>{}}), "floor");
+  EXPECT_THAT([&] { scene.release(floor); }, ThrowsMessage<InvalidArgument>(HasSubstr("\"floor\"")));
+}
+
+}  // namespace
+}  // namespace dalembert
