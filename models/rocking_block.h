@@ -55,7 +55,7 @@ struct RockingBlock {
   [[nodiscard]] double impact_rate(int k) const;  ///< w of the k-th impact, before it
   [[nodiscard]] double impact_time(int k) const;  ///< of the left corner if k is even
   [[nodiscard]] double rest_time() const;
-  /// Impacts down to a hundredth of the first speed, and rest.
+  /// Impacts down to a hundredth of the first speed; by the explicit stepper also rest.
   [[nodiscard]] EventModel event_model() const;
 
  private:
