@@ -1,4 +1,5 @@
 #include <dalembert/bench/diagrams.h>
+#include <dalembert/bench/events.h>
 #include <dalembert/bench/extremes.h>
 #include <dalembert/bench/leave_out.h>
 #include <dalembert/bench/modes.h>
@@ -178,6 +179,14 @@ void add_modes(CLI::App& app, int& failures) {
   command->callback([options, &failures] { failures = bench::modes(*options); });
 }
 
+void add_events(CLI::App& app, int& failures) {
+  const auto options = std::make_shared<bench::EventsTable>();
+  CLI::App* command = app.add_subcommand(
+      "events", "Times of impacts, of rest and of forces that vanish against closed forms");
+  add_report_options(*command, options->report);
+  command->callback([options, &failures] { failures = bench::events(*options); });
+}
+
 void add_diagrams(CLI::App& app) {
   const auto options = std::make_shared<bench::Diagrams>();
   CLI::App* command = app.add_subcommand(
@@ -224,6 +233,7 @@ int main(int argc, char** argv) try {
   add_ratios(app);
   add_extremes(app, failures);
   add_modes(app, failures);
+  add_events(app, failures);
   add_diagrams(app);
   add_sensitivity(app);
   CLI11_PARSE(app, argc, argv);

@@ -43,6 +43,7 @@ $bench extremes --csv $report/extremes.csv "${extremes[@]}" || status=$?
 gnuplot -e "csv='$report/extremes.csv'; report='$report'" bench/extremes.gp
 
 $bench modes --csv $report/modes.csv || status=$?
+$bench events --csv $report/events.csv || status=$?
 $bench diagrams --directory $report "${chart[@]}"
 gnuplot -e "report='$report'" bench/diagrams.gp
 

@@ -2,7 +2,6 @@
 #include <dalembert/solvers/contact/complementarity.h>
 #include <dalembert/tests/both_steppers.h>
 
-#include <boost/math/quadrature/tanh_sinh.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -59,80 +58,6 @@ class Contacts : public testing::TestWithParam<Stepper> {
   }
 };
 INSTANTIATE_TEST_SUITE_P(Steppers, Contacts, both_steppers, stepper_name);
-
-TEST_P(Contacts, OpenWhereTheirForceVanishes) {
-  // A particle slides off a sphere of radius 1 from the angle 0.1 off its top, at rest: it leaves at cos
-  // theta = (2/3) cos 0.1, see the tests of events for the time, and flies on along a parabola.
-  Scene<2> scene;
-  scene.add(UniformGravity<2>{{0.0, -g}});
-  const auto particle = scene.add_particle({.mass = 1.0, .position = {std::sin(0.1), std::cos(0.1)}});
-  const auto sphere = scene.add(unilateral(OnSurface{particle, Sphere<2>{.radius = 1.0}}));
-  const auto run = simulate(scene, options(1.2));
-  ASSERT_EQ(run.events().size(), 1U);
-  EXPECT_EQ(run.events()[0].what, Happened::opened);
-  const double c = 2.0 / 3.0 * std::cos(0.1), s = std::sqrt(1.0 - c * c), left = 1.2 - run.events()[0].time;
-  EXPECT_NEAR(run.event_sample(0).position(particle).y(), c, met);
-  const double v = std::sqrt(g * c);
-  EXPECT_NEAR(run.position(particle, 10).x(), s + v * c * left, met);
-  EXPECT_NEAR(run.position(particle, 10).y(), c - v * s * left - g * left * left / 2.0, met);
-  EXPECT_EQ(run.multiplier(sphere, 10), 0.0);
-  EXPECT_TRUE(run.is_unique(sphere, 10));
-}
-
-TEST_P(Contacts, OfAStringOpenAndCatch) {
-  // Sent off below at v0^2 = 4 g l a string is slack where sin a = 2/3 above the pivot, with v^2 = g l sin a.
-  // The parabola from there osculates the circle and meets it again at the angle -3 a (the angles of the four
-  // points in which a parabola with an upright axis meets it add up to 0).
-  Scene<2> scene;
-  scene.add(UniformGravity<2>{{0.0, -g}});
-  const auto bob =
-      scene.add_particle({.mass = 1.0, .position = {0.0, -1.0}, .velocity = {std::sqrt(4.0 * g), 0.0}});
-  const auto string =
-      scene.add(unilateral(Distance{Fixed<2>{}, bob, 1.0}, {.allowed = Allowed::negative}), "string");
-  const auto run = simulate(scene, options(2.0));
-  ASSERT_GE(run.events().size(), 2U);
-  const double a = std::asin(2.0 / 3.0), v = std::sqrt(g * std::sin(a));
-  EXPECT_EQ(run.events()[0].what, Happened::opened);
-  EXPECT_NEAR(run.event_sample(0).position(bob).y(), std::sin(a), met);
-  EXPECT_EQ(run.events()[1].what, Happened::struck);
-  const double flight = (std::cos(a) - std::cos(3.0 * a)) / (v * std::sin(a));
-  EXPECT_NEAR(run.events()[1].time - run.events()[0].time, flight, met);
-  const auto caught = run.event_sample(1), after = run.sample_after(1);
-  EXPECT_NEAR(caught.position(bob).x(), std::cos(3.0 * a), met);
-  EXPECT_NEAR(caught.position(bob).y(), -std::sin(3.0 * a), met);
-  // The string takes the part of the velocity along it.
-  const double along = caught.velocity(bob).dot(caught.position(bob));
-  EXPECT_NEAR(after.energy(), caught.energy() - along * along / 2.0, met * g);
-  EXPECT_NEAR(-run.impulse(string, 1), along, met * g);
-  EXPECT_NEAR(after.velocity(bob).dot(after.position(bob)), 0.0, met);
-}
-
-TEST_P(Contacts, OfASlidingLadderLeaveTheWall) {
-  // A thin rod of length 1 between wall and floor, from rest at the angle 0.3 from the wall: phi'' = (3/2) g
-  // sin phi, phi'^2 = 3 g (cos 0.3 - cos phi); the wall's force vanishes at cos phi = (2/3) cos 0.3.
-  Scene<2> scene;
-  scene.add(UniformGravity<2>{{0.0, -g}});
-  const auto ladder = add_thin_rod(
-      scene, {.mass = 1.0, .start = {0.0, std::cos(0.3)}, .end = {std::sin(0.3), 0.0}}, "ladder");
-  const auto wall =
-      scene.add(unilateral(holonomic(points(ladder.start()), [](auto r) { return r.x(); })), "wall");
-  const auto floor =
-      scene.add(unilateral(holonomic(points(ladder.end()), [](auto r) { return r.y(); })), "floor");
-  const auto run = simulate(scene, options(0.6));
-  ASSERT_GE(run.events().size(), 1U);
-  EXPECT_EQ(run.events()[0].what, Happened::opened);
-  EXPECT_EQ(run.events()[0].event, static_cast<std::size_t>(wall.index));
-  const double leaves = std::acos(2.0 / 3.0 * std::cos(0.3));
-  boost::math::quadrature::tanh_sinh<double> integrator;
-  const double time = integrator.integrate(
-      [](double u) {  // phi = 0.3 + u^2, and cos 0.3 - cos phi = 2 sin(0.3 + u^2/2) sin(u^2/2)
-        if (u < 1e-8) return 2.0 / std::sqrt(3.0 * g * std::sin(0.3));
-        return 2.0 * u / std::sqrt(6.0 * g * std::sin(0.3 + u * u / 2.0) * std::sin(u * u / 2.0));
-      },
-      0.0, std::sqrt(leaves - 0.3));
-  EXPECT_NEAR(run.events()[0].time, time, met);
-  EXPECT_GT(run.multiplier(floor, 10), 0.0);
-}
 
 TEST_P(Contacts, OfAVibratingTableThrowItsLoadOff) {
   // y = A sin(w t): the load leaves where A w^2 sin(w t) = g, at A w cos(w t).
