@@ -28,7 +28,7 @@ double ChainOverEdge::rough_until() const { return edge().radius * (4.0 + std::l
 double ChainOverEdge::rate() const { return std::sqrt((1.0 + friction) * gravity / length); }
 
 double ChainOverEdge::smooth() const {
-  return friction > 0.0 ? rough_until() - RoundedEdge::shortcut * edge().radius - excess() : 0.0;
+  return friction > 0.0 ? rough_until() - RoundedEdge::shortcut() * edge().radius - excess() : 0.0;
 }
 
 GuidedChain ChainOverEdge::scene() const {
@@ -85,7 +85,7 @@ double ChainOverEdge::tension(double hanging_now) const {
   return (1.0 + friction) * rho * gravity * hanging_now * (length - hanging_now) / length;
 }
 
-double ChainOverEdge::lost() const {
+double ChainOverEdge::energy_lost() const {
   const double braked = length - hanging - origin() - smooth();
   return 0.5 * friction * mass / length * gravity * braked * braked;
 }
@@ -106,15 +106,14 @@ Timed timed(const ChainOverEdge& system, Stepper stepper, double tolerance) {
 }
 
 EventModel model(std::string name, std::string notes, double friction) {
-  return {
-      .name = std::move(name), .notes = std::move(notes), .events = [friction](Stepper stepper, double tol) {
-        std::vector<Timed> all;
-        // The implicit stepper takes ten times as many steps, in proportion to N: what it shows with 100
-        // links, it shows.
-        for (int links = 25; links <= (stepper == Stepper::erk ? 400 : 100); links *= 2)
-          all.push_back(timed({.links = links, .friction = friction}, stepper, tol));
-        return all;
-      }};
+  const auto events = [friction](Stepper stepper, double tolerance) {
+    std::vector<Timed> all;
+    // The implicit stepper takes ten times as many steps, in proportion to N.
+    for (int links = 50; links <= (stepper == Stepper::erk ? 400 : 100); links *= 2)
+      all.push_back(timed({.links = links, .friction = friction}, stepper, tolerance));
+    return all;
+  };
+  return {.name = std::move(name), .notes = std::move(notes), .events = events};
 }
 
 }  // namespace

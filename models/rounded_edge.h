@@ -11,7 +11,7 @@ namespace dalembert::models {
 ///
 ///   g = R log(e^(x/R) + e^(y/R)) = 0                                                            (1)
 ///
-/// e^(-|x|/R) is all that it differs by from the table at x, and from the wall at y = x. An arc between two
+/// R e^(-|x|/R) is all that it differs by from the table at x, and likewise from the wall. An arc between two
 /// straight lines would do, but its curvature jumps at either end, and with it the force on every bead that
 /// comes by, a discontinuity that an integrator has to find each time; (1) is analytic. grad g = (u, 1 - u),
 /// u = e^(x/R), is a unit vector on table and wall and 1/sqrt 2 long between.
@@ -23,7 +23,7 @@ namespace dalembert::models {
 ///   curvature = sin theta cos theta (sin theta + cos theta)/R   <= 1/(sqrt 2 R),                (2)
 ///   int curvature^2 ds = int_0^(pi/2) curvature dtheta = 2/(3 R).                               (3)
 ///
-/// The length s along it, counted so that s = -y on the wall, the depth, is by integrating ds = R dtheta/(..)
+/// The length s along it, counted so that s = -y on the wall, the depth, is, ds being dtheta over (2),
 ///
 ///   s/R = sqrt 2 asinh 1 - log 2 + 2 asinh(sqrt 2 sinh(d/2)) - sqrt 2 asinh(tanh(d/2)):         (4)
 ///
@@ -33,7 +33,9 @@ namespace dalembert::models {
 struct RoundedEdge {
   double radius = 0.01;  ///< R [length]
 
-  static inline const double shortcut = 2.0 * std::numbers::sqrt2 * std::asinh(1.0) - 2.0 * std::numbers::ln2;
+  [[nodiscard]] static double shortcut() {  ///< sigma
+    return 2.0 * std::numbers::sqrt2 * std::asinh(1.0) - 2.0 * std::numbers::ln2;
+  }
   /// The part of (3) from s = 0 on: (1 + cos^3 theta - sin^3 theta)/2 there.
   static constexpr double curved_beyond_corner = 0.835;
 
@@ -45,7 +47,7 @@ struct RoundedEdge {
   /// s, of a place on it [length].
   [[nodiscard]] double along(const Vec<2>& place) const {
     const double half = 0.5 * (place.x() - place.y()) / radius;
-    return radius * (0.5 * shortcut + 2.0 * std::asinh(std::numbers::sqrt2 * std::sinh(half)) -
+    return radius * (0.5 * shortcut() + 2.0 * std::asinh(std::numbers::sqrt2 * std::sinh(half)) -
                      std::numbers::sqrt2 * std::asinh(std::tanh(half)));
   }
 };
