@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -23,7 +24,7 @@ double next(const RoundedEdge& edge, double d, double link) {
 
 }  // namespace
 
-double ChainOverEdge::rough_until() const { return edge().radius * (4.0 + std::log(links)); }
+double ChainOverEdge::rough_until() const { return edge().radius * (3.0 + 1.25 * std::log(links)); }
 
 double ChainOverEdge::rate() const { return std::sqrt((1.0 + friction) * gravity / length); }
 
@@ -87,7 +88,8 @@ double ChainOverEdge::tension(double hanging_now) const {
 
 double ChainOverEdge::energy_lost() const {
   const double braked = length - hanging - origin() - smooth();
-  return 0.5 * friction * mass / length * gravity * braked * braked;
+  const double end = std::numbers::pi * edge().radius;
+  return friction * mass / length * gravity * (0.5 * braked * braked + end * end / 24.0);
 }
 
 namespace {
