@@ -111,7 +111,7 @@ EventModel model(std::string name, std::string notes, double friction) {
   const auto events = [friction](Stepper stepper, double tolerance) {
     std::vector<Timed> all;
     // The implicit stepper takes ten times as many steps, in proportion to N.
-    for (int links = 50; links <= (stepper == Stepper::erk ? 400 : 100); links *= 2)
+    for (int links = 50; links <= (stepper == Stepper::erk ? 400 : 200); links *= 2)
       all.push_back(timed({.links = links, .friction = friction}, stepper, tolerance));
     return all;
   };
