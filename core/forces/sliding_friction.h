@@ -1,7 +1,7 @@
 #pragma once
 
 #include <dalembert/core/equations/batch.h>
-#include <dalembert/core/scene/value.h>
+#include <dalembert/core/equations/owned.h>
 
 #include <memory>
 #include <span>

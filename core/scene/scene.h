@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/core/equations/owned.h>
 #include <dalembert/core/errors.h>
 #include <dalembert/core/forces/batch_of.h>
 #include <dalembert/core/forces/forces.h>

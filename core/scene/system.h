@@ -1,10 +1,10 @@
 #pragma once
 
 #include <dalembert/core/equations/batch.h>
+#include <dalembert/core/equations/owned.h>
 #include <dalembert/core/forces/sliding_friction.h>
 #include <dalembert/core/results/applied_forces.h>
 #include <dalembert/core/results/layout.h>
-#include <dalembert/core/scene/value.h>
 
 #include <array>
 #include <functional>

@@ -135,6 +135,46 @@ TEST_P(Contacts, ThatAreGrazedChangeNothing) {
   EXPECT_NEAR(run.energy(10), run.energy(0), met);
 }
 
+TEST_P(Contacts, ThatTouchWithoutForceStayAsTheyAre) {
+  // Balls in touch, each with a spring of its own place: they swing together, and press nothing.
+  for (const double coarse : {1e-6, 1e-8, 1e-10}) {
+    Scene<2> scene;
+    std::vector<Particle<2>> balls;
+    for (int i = 0; i < 5; ++i) {
+      const double place = 0.05 * i;
+      balls.push_back(scene.add_particle({.mass = 0.5, .position = {place, 0.0}, .velocity = {0.3, 0.0}}));
+      scene.add(potential(points(balls.back()),
+                          [place](auto r) { return 3.0 * (r.x() - place) * (r.x() - place); }));
+      if (i == 0) continue;
+      scene.add(unilateral(holonomic(points(balls[balls.size() - 2], balls.back()),
+                                     [](auto a, auto b) { return b.x() - a.x() - 0.05; }),
+                           {.restitution = 1.0}));
+    }
+    Options o = options(2.0);
+    o.tolerance = coarse;
+    const auto run = simulate(scene, o);
+    EXPECT_TRUE(run.events().empty()) << coarse;
+    EXPECT_NEAR(run.position(balls[4], 10).x(), 0.2 + 0.3 / std::sqrt(12.0) * std::sin(2.0 * std::sqrt(12.0)),
+                100.0 * coarse);
+  }
+}
+
+TEST_P(Contacts, AreStruckWithTheirSpeedToTheTolerance) {
+  // A potential that bends at the floor: the step up to there is short, and its polynomial's derivative would
+  // be as inexact as positions over that. 9.81 y + y |y|/2 is fallen through from y = 1.
+  Scene<2> scene;
+  const auto ball = scene.add_particle({.mass = 1.0, .position = {0.0, 1.0}});
+  scene.add(potential(points(ball), [](auto r) { return g * r.y() + 0.5 * r.y() * abs(r.y()); }));
+  scene.add(unilateral(OnCurve{ball, Plane<2>{}}));
+  for (const double fine : {1e-8, 1e-10, 1e-12}) {
+    Options o = options(0.6);
+    o.tolerance = fine;
+    const auto run = simulate(scene, o);
+    ASSERT_GE(run.events().size(), 1U);
+    EXPECT_NEAR(run.event_sample(0).velocity(ball).y(), -std::sqrt(2.0 * (g + 0.5)), 100.0 * fine);
+  }
+}
+
 TEST_P(Contacts, ThatCannotBeObeyedAreErrorsByName) {
   const auto scene = [](double height) {
     Scene<2> s("press");
