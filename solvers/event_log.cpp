@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 namespace dalembert {
@@ -27,7 +28,7 @@ EventLog::EventLog(std::vector<FlatEvent> events, Contacts* contacts, const Cont
       watch_(with_contacts(std::move(events), contacts), *stepping.system().layout()) {
   const double t = stepping.time();
   if (at_start != nullptr) go_on(*at_start, t, stepping);
-  watch_.begin_anew(read(stepping, t), asked_for_);
+  begin_anew(t, stepping);
 }
 
 FlatSample EventLog::read(Stepping& stepping, double t) {
@@ -65,8 +66,14 @@ void EventLog::carry_out(Stepping& stepping) {
   for (std::size_t k = 0; k < change.what.size(); ++k) before_.append(at);
   stepping.begin_changed(t, contacts_->system(), at.q, change.v);
   go_on(change, t, stepping);
+  begin_anew(t, stepping);
+}
+
+void EventLog::begin_anew(double t, Stepping& stepping) {
   watch_.begin_anew(read(stepping, t), asked_for_);
   change_.reset();
+  if (contacts_ == nullptr) return;
+  if (const auto contact = contacts_->driven()) change_ = {*contact, t};
 }
 
 /// Lists a change, with the state after it and its impulses. Where contacts share a load in many ways, those
@@ -78,25 +85,43 @@ void EventLog::go_on(const Contacts::Change& change, double t, Stepping& steppin
     stepping.begin_changed(t, contacts_->system(), q, v);
     after = read(stepping, t);
   }
+  FlatSample before = after;  // of a start that no step led to, with the forces that follow
+  before.v = change.v_before;
+  before.energy += stepping.system().kinetic_energy(before.v) - stepping.system().kinetic_energy(after.v);
   for (const auto& happening : change.what) {
     occurred_.push_back({contacts_->index(happening.contact), happening.time, happening.what});
-    if (before_.times.size() < occurred_.size()) before_.append(after);
+    if (before_.times.size() < occurred_.size()) before_.append(before);
     after_.append(after);
     impulses_.insert(impulses_.end(), change.impulses.begin(), change.impulses.end());
   }
 }
 
+/// In the order of time: where one contact comes to rest, at the limit of its impacts, others may be struck
+/// before that.
 void EventLog::write(Record& record) const {
-  const auto of = [&record](const Record& samples) {
-    auto kept = std::make_shared<Record>(samples);
+  std::vector<std::size_t> order(occurred_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [this](std::size_t k) { return occurred_[k].time; });
+  const auto of = [&](const Record& samples) {
+    Record stated = samples;
+    stated.layout = record.layout;
+    if (std::ranges::is_sorted(order)) return std::make_shared<Record>(std::move(stated));
+    auto kept = std::make_shared<Record>();
     kept->layout = record.layout;
+    for (const std::size_t k : order) kept->append(stated.sample(k));
     return kept;
   };
-  record.events = occurred_;
+  record.events.clear();
+  for (const std::size_t k : order) record.events.push_back(occurred_[k]);
   record.at_events = of(before_);
   if (contacts_ == nullptr) return;
   record.after_events = of(after_);
-  record.impulses = impulses_;
+  record.impulses.clear();
+  const std::size_t rows = contacts_->system()->rows();
+  for (const std::size_t k : order) {
+    const auto own = std::span(impulses_).subspan(k * rows, rows);
+    record.impulses.insert(record.impulses.end(), own.begin(), own.end());
+  }
 }
 
 }  // namespace dalembert

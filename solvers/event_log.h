@@ -25,6 +25,8 @@ class EventLog {
   void look(Stepping& stepping);
   /// Goes on from a change of a contact, if the last step had one. Throws StepFailure, EquationFault.
   void carry_out(Stepping& stepping);
+  /// Whether there is one to go on from, before any step: an impact drove a contact to its surface.
+  [[nodiscard]] bool pending() const { return change_.has_value(); }
 
   /// Where an event has ended the run.
   [[nodiscard]] std::optional<double> end() const { return end_; }
@@ -40,6 +42,7 @@ class EventLog {
     double time;
   };
   FlatSample read(Stepping& stepping, double t);
+  void begin_anew(double t, Stepping& stepping);
   void go_on(const Contacts::Change& change, double t, Stepping& stepping);
 
   std::size_t asked_for_;

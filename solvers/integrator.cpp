@@ -61,9 +61,9 @@ struct DALEMBERT_HIDDEN Integrator::State {
         stepping(contacts ? contacts->system() : system, begin.q, begin.v, o),
         now(*system, stepping.start()),
         next(now) {
-    visit(o.t_start);
     if (!events.empty() || contacts)
       log.emplace(std::move(events), contacts.get(), contacts ? &begin.change : nullptr, stepping);
+    visit(o.t_start);                     // what the log has opened there exerts no force
   } catch (const StepFailure& failure) {  // before the first step it is a fault of the start
     throw InconsistentStart(failure.what);
   } catch (const EquationFault& fault) {
@@ -85,7 +85,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
     Start start = consistent_start(system->without(system->contacts()), begin.q, begin.v, options);
     const Instant at{options.t_start, start.q, start.v};
     auto found = std::make_unique<Contacts>(system, start.scales, options.tolerance, at);
-    begin.change = found->pass(at, found->touching_at_start());
+    begin.change = found->begin(at);
     begin.own_q = std::move(start.q);
     begin.q = begin.own_q;
     begin.v = begin.change.v;
@@ -105,6 +105,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
                         stepping.time()};
     }
     if (log) log->carry_out(stepping);
+    if (log && log->pending()) return;
     stepping.step(wanted);
     if (log) log->look(stepping);
   }

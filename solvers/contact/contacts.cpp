@@ -176,17 +176,54 @@ void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& re
   for (const std::size_t i : resting) change.what.push_back({i, Happened::rested, limit});
 }
 
-Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t>& fallen) {
+Contacts::Change Contacts::begin(const Instant& start) {
+  const double still = rounding_of_the_user * scales_.speed();
+  std::vector<std::size_t> stay;
+  find_gaps(start);
+  for (const std::size_t i : touching_at_start_) {
+    Contact& c = contacts_[i];
+    const double rate = c.sign * psi_[c.row];
+    if (rate <= still * c.gradient) {
+      stay.push_back(i);
+    } else {
+      c.opened_at = start.t;
+      c.rate_at_opening = rate;
+    }
+  }
+  return pass(start, stay, still);
+}
+
+/// Rates of what left at this very time, after what others have done to it.
+void Contacts::find_driven(const Instant& at) {
+  find_gaps(at);
+  for (Contact& c : contacts_) {
+    if (c.closed || c.opened_at != at.t || c.rate_at_opening == 0.0) continue;
+    const double rate = c.sign * psi_[c.row];
+    c.rate_at_opening = std::abs(rate) <= round_off * std::abs(c.rate_at_opening) ? 0.0 : rate;
+  }
+}
+
+std::optional<std::size_t> Contacts::driven() const {
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    if (!contacts_[i].closed && contacts_[i].rate_at_opening < 0.0) return i;
+  return std::nullopt;
+}
+
+Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t>& fallen, double still) {
   const auto unchanged = [&] {
-    return Change{{at.v.begin(), at.v.end()}, std::vector<double>(stated_->rows())};
+    const std::vector<double> v(at.v.begin(), at.v.end());
+    return Change{v, v, std::vector<double>(stated_->rows())};
   };
   Change change = unchanged();
   auto touched = touching(at, fallen);
   if (touched.empty()) return change;
   std::optional<Coupling> coupling(std::in_place, only(touched), numbers(touched), at);
   VectorXd U = coupling->rates();
-  for (std::size_t k = 0; k < touched.size(); ++k)
-    if (contacts_[touched[k]].closed) U[static_cast<Index>(k)] = 0.0;
+  for (std::size_t k = 0; k < touched.size(); ++k) {
+    const Contact& c = contacts_[touched[k]];
+    double& rate = U[static_cast<Index>(k)];
+    if (c.closed || std::abs(rate) <= still * c.gradient) rate = 0.0;
+  }
   if (U.minCoeff() < 0.0) {
     strike(*coupling, touched, at.t, U, change);
     if (const auto limit = limit_of_impacts(change, at.t)) {
@@ -200,6 +237,7 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
     }
   }
   accelerate(*coupling, touched, fallen, U, at, change);
+  find_driven({at.t, at.q, change.v});
   settle();
   return change;
 }
@@ -236,6 +274,7 @@ void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& to
       open(i, at.t, 0.0, change);
     } else {
       contacts_[i].closed = true;
+      contacts_[i].bears = (*lambda)[row] > 0.0;
     }
   }
 }
@@ -243,17 +282,20 @@ void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& to
 bool Contacts::open_pulling(const FlatSample& now) {
   double largest = 0.0;
   for (const double lambda : now.lambda) largest = std::max(largest, std::abs(lambda));
-  Contact* most = nullptr;
+  const auto pulls = [&](const Contact& c) {
+    return c.closed && !now.unique[c.row] && c.sign * now.lambda[c.row] < -round_off * largest;
+  };
+  if (std::ranges::none_of(contacts_, pulls)) return false;
+  bool found = false;
   for (Contact& c : contacts_) {
-    if (!c.closed || now.unique[c.row] || c.sign * now.lambda[c.row] >= -round_off * largest) continue;
-    if (most == nullptr || c.sign * now.lambda[c.row] < most->sign * now.lambda[most->row]) most = &c;
+    if (!c.closed || c.bears) continue;
+    c.closed = false;
+    c.opened_at = now.time;
+    c.rate_at_opening = 0.0;
+    found = true;
   }
-  if (most == nullptr) return false;
-  most->closed = false;
-  most->opened_at = now.time;
-  most->rate_at_opening = 0.0;
   settle();
-  return true;
+  return found;
 }
 
 void Contacts::require_open(const FlatSample& now) const {

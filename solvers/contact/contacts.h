@@ -37,9 +37,6 @@ class Contacts {
   /// At a state that obeys all other constraints. Throws InconsistentStart where a gap is negative.
   Contacts(std::shared_ptr<const System> stated, const Scales& scales, double tolerance,
            const Instant& start);
-  /// Those that touch at the start: their gaps have fallen to 0 before.
-  [[nodiscard]] const std::vector<std::size_t>& touching_at_start() const { return touching_at_start_; }
-
   /// The system with the closed contacts in force, and the others not.
   [[nodiscard]] const std::shared_ptr<const System>& system() const { return system_; }
   [[nodiscard]] std::size_t size() const { return contacts_.size(); }
@@ -59,16 +56,22 @@ class Contacts {
     Happened what;
     double time;
   };
-  /// The velocities after an instant, impulses, one per row of the system, and what happened.
+  /// The velocities before and after an instant, impulses, one per row of the system, and what happened.
   struct Change {
-    std::vector<double> v{}, impulses{};
+    std::vector<double> v_before{}, v{}, impulses{};
     std::vector<Happening> what{};
   };
+  /// The impacts of that state, and which contacts are closed after them. What touches and leaves is open.
+  Change begin(const Instant& start);
+  /// One that an impact on others has driven to its surface, of those that touched and were leaving: it is
+  /// struck next, at the same time.
+  [[nodiscard]] std::optional<std::size_t> driven() const;
   /// Goes on from an instant at which the watched functions of some contacts have fallen to 0. Throws
   /// StepFailure where no velocities or accelerations do, naming the contacts; EquationFault.
-  Change pass(const Instant& at, const std::vector<std::size_t>& fallen);
+  /// Rates of at most `still`, per length of the gradient, are 0.
+  Change pass(const Instant& at, const std::vector<std::size_t>& fallen, double still = 0.0);
   /// Where the forces of closed contacts are not determined the smallest ones may pull, though there are
-  /// others that push: opens the one that pulls most. Whether there was one.
+  /// others that push, those of (2): opens what these leave without a force. Whether there was anything.
   [[nodiscard]] bool open_pulling(const FlatSample& now);
 
  private:
@@ -77,6 +80,7 @@ class Contacts {
     std::size_t row;
     double sign, restitution;
     bool closed = false;
+    bool bears = false;                 // by the forces of (2) that were found when it was last closed
     std::optional<double> opened_at{};  // if it was closed before
     double rate_at_opening = 0.0;
     Accumulation impacts{};
@@ -95,6 +99,7 @@ class Contacts {
   [[nodiscard]] std::optional<double> limit_of_impacts(const Change& change, double t);
   static void rest(const Coupling& coupling, const std::vector<std::size_t>& resting, double limit,
                    Change& change);
+  void find_driven(const Instant& at);
   void accelerate(Coupling& coupling, const std::vector<std::size_t>& touched,
                   const std::vector<std::size_t>& fallen, const Eigen::VectorXd& U, const Instant& at,
                   Change& change);
