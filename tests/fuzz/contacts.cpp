@@ -27,9 +27,12 @@ class Contacts {
   Contacts(const Draft<D>& draft, const Trajectory<D>& run, std::string& detail)
       : draft_(draft), run_(run), detail_(detail), system_(draft.scene.system()), s_(run.statistics()) {
     const double start = draft.plan.options.t_start;
+    s_.accuracy = std::max(s_.accuracy, draft.plan.options.tolerance);  // of a run without a step it is 0
     for (std::size_t i = 0; i < run.size(); ++i) {
       const FlatSample at = run.sample(i).flat();
-      moments_.push_back({at, at.time > start ? 0 : 3});
+      // Where there are impacts at the start that sample lies between them.
+      if (at.time > start || run.events().empty() || run.events()[0].time > start)
+        moments_.push_back({at, 0});
     }
     for (std::size_t k = 0; k < run.events().size(); ++k) {
       moments_.push_back({run.event_sample(k).flat(), 1});

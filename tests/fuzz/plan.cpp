@@ -83,7 +83,7 @@ void make_comparable(Random& random, Plan& plan) {
 /// Particles on rods and springs. A tenth of them among what moves.
 void make_one_sided(Random& random, Plan& plan) {
   Options& o = plan.options;
-  o.max_steps = 30 * most_steps;
+  o.max_steps = 3 * most_steps;
   o.assemble = true;
   plan.bodies = plan.rotors = 0;
   plan.particles = 1 + random.below(5);
