@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 namespace dalembert {
@@ -33,7 +34,7 @@ EventLog::EventLog(std::vector<FlatEvent> events, Transitions* transitions,
       changes_(asked_for_) {
   const double t = stepping.time();
   if (at_start != nullptr) go_on(*at_start, t, stepping);
-  watch_.begin_anew(read(stepping, t), asked_for_);
+  begin_anew(t, stepping);
 }
 
 bool EventLog::changes(const std::vector<FlatEvent>& events) {
@@ -78,8 +79,14 @@ void EventLog::carry_out(Stepping& stepping) {
   for (std::size_t k = 0; k < change.what.size(); ++k) before_.append(at);
   stepping.begin_changed(t, system_, q, change.v);
   go_on(change, t, stepping);
+  begin_anew(t, stepping);
+}
+
+void EventLog::begin_anew(double t, Stepping& stepping) {
   watch_.begin_anew(read(stepping, t), asked_for_);
   change_.reset();
+  if (transitions_ == nullptr) return;
+  if (const auto function = transitions_->driven()) change_ = {asked_for_ + *function, t};
 }
 
 /// Throws StepFailure where changes of one kind accumulate, as impacts do (see Accumulation): what comes
@@ -128,7 +135,7 @@ Transitions::Change EventLog::change_scene(const FlatSample& at, Stepping& stepp
   if (next.system->rows() != at.lambda.size() || next.system->coordinates() != at.q.size() ||
       next.system->layout()->forces.size() != stepping.system().layout()->forces.size())
     refuse("its change adds to the scene; add everything before the run, and release or impose it there");
-  Transitions::Change change{next.v, std::vector<double>(at.lambda.size())};
+  Transitions::Change change{next.v, next.v, std::vector<double>(at.lambda.size())};
   if (transitions_ != nullptr) change = transitions_->restate(next.system, {at.time, next.q, next.v});
   system_ = transitions_ != nullptr ? transitions_->system() : next.system;
   const auto impulses =
@@ -148,25 +155,46 @@ void EventLog::go_on(const Transitions::Change& change, double t, Stepping& step
     stepping.begin_changed(t, transitions_->system(), q, v);
     after = read(stepping, t);
   }
+  FlatSample before = after;  // of a start that no step led to, with the forces that follow
+  before.v = change.v_before;
+  before.energy += stepping.system().kinetic_energy(before.v) - stepping.system().kinetic_energy(after.v);
   after_.go_on_with(stepping.system().layout());
   for (const Occurrence& one : change.what) {
     occurred_.push_back(one);
-    if (before_.times.size() < occurred_.size()) before_.append(after);
+    if (before_.times.size() < occurred_.size()) before_.append(before);
     after_.append(after);
     impulses_.insert(impulses_.end(), change.impulses.begin(), change.impulses.end());
   }
 }
 
+/// In the order of time: where one contact comes to rest, at the limit of its impacts, others may be struck
+/// before that.
 void EventLog::write(Record& record) const {
-  const auto of = [&record](const Record& samples) {
-    auto kept = std::make_shared<Record>(samples);
+  std::vector<std::size_t> order(occurred_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [this](std::size_t k) { return occurred_[k].time; });
+  const auto of = [&](const Record& samples) {
+    Record stated = samples;
+    stated.layout = record.layout;
+    if (std::ranges::is_sorted(order)) return std::make_shared<Record>(std::move(stated));
+    auto kept = std::make_shared<Record>();
     kept->layout = record.layout;
+    for (const std::size_t k : order) {
+      kept->go_on_with(stated.layout_of(k));
+      kept->append(stated.sample(k));
+    }
     return kept;
   };
-  record.events = occurred_;
   record.at_events = of(before_);
   record.after_events = of(after_);
-  record.impulses = impulses_;
+  record.events.clear();
+  record.impulses.clear();
+  const std::size_t rows = occurred_.empty() ? 0 : impulses_.size() / occurred_.size();
+  for (const std::size_t k : order) {
+    const auto own = std::span(impulses_).subspan(k * rows, rows);
+    record.events.push_back(occurred_[k]);
+    record.impulses.insert(record.impulses.end(), own.begin(), own.end());
+  }
 }
 
 }  // namespace dalembert

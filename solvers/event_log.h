@@ -29,6 +29,8 @@ class EventLog {
   /// Goes on from a change of a constraint or of the scene, if the last step had one. Throws StepFailure,
   /// EquationFault.
   void carry_out(Stepping& stepping);
+  /// Whether there is one to go on from, before any step: an impact drove a contact to its surface.
+  [[nodiscard]] bool pending() const { return change_.has_value(); }
 
   /// Where an event has ended the run.
   [[nodiscard]] std::optional<double> end() const { return end_; }
@@ -45,6 +47,7 @@ class EventLog {
   [[nodiscard]] Transitions::Change pass(const FlatSample& at, Stepping& stepping, std::vector<double>& q);
   [[nodiscard]] Transitions::Change change_scene(const FlatSample& at, Stepping& stepping,
                                                  std::vector<double>& q);
+  void begin_anew(double t, Stepping& stepping);
   void go_on(const Transitions::Change& change, double t, Stepping& stepping);
 
   std::size_t asked_for_;

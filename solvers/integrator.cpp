@@ -61,9 +61,9 @@ struct DALEMBERT_HIDDEN Integrator::State {
         stepping(transitions ? transitions->system() : system, begin.q, begin.v, o),
         now(*system, stepping.start(), EventLog::changes(events)),
         next(now) {
-    visit(o.t_start);
     if (!events.empty() || transitions)
       log.emplace(std::move(events), transitions.get(), transitions ? &begin.change : nullptr, stepping);
+    visit(o.t_start);                     // what the log has opened there exerts no force
   } catch (const StepFailure& failure) {  // before the first step it is a fault of the start
     throw InconsistentStart(failure.what);
   } catch (const EquationFault& fault) {
@@ -106,6 +106,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
                         stepping.time()};
     }
     if (log) log->carry_out(stepping);
+    if (log && log->pending()) return;
     stepping.step(wanted);
     if (log) log->look(stepping);
   }

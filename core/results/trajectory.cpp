@@ -26,9 +26,9 @@ void Record::go_on_with(const std::shared_ptr<const Layout>& next) {
   if (next != (later.empty() ? layout : later.back().layout)) later.push_back({times.size(), next});
 }
 
-const Layout& Record::layout_of(std::size_t sample) const {
+const std::shared_ptr<const Layout>& Record::layout_of(std::size_t sample) const {
   const auto next = std::ranges::upper_bound(later, sample, {}, &Later::first);
-  return next == later.begin() ? *layout : *std::prev(next)->layout;
+  return next == later.begin() ? layout : std::prev(next)->layout;
 }
 
 void Record::clear() {
@@ -72,14 +72,14 @@ void Trajectory<D>::require_event(std::size_t k) const {
 template <int D>
 Sample<D> Trajectory<D>::event_sample(std::size_t k) const& {
   require_event(k);
-  return {record_->at_events->layout_of(k), record_->at_events->sample(k)};
+  return {*record_->at_events->layout_of(k), record_->at_events->sample(k)};
 }
 
 template <int D>
 Sample<D> Trajectory<D>::sample_after(std::size_t k) const& {
   require_event(k);
   const auto& after = record_->after_events ? record_->after_events : record_->at_events;
-  return {after->layout_of(k), after->sample(k)};
+  return {*after->layout_of(k), after->sample(k)};
 }
 
 template <int D>
@@ -88,7 +88,7 @@ Sample<D> Trajectory<D>::sample(std::size_t i) const& {
     throw InvalidArgument("There is no sample " + std::to_string(i) + ": this run has " +
                           std::to_string(size()) + ", counted from 0");
   }
-  return {record_->layout_of(i), record_->sample(i)};
+  return {*record_->layout_of(i), record_->sample(i)};
 }
 
 template <int D>

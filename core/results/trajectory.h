@@ -50,7 +50,7 @@ struct Record {
 
   /// Samples that are appended from here on are of this layout, which differs in what forces and masses are.
   void go_on_with(const std::shared_ptr<const Layout>& layout);
-  [[nodiscard]] const Layout& layout_of(std::size_t sample) const;
+  [[nodiscard]] const std::shared_ptr<const Layout>& layout_of(std::size_t sample) const;
 
   /// Makes room, so that `append` allocates nothing for this many samples.
   void reserve(std::size_t samples, const FlatSample& like);
@@ -102,7 +102,7 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
     using reference = Sample<D>;
 
     Iterator(const Record& record, std::size_t i) : record_(&record), i_(i) {}
-    Sample<D> operator*() const { return {record_->layout_of(i_), record_->sample(i_)}; }
+    Sample<D> operator*() const { return {*record_->layout_of(i_), record_->sample(i_)}; }
     Iterator& operator++() { return ++i_, *this; }
     Iterator operator++(int) { return {*record_, i_++}; }
     bool operator==(const Iterator&) const = default;

@@ -51,10 +51,11 @@ VectorXd units(const Eigen::MatrixXd& S) {
 }  // namespace
 
 Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, double tolerance,
-                   const Instant& start)
+                   const Instant& start, bool friction)
     : stated_(std::move(stated)),
       scales_(scales),
       tolerance_(tolerance),
+      friction_(friction),
       g_(stated_->rows()),
       psi_(stated_->rows()) {
   for (const std::size_t number : stated_->contacts()) {
@@ -185,17 +186,54 @@ void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& re
   for (const std::size_t i : resting) change.what.push_back({i, Happened::rested, limit});
 }
 
-Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t>& fallen, bool friction) {
+Contacts::Change Contacts::begin(const Instant& start) {
+  const double still = rounding_of_the_user * scales_.speed();
+  std::vector<std::size_t> stay;
+  find_gaps(start);
+  for (const std::size_t i : touching_at_start_) {
+    Contact& c = contacts_[i];
+    const double rate = c.sign * psi_[c.row];
+    if (rate <= still * c.gradient) {
+      stay.push_back(i);
+    } else {
+      c.opened_at = start.t;
+      c.rate_at_opening = rate;
+    }
+  }
+  return pass(start, stay, still);
+}
+
+/// Rates of what left at this very time, after what others have done to it.
+void Contacts::find_driven(const Instant& at) {
+  find_gaps(at);
+  for (Contact& c : contacts_) {
+    if (c.closed || c.opened_at != at.t || c.rate_at_opening == 0.0) continue;
+    const double rate = c.sign * psi_[c.row];
+    c.rate_at_opening = std::abs(rate) <= round_off * std::abs(c.rate_at_opening) ? 0.0 : rate;
+  }
+}
+
+std::optional<std::size_t> Contacts::driven() const {
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    if (!contacts_[i].closed && contacts_[i].rate_at_opening < 0.0) return i;
+  return std::nullopt;
+}
+
+Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t>& fallen, double still) {
   const auto unchanged = [&] {
-    return Change{{at.v.begin(), at.v.end()}, std::vector<double>(stated_->rows())};
+    const std::vector<double> v(at.v.begin(), at.v.end());
+    return Change{v, v, std::vector<double>(stated_->rows())};
   };
   Change change = unchanged();
   auto touched = touching(at, fallen);
   if (touched.empty()) return change;
   std::optional<Coupling> coupling(std::in_place, only(touched), numbers(touched), at);
   VectorXd U = coupling->rates();
-  for (std::size_t k = 0; k < touched.size(); ++k)
-    if (contacts_[touched[k]].closed && !contacts_[touched[k]].moved) U[static_cast<Index>(k)] = 0.0;
+  for (std::size_t k = 0; k < touched.size(); ++k) {
+    const Contact& c = contacts_[touched[k]];
+    double& rate = U[static_cast<Index>(k)];
+    if ((c.closed && !c.moved) || std::abs(rate) <= still * c.gradient) rate = 0.0;
+  }
   if (U.minCoeff() < 0.0) {
     strike(*coupling, touched, at.t, U, change);
     if (const auto limit = limit_of_impacts(change, at.t)) {
@@ -210,20 +248,27 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
   }
   for (Contact& c : contacts_) c.moved = false;
   const auto resting = part(touched, U, at.t, change);
-  if (!friction) {
-    accelerate(*coupling, touched, fallen, resting, at, change);
+  if (friction_) {
+    close(touched, fallen, resting, at.t, change);
   } else {
-    for (const Index k : resting) {
-      const std::size_t i = touched[static_cast<std::size_t>(k)];
-      if (among(fallen, i) && contacts_[i].closed) {
-        open(i, at.t, 0.0, change);
-      } else {
-        contacts_[i].closed = true;
-      }
-    }
+    accelerate(*coupling, touched, fallen, resting, at, change);
   }
+  find_driven({at.t, at.q, change.v});
   settle();
   return change;
+}
+
+/// What touches and does not part is closed, what has fallen open.
+void Contacts::close(const std::vector<std::size_t>& touched, const std::vector<std::size_t>& fallen,
+                     const std::vector<Index>& resting, double t, Change& change) {
+  for (const Index k : resting) {
+    const std::size_t i = touched[static_cast<std::size_t>(k)];
+    if (among(fallen, i) && contacts_[i].closed) {
+      open(i, t, 0.0, change);
+    } else {
+      contacts_[i].closed = true;
+    }
+  }
 }
 
 /// Opens those that go apart; the others.
@@ -264,25 +309,32 @@ void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& to
       open(i, at.t, 0.0, change);
     } else {
       contacts_[i].closed = true;
+      contacts_[i].bears = (*lambda)[row] > 0.0;
     }
   }
 }
 
-bool Contacts::open_pulling(const FlatSample& now, bool friction) {
+bool Contacts::open_pulling(const FlatSample& now) {
   double largest = 0.0;
   for (const double lambda : now.lambda) largest = std::max(largest, std::abs(lambda));
-  Contact* most = nullptr;
+  const auto pull = [&](const Contact& c) { return c.sign * now.lambda[c.row]; };
+  const auto may_open = [&](const Contact& c) {
+    return c.closed && (friction_ || !now.unique[c.row]) && pull(c) < -round_off * largest;
+  };
+  const auto most =
+      std::ranges::min_element(contacts_, {}, [&](const Contact& c) { return may_open(c) ? pull(c) : 0.0; });
+  if (most == contacts_.end() || !may_open(*most)) return false;
+  bool found = false;
   for (Contact& c : contacts_) {
-    if (!c.closed || (now.unique[c.row] && !friction) || c.sign * now.lambda[c.row] >= -round_off * largest)
-      continue;
-    if (most == nullptr || c.sign * now.lambda[c.row] < most->sign * now.lambda[most->row]) most = &c;
+    const bool opens = friction_ ? &c == &*most : c.closed && !c.bears;
+    if (!opens) continue;
+    c.closed = false;
+    c.opened_at = now.time;
+    c.rate_at_opening = 0.0;
+    found = true;
   }
-  if (most == nullptr) return false;
-  most->closed = false;
-  most->opened_at = now.time;
-  most->rate_at_opening = 0.0;
   settle();
-  return true;
+  return found;
 }
 
 void Contacts::require_open(const FlatSample& now) const {

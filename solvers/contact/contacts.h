@@ -34,12 +34,10 @@ class Coupling;
 /// struck since the contact was last comes to rest. How far it bounces until then is below the tolerance.
 class Contacts {
  public:
-  /// At a state that obeys all other constraints. Throws InconsistentStart where a gap is negative.
-  Contacts(std::shared_ptr<const System> stated, const Scales& scales, double tolerance,
-           const Instant& start);
-  /// Those that touch at the start: their gaps have fallen to 0 before.
-  [[nodiscard]] const std::vector<std::size_t>& touching_at_start() const { return touching_at_start_; }
-
+  /// At a state that obeys all other constraints; whether there is friction that sticks and slides. Throws
+  /// InconsistentStart where a gap is negative.
+  Contacts(std::shared_ptr<const System> stated, const Scales& scales, double tolerance, const Instant& start,
+           bool friction);
   /// The system with the closed contacts in force, and the others not.
   [[nodiscard]] const std::shared_ptr<const System>& system() const { return system_; }
   [[nodiscard]] std::size_t size() const { return contacts_.size(); }
@@ -64,19 +62,26 @@ class Contacts {
     Happened what;
     double time;
   };
-  /// The velocities after an instant, impulses, one per row of the system, and what happened.
+  /// The velocities before and after an instant, impulses, one per row of the system, and what happened.
   struct Change {
-    std::vector<double> v{}, impulses{};
+    std::vector<double> v_before{}, v{}, impulses{};
     std::vector<Happening> what{};
   };
+  /// The impacts of that state, and which contacts are closed after them. What touches and leaves is open.
+  Change begin(const Instant& start);
+  /// One that an impact on others has driven to its surface, of those that touched and were leaving: it is
+  /// struck next, at the same time.
+  [[nodiscard]] std::optional<std::size_t> driven() const;
   /// Goes on from an instant at which the watched functions of some contacts have fallen to 0. Throws
   /// StepFailure where no velocities or accelerations do, naming the contacts; EquationFault.
-  /// Where there is `friction` accelerations are not (2)'s: what touches and does not part is closed then,
-  /// what has fallen open, and `open_pulling` finds what else opens.
-  Change pass(const Instant& at, const std::vector<std::size_t>& fallen, bool friction = false);
+  /// Rates of at most `still`, per length of the gradient, are 0. Where there is friction accelerations are
+  /// not (2)'s: what touches and does not part is closed then, what has fallen open, and `open_pulling` finds
+  /// what else opens.
+  Change pass(const Instant& at, const std::vector<std::size_t>& fallen, double still = 0.0);
   /// Where the forces of closed contacts are not determined the smallest ones may pull, though there are
-  /// others that push; where there is friction any may: opens the one that pulls most. Whether there was one.
-  [[nodiscard]] bool open_pulling(const FlatSample& now, bool friction = false);
+  /// others that push, those of (2): opens what these leave without a force; with friction the one that pulls
+  /// most. Whether there was anything.
+  [[nodiscard]] bool open_pulling(const FlatSample& now);
   /// The numbers in the layout of those that are open.
   [[nodiscard]] std::vector<std::size_t> open() const;
 
@@ -86,6 +91,7 @@ class Contacts {
     std::size_t row;
     double sign, restitution;
     bool closed = false, moved = false;  // though closed
+    bool bears = false;                  // by the forces of (2) that were found when it was last closed
     std::optional<double> opened_at{};   // if it was closed before
     double rate_at_opening = 0.0;
     Accumulation impacts{};
@@ -106,6 +112,9 @@ class Contacts {
                    Change& change);
   std::vector<Eigen::Index> part(const std::vector<std::size_t>& touched, const Eigen::VectorXd& U, double t,
                                  Change& change);
+  void find_driven(const Instant& at);
+  void close(const std::vector<std::size_t>& touched, const std::vector<std::size_t>& fallen,
+             const std::vector<Eigen::Index>& resting, double t, Change& change);
   void accelerate(Coupling& coupling, const std::vector<std::size_t>& touched,
                   const std::vector<std::size_t>& fallen, const std::vector<Eigen::Index>& resting,
                   const Instant& at, Change& change);
@@ -116,6 +125,7 @@ class Contacts {
   std::shared_ptr<const System> stated_, system_;
   Scales scales_;
   double tolerance_;
+  bool friction_;
   std::vector<Contact> contacts_;
   std::vector<std::size_t> touching_at_start_;
   std::vector<std::size_t> in_force_;                                  // of them

@@ -6,7 +6,8 @@ namespace dalembert {
 
 Transitions::Transitions(const std::shared_ptr<const System>& stated, const Scales& scales, double tolerance,
                          const Instant& start)
-    : contacts_(std::make_shared<const System>(stated->without(stated->rough())), scales, tolerance, start),
+    : contacts_(std::make_shared<const System>(stated->without(stated->rough())), scales, tolerance, start,
+                !stated->rough().empty()),
       friction_(stated, scales, tolerance) {}
 
 std::string Transitions::label(std::size_t function) const {
@@ -19,10 +20,10 @@ double Transitions::watched(std::size_t function, const FlatSample& now) const {
                                      : friction_.watched(function - contacts_.size(), now);
 }
 
-Transitions::Change Transitions::pass_contacts(const Instant& at, const std::vector<std::size_t>& fallen) {
-  Contacts::Change contacts = contacts_.pass(at, fallen, friction_.any());
+/// What contacts did, and what that does to friction.
+Transitions::Change Transitions::settle(Contacts::Change contacts, const Instant& at) {
   friction_.require_no_impulse(contacts.impulses, at.t);
-  Change change{std::move(contacts.v), std::move(contacts.impulses)};
+  Change change{std::move(contacts.v_before), std::move(contacts.v), std::move(contacts.impulses)};
   for (const auto& one : contacts.what)
     change.what.push_back({contacts_.index(one.contact), one.time, one.what});
   for (const auto& one : friction_.settle(contacts_.open(), {at.t, at.q, change.v}))
@@ -30,14 +31,13 @@ Transitions::Change Transitions::pass_contacts(const Instant& at, const std::vec
   return change;
 }
 
-Transitions::Change Transitions::begin(const Instant& at) {
-  return pass_contacts(at, contacts_.touching_at_start());
-}
+Transitions::Change Transitions::begin(const Instant& at) { return settle(contacts_.begin(at), at); }
 
 Transitions::Change Transitions::pass(const FlatSample& at, std::size_t function) {
   const Instant now{at.time, at.q, at.v};
-  if (function < contacts_.size()) return pass_contacts(now, {function});
-  Change change{{at.v.begin(), at.v.end()}, std::vector<double>(at.lambda.size())};
+  if (function < contacts_.size()) return settle(contacts_.pass(now, {function}), now);
+  const std::vector<double> v(at.v.begin(), at.v.end());
+  Change change{v, v, std::vector<double>(at.lambda.size())};
   for (const auto& one :
        friction_.settle(contacts_.open(), now, function - contacts_.size(), at.lambda, at.a))
     change.what.push_back({one.constraint, one.time, one.what});
@@ -47,11 +47,11 @@ Transitions::Change Transitions::pass(const FlatSample& at, std::size_t function
 Transitions::Change Transitions::restate(const std::shared_ptr<const System>& stated, const Instant& at) {
   friction_.restate(stated);
   contacts_.restate(std::make_shared<const System>(stated->without(stated->rough())), at);
-  return pass_contacts(at, {});
+  return settle(contacts_.pass(at, {}), at);
 }
 
 bool Transitions::open_pulling(const FlatSample& now) {
-  if (!contacts_.open_pulling(now, friction_.any())) return false;
+  if (!contacts_.open_pulling(now)) return false;
   friction_.settle(contacts_.open(), {now.time, now.q, now.v});
   return true;
 }

@@ -5,6 +5,7 @@
 #include <dalembert/solvers/contact/dry_friction.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,10 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// All constraints of a run that hold at times only: contacts, and what sticks and slides on what presses.
 class Transitions {
  public:
-  /// What happened at an instant, by numbers of constraints in the layout; the velocities after it, and the
-  /// impulses, one per row of the system.
+  /// What happened at an instant, by numbers of constraints in the layout; the velocities before and after
+  /// it, and the impulses, one per row of the system.
   struct Change {
-    std::vector<double> v{}, impulses{};
+    std::vector<double> v_before{}, v{}, impulses{};
     std::vector<Occurrence> what{};
   };
 
@@ -40,13 +41,15 @@ class Transitions {
   [[nodiscard]] Change begin(const Instant& at);
   /// Goes on from where a function has fallen to 0. Throws likewise.
   [[nodiscard]] Change pass(const FlatSample& at, std::size_t function);
+  /// See Contacts.
+  [[nodiscard]] std::optional<std::size_t> driven() const { return contacts_.driven(); }
   /// Goes on from a state that is given, with equations in which parameters may differ. Throws likewise.
   [[nodiscard]] Change restate(const std::shared_ptr<const System>& stated, const Instant& at);
   /// See Contacts.
   [[nodiscard]] bool open_pulling(const FlatSample& now);
 
  private:
-  [[nodiscard]] Change pass_contacts(const Instant& at, const std::vector<std::size_t>& fallen);
+  [[nodiscard]] Change settle(Contacts::Change contacts, const Instant& at);
 
   Contacts contacts_;
   DryFriction friction_;

@@ -158,7 +158,7 @@ Place<D> Draft<D>::mover() {
 template <int D>
 Place<D> Draft<D>::ground() {
   const Vec<D> r = numbers(plan.length * random.vector<D>() + origin_);
-  if (random.chance(0.6)) return {Fixed<D>{r}, r, Vec<D>::Zero(), -1, "Fixed" + write<D>(r)};
+  if (random.chance(plan.still)) return {Fixed<D>{r}, r, Vec<D>::Zero(), -1, "Fixed" + write<D>(r)};
   const SwingingPath<D> path{r, 0.2 * plan.length * random.vector<D>(), size(1.0 / plan.time),
                              plan.options.t_start};
   return {driven(path), r, path.amplitude * path.omega, -1,

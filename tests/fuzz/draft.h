@@ -100,6 +100,7 @@ class Draft {
   void add_body();
   void add_rotor();
   [[nodiscard]] const Vec<D>& origin() const { return origin_; }
+  [[nodiscard]] const std::vector<Place<D>>& particles() const { return particles_; }
 
   /// Whether a sensible scene has room for a constraint of so many rows on these owners; takes it.
   [[nodiscard]] bool take(int rows, std::initializer_list<int> owners);
@@ -204,6 +205,12 @@ void add_own_force(Draft<D>& draft);
 /// A force, or a constraint, with a kink or a jump.
 template <int D>
 void add_kinked(Draft<D>& draft);
+/// A force that has an energy or takes some away.
+template <int D>
+void add_passive_force(Draft<D>& draft);
+/// A floor or a wall, a string, a sphere, two particles that may meet: one-sided constraints.
+template <int D>
+void add_one_sided(Draft<D>& draft);
 
 /// A whole scene.
 template <int D>

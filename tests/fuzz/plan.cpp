@@ -80,6 +80,18 @@ void make_comparable(Random& random, Plan& plan) {
   }
 }
 
+/// Particles on rods and springs. A tenth of them among what moves.
+void make_one_sided(Random& random, Plan& plan) {
+  Options& o = plan.options;
+  o.max_steps = 3 * most_steps;
+  o.assemble = true;
+  plan.bodies = plan.rotors = 0;
+  plan.particles = 1 + random.below(5);
+  plan.constraints = random.below(plan.particles);
+  plan.still = random.chance(0.1) ? 0.6 : 1.0;
+  plan.lossless = random.chance(0.3);
+}
+
 }  // namespace
 
 const char* name(Plan::Kind kind) {
@@ -103,7 +115,16 @@ double wrong_number(Random& random, double meant) {
 }
 
 const char* name(Family family) {
-  return family == Family::any ? "any" : family == Family::redundant ? "redundant" : "kinked";
+  switch (family) {
+    case Family::any:
+      return "any";
+    case Family::redundant:
+      return "redundant";
+    case Family::kinked:
+      return "kinked";
+    default:
+      return "one-sided";
+  }
 }
 
 Plan random_plan(Random& random, Family family) {
@@ -128,7 +149,11 @@ Plan random_plan(Random& random, Family family) {
   plan.moving = random.chance(0.7);
   plan.options = random_options(random, plan);
   if (plan.kind == Plan::Kind::invalid && random.chance(0.2)) spoil(random, plan.options);
-  if (family != Family::any) make_comparable(random, plan);
+  if (family == Family::one_sided) {
+    make_one_sided(random, plan);
+  } else if (family != Family::any) {
+    make_comparable(random, plan);
+  }
   return plan;
 }
 

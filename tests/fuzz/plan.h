@@ -14,8 +14,9 @@ namespace dalembert::fuzz {
 ///   any        everything; a run is checked by itself
 ///   redundant  hinges, frames and constraints that say again what others imply: against the run without
 ///   those kinked     forces and constraints with kinks and jumps: one stepper against the other
-enum class Family { any, redundant, kinked };
-inline constexpr std::array families{Family::any, Family::redundant, Family::kinked};
+///   one-sided  floors, walls, strings, spheres, particles that meet: gaps, signs of forces, impulses, energy
+enum class Family { any, redundant, kinked, one_sided };
+inline constexpr std::array families{Family::any, Family::redundant, Family::kinked, Family::one_sided};
 [[nodiscard]] const char* name(Family family);
 
 /// What kind of scene a seed makes, in which units, and how it is run.
@@ -31,9 +32,11 @@ struct Plan {
   double spread = 0.5;                          ///< sizes differ by 10^-spread ... 10^spread
   double wrong = 0.0;                           ///< chance of a wrong number, name or handle
   int particles = 1, bodies = 0, rotors = 0, constraints = 0, forces = 0;
-  bool moving = true;   ///< initial velocities
-  double turns = 1.0;   ///< of bodies, times 1/time
-  double repeat = 0.0;  ///< chance that a constraint is stated twice
+  bool moving = true;     ///< initial velocities
+  double turns = 1.0;     ///< of bodies, times 1/time
+  double repeat = 0.0;    ///< chance that a constraint is stated twice
+  double still = 0.6;     ///< chance that a point of the ground stays where it is
+  bool lossless = false;  ///< of one-sided scenes: nothing takes energy away
   Options options;
 
   [[nodiscard]] double speed() const { return length / time; }

@@ -39,6 +39,16 @@ double largest(std::span<const double> x) {
   return most;
 }
 
+/// The system as it is at a sample: one-sided constraints without a force say nothing.
+System in_force(const System& system, const FlatSample& sample) {
+  std::vector<std::size_t> idle;
+  for (const std::size_t c : system.contacts()) {
+    const auto row = static_cast<std::size_t>(system.layout()->constraints[c].first_row);
+    if (sample.lambda[row] == 0.0) idle.push_back(c);
+  }
+  return system.without(idle);
+}
+
 /// The numbers of one sample beside the equations evaluated there anew.
 struct Check {
   const System& system;
@@ -74,6 +84,7 @@ std::string Check::residuals(double share, std::string& detail) {
   double worst_g = 0.0, worst_psi = 0.0;
   std::optional<std::size_t> row_g, row_psi;
   for (std::size_t row = 0; row < system.rows(); ++row) {
+    if (!system.in_force(row)) continue;
     double gradient = 0.0, rounding = 0.0, motion = 0.0;
     for (const std::size_t k : system.row(row)) {
       const auto i = system.w_columns()[k];
@@ -107,6 +118,7 @@ std::string Check::accelerations(std::string& detail) {
   std::optional<std::size_t> worst_row;
   std::vector<double> residual(gamma), terms(gamma.size());
   for (std::size_t r = 0; r < gamma.size(); ++r) {
+    if (!system.in_force(r)) continue;
     terms[r] = std::abs(gamma[r]);
     double gradient = 0.0;
     for (const std::size_t k : system.row(r)) {
@@ -180,11 +192,13 @@ std::string fault_of_run(const Draft<D>& draft, const Trajectory<D>& run, std::o
     speed = std::max({speed, largest(s.v), length / draft.plan.time});
   }
   for (std::size_t i = 0; i < run.size(); ++i) {
-    Check check{system, run.sample(i).flat(), length, speed};
+    const FlatSample sample = run.sample(i).flat();
+    const System now = in_force(system, sample);
+    Check check{now, sample, length, speed};
     const std::string fault = check.run(run.statistics().accuracy, detail);
     if (!fault.empty()) return fault;
   }
-  return {};
+  return system.contacts().empty() ? "" : fault_of_contacts(draft, run, detail);
 }
 
 template std::string fault_of_run(const Draft<2>&, const Trajectory<2>&, std::optional<double>, std::string&);

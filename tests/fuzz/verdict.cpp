@@ -54,7 +54,8 @@ bool same_bits(const Trajectory<D>& a, const Trajectory<D>& b) {
 
 template <int D>
 std::string run(Draft<D>& draft, std::string& detail) {
-  if (draft.plan.family != Family::any) return fault_of_twins(draft, detail);
+  const Family family = draft.plan.family;
+  if (family == Family::redundant || family == Family::kinked) return fault_of_twins(draft, detail);
   const double way = draft.random.uniform();
   if (way < 0.1) describe(draft);
   if (way > 0.9) return walk(draft);

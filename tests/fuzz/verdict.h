@@ -33,6 +33,12 @@ template <int D>
 [[nodiscard]] std::string fault_of_run(const Draft<D>& draft, const Trajectory<D>& run,
                                        std::optional<double> failed_at, std::string& detail);
 
+/// What is wrong with the one-sided constraints of a run: gaps, signs of forces, what happens at events,
+/// energy.
+template <int D>
+[[nodiscard]] std::string fault_of_contacts(const Draft<D>& draft, const Trajectory<D>& run,
+                                            std::string& detail);
+
 /// What a run may err by, as a multiple of its accuracy: every step may err by it, and some dozens of them
 /// are made in the one or two times in which a scene moves by its length. In units of the scene: its length,
 /// that over its time, and the mass of all times that over its time again.
