@@ -1,6 +1,7 @@
 #include "dalembert/solvers/event_log.h"
 
 #include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/contact/round_off.h>
 #include <dalembert/solvers/manifold/start.h>
 
 #include <algorithm>
@@ -97,7 +98,7 @@ void EventLog::require_progress(const Stepping& stepping) {
   if (change_->event < asked_for_) {
     Accumulation& changes = changes_[change_->event];
     changes.add(t);
-    const double least = std::max(stepping.tolerance(), EventWatch::zero);
+    const double least = std::max(stepping.tolerance(), round_off);
     if (std::isfinite(changes.left()) && changes.interval() <= 10.0 * std::sqrt(least) * time) chatters();
   }
   constexpr int most = 8;
@@ -108,8 +109,8 @@ void EventLog::require_progress(const Stepping& stepping) {
 }
 
 void EventLog::chatters() const {
-  throw StepFailure{"\"" + watch_.event(change_->event).name +
-                        "\" chatters: its changes come faster and faster, without end. Let what accumulates "
+  throw StepFailure{watch_.event(change_->event).name +
+                        " chatters: its changes come faster and faster, without end. Let what accumulates "
                         "come to rest, smooth what switches, or end the run before",
                     change_->time};
 }
@@ -135,11 +136,12 @@ Transitions::Change EventLog::change_scene(const FlatSample& at, Stepping& stepp
   if (next.system->rows() != at.lambda.size() || next.system->coordinates() != at.q.size() ||
       next.system->layout()->forces.size() != stepping.system().layout()->forces.size())
     refuse("its change adds to the scene; add everything before the run, and release or impose it there");
-  Transitions::Change change{next.v, next.v, std::vector<double>(at.lambda.size())};
-  if (transitions_ != nullptr) change = transitions_->restate(next.system, {at.time, next.q, next.v});
+  const System always = next.system->without(next.system->conditional());
+  std::vector<double> v = next.v;
+  const auto impulses = take_over(always, stepping.start().scales, at.time, next.q, v, stepping.tolerance());
+  Transitions::Change change{next.v, v, std::vector<double>(at.lambda.size())};
+  if (transitions_ != nullptr) change = transitions_->restate(next.system, {at.time, next.q, v}, impulses);
   system_ = transitions_ != nullptr ? transitions_->system() : next.system;
-  const auto impulses =
-      take_over(*system_, stepping.start().scales, at.time, next.q, change.v, stepping.tolerance());
   for (std::size_t r = 0; r < impulses.size(); ++r) change.impulses[r] += impulses[r];
   change.what.insert(change.what.begin(), *change_);
   q = std::move(next.q);

@@ -61,6 +61,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
         stepping(transitions ? transitions->system() : system, begin.q, begin.v, o),
         now(*system, stepping.start(), EventLog::changes(events)),
         next(now) {
+    if (transitions) transitions->adopt(stepping.start().scales);
     if (!events.empty() || transitions)
       log.emplace(std::move(events), transitions.get(), transitions ? &begin.change : nullptr, stepping);
     visit(o.t_start);                     // what the log has opened there exerts no force
@@ -97,6 +98,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
   void visit(double time) {
     stepping.read(time, next);
     std::swap(now, next);
+    read_from = stepping.shared_system();
   }
 
   void step_once(double wanted) {
@@ -192,7 +194,8 @@ struct DALEMBERT_HIDDEN Integrator::State {
   std::unique_ptr<Transitions> transitions;  // if any constraint holds at times only
   Stepping stepping;
   Moment now, next;
-  std::optional<EventLog> log;  // if there is anything to be listed
+  std::shared_ptr<const System> read_from;  // `now` is of its layout
+  std::optional<EventLog> log;              // if there is anything to be listed
   long steps = 0;
   double run_time = 0.0;
   Record record = empty_record();
@@ -205,7 +208,7 @@ Integrator::Integrator(Integrator&&) noexcept = default;
 Integrator::~Integrator() = default;
 
 FlatSample Integrator::sample() const { return state_->now.flat(); }
-const System& Integrator::system() const { return state_->stepping.system(); }
+const System& Integrator::system() const { return *state_->read_from; }
 std::span<const Occurrence> Integrator::events() const {
   return state_->log ? std::span<const Occurrence>(state_->log->occurred()) : std::span<const Occurrence>();
 }
@@ -248,7 +251,7 @@ std::shared_ptr<const Record> Integrator::run() {
   s.record.clear();
   s.record.reserve(s.times.size(), s.now.flat());
   s.for_each_sample([&s](const FlatSample& sample) {
-    s.record.go_on_with(s.stepping.system().layout());
+    s.record.go_on_with(s.read_from->layout());
     s.record.append(sample);
   });
   // The samples are handed over, not copied: they may be most of the memory.

@@ -23,12 +23,14 @@ Integrator Simulation<D>::watching(const Scene<D>& scene, const Options& options
     }
     if (!event.change) continue;
     flat.back().change = [current, change = event.change](const FlatSample& now) {
-      current->scene.start_from(Sample<D>(*current->layout, now));
-      change(current->scene);
-      auto next = std::make_shared<const System>(current->scene.system());
-      current->layout = next->layout();
+      Scene<D> next = current->scene;
+      next.start_from(Sample<D>(*current->layout, now));
+      change(next);
+      auto system = std::make_shared<const System>(next.system());
+      current->layout = system->layout();
+      current->scene = std::move(next);
       const auto q = current->scene.initial_positions(), v = current->scene.initial_velocities();
-      return FlatEvent::Changed{std::move(next), {q.begin(), q.end()}, {v.begin(), v.end()}};
+      return FlatEvent::Changed{std::move(system), {q.begin(), q.end()}, {v.begin(), v.end()}};
     };
   }
   return {std::move(system), scene.initial_positions(), scene.initial_velocities(), options, std::move(flat)};

@@ -24,6 +24,7 @@ class Stepping {
   [[nodiscard]] double time() const { return stepper_->time(); }
   /// The one whose equations are stepped.
   [[nodiscard]] const System& system() const { return *system_; }
+  [[nodiscard]] const std::shared_ptr<const System>& shared_system() const { return system_; }
   /// See TimeStepper.
   [[nodiscard]] int degree() const { return stepper_->degree(); }
   [[nodiscard]] double tolerance() const { return options_.tolerance; }

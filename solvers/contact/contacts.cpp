@@ -2,9 +2,7 @@
 
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/step_failure.h>
-#include <dalembert/solvers/contact/complementarity.h>
-#include <dalembert/solvers/contact/coupling.h>
-#include <dalembert/solvers/linear/dense.h>
+#include <dalembert/solvers/contact/round_off.h>
 #include <dalembert/solvers/linear/rows.h>
 #include <dalembert/solvers/manifold/start.h>
 
@@ -18,18 +16,6 @@ namespace dalembert {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
-/// Rates and forces below this part of the largest beside them are what solving (1) and (2) leaves of 0.
-constexpr double round_off = 1e4 * std::numeric_limits<double>::epsilon();
-
-/// x without what is round-off beside the largest, each in its own unit.
-void clear_round_off(VectorXd& x, const VectorXd& unit, double largest) {
-  for (Index i = 0; i < x.size(); ++i)
-    if (std::abs(x[i]) * unit[i] <= round_off * largest) x[i] = 0.0;
-}
-
 /// Of constraint or inertia, on any coordinate; never 0.
 double largest_force(const System& system, const FlatSample& now) {
   double largest = std::numeric_limits<double>::min();
@@ -37,15 +23,6 @@ double largest_force(const System& system, const FlatSample& now) {
   for (std::size_t i = 0; i < now.a.size(); ++i)
     largest = std::max(largest, system.masses()[i] * std::abs(now.a[i]));
   return largest;
-}
-
-bool among(const std::vector<std::size_t>& all, std::size_t i) {
-  return std::ranges::find(all, i) != all.end();
-}
-
-/// The unit in which a rate of each contact is comparable with those of others.
-VectorXd units(const Eigen::MatrixXd& S) {
-  return S.diagonal().unaryExpr([](double s) { return s > 0.0 ? 1.0 / std::sqrt(s) : 0.0; });
 }
 
 }  // namespace
@@ -80,6 +57,10 @@ Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, d
     throw InconsistentStart(what.str());
   }
   settle();
+}
+
+bool Contacts::among(const std::vector<std::size_t>& all, std::size_t contact) {
+  return std::ranges::find(all, contact) != all.end();
 }
 
 void Contacts::find_gaps(const Instant& at) const {
@@ -135,7 +116,7 @@ std::vector<std::size_t> Contacts::numbers(const std::vector<std::size_t>& chose
 std::shared_ptr<const System> Contacts::only(const std::vector<std::size_t>& in_force) const {
   std::vector<std::size_t> others;
   for (std::size_t i = 0; i < contacts_.size(); ++i)
-    if (std::ranges::find(in_force, i) == in_force.end()) others.push_back(contacts_[i].number);
+    if (!among(in_force, i)) others.push_back(contacts_[i].number);
   return std::make_shared<const System>(stated_->without(others));
 }
 
@@ -144,174 +125,6 @@ void Contacts::refuse(const std::vector<std::size_t>& contacts, double t, const 
   for (const std::size_t i : contacts)
     names += (names.empty() ? "" : ", ") + stated_->row_label(contacts_[i].row);
   throw StepFailure{names + ": " + what, t};
-}
-
-/// (1). U becomes that after the impact.
-void Contacts::strike(const Coupling& coupling, const std::vector<std::size_t>& touching, double t,
-                      VectorXd& U, Change& change) const {
-  const VectorXd before = U;
-  VectorXd q = U;
-  for (Index i = 0; i < U.size(); ++i)
-    q[i] *= 1.0 + contacts_[touching[static_cast<std::size_t>(i)]].restitution;
-  const auto P = complementary_solution(coupling.S(), q);
-  if (!P)
-    refuse(touching, t, "no impulses end their approach; the constraints drive them against each other");
-  U += coupling.S() * *P;
-  const VectorXd unit = units(coupling.S());
-  clear_round_off(U, unit, before.cwiseProduct(unit).cwiseAbs().maxCoeff());
-  for (Index i = 0; i < U.size(); ++i)
-    if ((*P)[i] > 0.0) U[i] = before[i] - q[i];  // -e U-
-  coupling.strike(*P, change.v, change.impulses);
-  for (Index i = 0; i < U.size(); ++i)
-    if ((*P)[i] > 0.0) change.what.push_back({touching[static_cast<std::size_t>(i)], Happened::struck, t});
-}
-
-/// Notes what was struck; where impacts accumulate, when they end.
-std::optional<double> Contacts::limit_of_impacts(const Change& change, double t) {
-  std::optional<double> limit;
-  for (const Happening& happening : change.what) {
-    Accumulation& impacts = contacts_[happening.contact].impacts;
-    impacts.add(t);
-    if (impacts.left() <= std::sqrt(tolerance_) * scales_.time)
-      limit = std::max(limit.value_or(t), impacts.limit());
-  }
-  return limit;
-}
-
-/// Takes all rates to 0.
-void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& resting, double limit,
-                    Change& change) {
-  const VectorXd P = dense::least_squares(coupling.S(), -coupling.rates(), rank_threshold);
-  coupling.strike(P, change.v, change.impulses);
-  for (const std::size_t i : resting) change.what.push_back({i, Happened::rested, limit});
-}
-
-Contacts::Change Contacts::begin(const Instant& start) {
-  const double still = rounding_of_the_user * scales_.speed();
-  std::vector<std::size_t> stay;
-  find_gaps(start);
-  for (const std::size_t i : touching_at_start_) {
-    Contact& c = contacts_[i];
-    const double rate = c.sign * psi_[c.row];
-    if (rate <= still * c.gradient) {
-      stay.push_back(i);
-    } else {
-      c.opened_at = start.t;
-      c.rate_at_opening = rate;
-    }
-  }
-  return pass(start, stay, still);
-}
-
-/// Rates of what left at this very time, after what others have done to it.
-void Contacts::find_driven(const Instant& at) {
-  find_gaps(at);
-  for (Contact& c : contacts_) {
-    if (c.closed || c.opened_at != at.t || c.rate_at_opening == 0.0) continue;
-    const double rate = c.sign * psi_[c.row];
-    c.rate_at_opening = std::abs(rate) <= round_off * std::abs(c.rate_at_opening) ? 0.0 : rate;
-  }
-}
-
-std::optional<std::size_t> Contacts::driven() const {
-  for (std::size_t i = 0; i < contacts_.size(); ++i)
-    if (!contacts_[i].closed && contacts_[i].rate_at_opening < 0.0) return i;
-  return std::nullopt;
-}
-
-Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t>& fallen, double still) {
-  const auto unchanged = [&] {
-    const std::vector<double> v(at.v.begin(), at.v.end());
-    return Change{v, v, std::vector<double>(stated_->rows())};
-  };
-  Change change = unchanged();
-  auto touched = touching(at, fallen);
-  if (touched.empty()) return change;
-  std::optional<Coupling> coupling(std::in_place, only(touched), numbers(touched), at);
-  VectorXd U = coupling->rates();
-  for (std::size_t k = 0; k < touched.size(); ++k) {
-    const Contact& c = contacts_[touched[k]];
-    double& rate = U[static_cast<Index>(k)];
-    if ((c.closed && !c.moved) || std::abs(rate) <= still * c.gradient) rate = 0.0;
-  }
-  if (U.minCoeff() < 0.0) {
-    strike(*coupling, touched, at.t, U, change);
-    if (const auto limit = limit_of_impacts(change, at.t)) {
-      const double shortest = contacts_[change.what.front().contact].impacts.interval();
-      for (std::size_t i = 0; i < contacts_.size(); ++i)
-        if (contacts_[i].impacts.last() >= at.t - shortest && !among(touched, i)) touched.push_back(i);
-      change = unchanged();
-      coupling.emplace(only(touched), numbers(touched), at);
-      rest(*coupling, touched, *limit, change);
-      U.setZero(static_cast<Index>(touched.size()));
-    }
-  }
-  for (Contact& c : contacts_) c.moved = false;
-  const auto resting = part(touched, U, at.t, change);
-  if (friction_) {
-    close(touched, fallen, resting, at.t, change);
-  } else {
-    accelerate(*coupling, touched, fallen, resting, at, change);
-  }
-  find_driven({at.t, at.q, change.v});
-  settle();
-  return change;
-}
-
-/// What touches and does not part is closed, what has fallen open.
-void Contacts::close(const std::vector<std::size_t>& touched, const std::vector<std::size_t>& fallen,
-                     const std::vector<Index>& resting, double t, Change& change) {
-  for (const Index k : resting) {
-    const std::size_t i = touched[static_cast<std::size_t>(k)];
-    if (among(fallen, i) && contacts_[i].closed) {
-      open(i, t, 0.0, change);
-    } else {
-      contacts_[i].closed = true;
-    }
-  }
-}
-
-/// Opens those that go apart; the others.
-std::vector<Index> Contacts::part(const std::vector<std::size_t>& touched, const VectorXd& U, double t,
-                                  Change& change) {
-  std::vector<Index> resting;
-  for (Index k = 0; k < U.size(); ++k) {
-    if (U[k] > 0.0) {
-      open(touched[static_cast<std::size_t>(k)], t, U[k], change);
-    } else {
-      resting.push_back(k);
-    }
-  }
-  return resting;
-}
-
-/// (2), for the velocities that the change has come to; closes and opens.
-void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& touched,
-                          const std::vector<std::size_t>& fallen, const std::vector<Index>& resting,
-                          const Instant& at, Change& change) {
-  const VectorXd free = coupling.accelerations_without({at.t, at.q, change.v})(resting);
-  const Eigen::MatrixXd S = coupling.S()(resting, resting);
-  const auto lambda = complementary_solution(S, free);
-  if (!lambda)
-    refuse(touched, at.t,
-           "no accelerations agree with all of them: other constraints drive them into each other");
-  const VectorXd unit = units(S);
-  const double largest = free.size() > 0 ? free.cwiseProduct(unit).cwiseAbs().maxCoeff() : 0.0;
-  VectorXd A = free + S * *lambda;
-  clear_round_off(A, unit, largest);
-  for (std::size_t k = 0; k < resting.size(); ++k) {
-    const std::size_t i = touched[static_cast<std::size_t>(resting[k])];
-    const auto row = static_cast<Index>(k);
-    // A force that has fallen to 0 falls on: what it held opens, though at this instant nothing drives it.
-    const bool falls =
-        among(fallen, i) && contacts_[i].closed && (*lambda)[row] <= tolerance_ * largest * unit[row];
-    if (A[row] > 0.0 || falls) {
-      open(i, at.t, 0.0, change);
-    } else {
-      contacts_[i].closed = true;
-      contacts_[i].bears = (*lambda)[row] > 0.0;
-    }
-  }
 }
 
 bool Contacts::open_pulling(const FlatSample& now) {
@@ -355,15 +168,28 @@ void Contacts::open(std::size_t number, double t, double rate, Change& change) {
   contact.rate_at_opening = rate;
 }
 
-void Contacts::restate(std::shared_ptr<const System> stated, const Instant& at) {
+std::vector<std::size_t> Contacts::restate(std::shared_ptr<const System> stated, const Instant& at) {
   stated_ = std::move(stated);
   system_.reset();
   find_gaps(at);
-  for (Contact& c : contacts_) {
-    c.restitution = stated_->layout()->constraints[c.number].holds.contact->restitution;
+  std::vector<std::size_t> touching;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    Contact& c = contacts_[i];
+    const dalembert::Contact& law = *stated_->layout()->constraints[c.number].holds.contact;
+    c.restitution = law.restitution;
+    c.sign = law.sign();
+    const double gap = c.sign * g_[c.row], allowed = rounding_of_the_user * scales_.length * c.gradient;
+    if (gap < -allowed) refuse({i}, at.t, "a change of the scene leaves it violated");
     c.moved = c.closed && std::abs(psi_[c.row]) > tolerance_ * scales_.speed() * c.gradient;
+    if (gap <= allowed) {
+      if (!c.closed) touching.push_back(i);
+    } else if (c.closed) {
+      c.closed = c.moved = false;
+      c.opened_at.reset();
+    }
   }
   settle();
+  return touching;
 }
 
 std::vector<std::size_t> Contacts::open() const {

@@ -46,9 +46,10 @@ class Contacts {
   [[nodiscard]] std::string label(std::size_t contact) const {
     return stated_->row_label(contacts_[contact].row);
   }
-  /// Goes on with these equations, in which parameters may differ, at a state that may: what was closed need
-  /// not be at rest there.
-  void restate(std::shared_ptr<const System> stated, const Instant& at);
+  /// Goes on with these equations, in which parameters may differ, at a state that may: returns what touches
+  /// there. Throws StepFailure where a gap is negative, naming the contact.
+  [[nodiscard]] std::vector<std::size_t> restate(std::shared_ptr<const System> stated, const Instant& at);
+  void adopt(const Scales& scales) { scales_ = scales; }
 
   /// A function of each that falls through 0 where the contact opens or closes: the force of a closed one;
   /// the gap of an open one, over the time since it opened: that has no root there. A force that is 0 to the
@@ -99,6 +100,7 @@ class Contacts {
     double zero = 0.0;      // what counts as no gap: round-off of the positions
   };
 
+  [[nodiscard]] static bool among(const std::vector<std::size_t>& all, std::size_t contact);
   void find_gaps(const Instant& at) const;
   [[nodiscard]] double gradient_of(const Contact& contact, const Instant& at) const;
   [[nodiscard]] std::vector<std::size_t> touching(const Instant& at,

@@ -4,6 +4,7 @@
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/root.h>
 #include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/contact/round_off.h>
 #include <dalembert/solvers/linear/rows.h>
 #include <dalembert/solvers/manifold/manifold.h>
 
@@ -21,13 +22,11 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// A part of the largest beside it that is round-off.
-constexpr double round_off = 1e4 * std::numeric_limits<double>::epsilon();
-
-/// A step that passes the rest of two slip velocities turns their friction while it lasts, and errs by a good
-/// part of the speed that it came with. So steps that err by less than a tolerance of the scene's speed pass
-/// none from so many: 1000 to 3000 give the same times to 25 tolerances (tests/solvers/coulomb.cpp).
-constexpr double above_tolerance = 1000.0;
+/// The part of the scene's speed at which two slip velocities are at rest. A step that passes that turns
+/// their friction while it lasts, and errs by a good part of the speed that it came with; so steps that err
+/// by less than a tolerance pass none from so many: 1000 to 3000 give the same times to 25 tolerances
+/// (tests/solvers/coulomb.cpp). The way that is left is the square of it, so never more than the root.
+double rest_in_space(double tolerance) { return std::min(1000.0 * tolerance, std::sqrt(tolerance)); }
 
 double largest(std::span<const double> x) {
   double most = 0.0;
@@ -50,29 +49,38 @@ DryFriction::DryFriction(std::shared_ptr<const System> stated, const Scales& sca
       u_(stated_->rows()) {
   for (const std::size_t number : stated_->rough()) {
     const Layout::Constraint& its = stated_->layout()->constraints[number];
-    const Roughness& law = *its.holds.roughness;
-    const Layout::Constraint& pressing =
-        stated_->layout()->constraints[static_cast<std::size_t>(law.pressed_by)];
     all_.push_back({.number = number,
                     .row = static_cast<std::size_t>(its.first_row),
-                    .rows = static_cast<std::size_t>(its.rows),
-                    .pressed_by = static_cast<std::size_t>(law.pressed_by),
-                    .pressing_row = static_cast<std::size_t>(pressing.first_row),
-                    .mu = law.mu,
-                    .mu_static = law.mu_static,
-                    .one_sided = pressing.holds.contact.has_value(),
-                    .sign = pressing.holds.contact ? pressing.holds.contact->sign() : 1.0,
-                    .rest = (its.rows == 1 ? 1.0 : above_tolerance) * tolerance * scales.speed()});
+                    .rows = static_cast<std::size_t>(its.rows)});
+    read_law(all_.back());
   }
+  adopt(scales);
+}
+
+void DryFriction::read_law(Rough& rough) const {
+  const auto& constraints = stated_->layout()->constraints;
+  const Roughness& law = *constraints[rough.number].holds.roughness;
+  const Layout::Constraint& pressing = constraints[static_cast<std::size_t>(law.pressed_by)];
+  const std::size_t row = std::exchange(rough.pressing_row, static_cast<std::size_t>(pressing.first_row));
+  rough.pressed_by = static_cast<std::size_t>(law.pressed_by);
+  rough.mu = law.mu;
+  rough.mu_static = law.mu_static;
+  rough.one_sided = pressing.holds.contact.has_value();
+  if (rough.one_sided) {
+    rough.sign = pressing.holds.contact->sign();
+  } else if (row != rough.pressing_row) {
+    rough.sign = 1.0;
+  }
+}
+
+void DryFriction::adopt(const Scales& scales) {
+  scales_ = scales;
+  for (Rough& r : all_) r.rest = (r.rows == 1 ? tolerance_ : rest_in_space(tolerance_)) * scales.speed();
 }
 
 void DryFriction::restate(std::shared_ptr<const System> stated) {
   stated_ = std::move(stated);
-  for (Rough& r : all_) {
-    const Roughness& law = *stated_->layout()->constraints[r.number].holds.roughness;
-    r.mu = law.mu;
-    r.mu_static = law.mu_static;
-  }
+  for (Rough& r : all_) read_law(r);
 }
 
 std::string DryFriction::label(std::size_t function) const {
@@ -86,12 +94,26 @@ void DryFriction::find_slip(const Instant& at) const {
 
 VectorXd DryFriction::slip(const Rough& rough) const { return part(u_, rough.row, rough.rows); }
 
+/// Of forces on what it acts on, those of inertia and its own; never 0.
+double DryFriction::round_off_of(const Rough& rough, std::span<const double> a,
+                                 std::span<const double> lambda) const {
+  double force = std::abs(lambda[rough.pressing_row]);
+  for (std::size_t k = 0; k < rough.rows; ++k) {
+    force = std::max(force, std::abs(lambda[rough.row + k]));
+    for (const std::size_t j : stated_->row(rough.row + k)) {
+      const std::size_t i = stated_->w_columns()[j];
+      force = std::max(force, stated_->masses()[i] * std::abs(a[i]));
+    }
+  }
+  return round_off * force + std::numeric_limits<double>::min();
+}
+
 /// The stepper takes what slides on past rest, in its direction: where that is one of two it holds, where it
 /// is one of a plane that has none at rest the run stops before, at a speed that is rest to its tolerance.
 /// What is 0 to round-off, of what slides without moving, has not fallen.
 double DryFriction::watched(std::size_t function, const FlatSample& now) const {
   const Rough& r = all_[function / 2];
-  const double force = round_off * largest(now.lambda) + std::numeric_limits<double>::min();
+  const double force = round_off_of(r, now.a, now.lambda);
   const double lambda = now.lambda[r.pressing_row];
   if (function % 2 == 1) return r.mode == Mode::slides && !r.one_sided ? r.sign * lambda + force : 1.0;
   if (r.mode == Mode::absent) return 1.0;
@@ -129,9 +151,10 @@ DryFriction::Motion DryFriction::solve(const std::vector<std::size_t>& open, con
   system->evaluate(at, e);
   Manifold manifold(*system, independent_rows(*system, e.w), scales_.lengths());
   Motion motion{std::vector<double>(at.q.size()), std::vector<double>(system->rows())};
-  std::vector<double> v(at.v.begin(), at.v.end()), slots(system->layout()->slot_coordinate.size());
+  std::vector<double> v(at.v.begin(), at.v.end());
   if (!manifold.solve_motion(at.t, at.q, v, motion.a, motion.lambda))
     throw StepFailure{"the constraints became dependent on each other", at.t};
+  motion.unique.assign(manifold.unique().begin(), manifold.unique().end());
   return motion;
 }
 
@@ -213,34 +236,56 @@ void DryFriction::begin(Rough& rough, const std::vector<std::size_t>& open, std:
   rough.slow = 0.0;
 }
 
-/// Whether something did not agree with (1) and has been changed.
-bool DryFriction::amend(const std::vector<std::size_t>& open, const Instant& at, const Motion& motion) {
-  const double zero = round_off * largest(motion.lambda);
+/// Of what sticks and would need more than its bound that which exceeds it most; whether there is any. What
+/// repeats others has a share of their friction that motion does not determine: as long as it slides with the
+/// bound that it stuck with that is one of the ways in which all stay, else it is not to be told.
+bool DryFriction::let_go_what_exceeds(const std::vector<std::size_t>& open, const Instant& at,
+                                      const Motion& motion) {
   Rough* most = nullptr;
   double by = 1.0 + round_off;
   for (Rough& r : all_) {
-    const double lambda = motion.lambda[r.pressing_row];
-    if (r.mode == Mode::slides && r.sign * lambda < -zero && !r.one_sided) {
-      r.sign = -r.sign;
-      return true;
-    }
     if (r.mode != Mode::sticks) continue;
     const double sigma = part(motion.lambda, r.row, r.rows).norm();
-    if (sigma <= zero) continue;
-    const double ratio = sigma / (r.mu_static * std::abs(lambda));
-    if (!(ratio > by)) continue;
+    const double ratio = sigma / (r.mu_static * std::abs(motion.lambda[r.pressing_row]));
+    if (sigma <= round_off_of(r, motion.a, motion.lambda) || !(ratio > by)) continue;
     most = &r;
     by = ratio;
   }
-  if (most != nullptr) {
-    most->sign = most->one_sided ? most->sign : motion.lambda[most->pressing_row] < 0.0 ? -1.0 : 1.0;
-    let_go(*most, part(motion.lambda, most->row, most->rows));
-    find_direction(*most, open, at);
+  if (most == nullptr) return false;
+  if (!motion.unique[most->row] && (most->mu_static > most->mu || most->rows == 2))
+    throw StepFailure{stated_->row_label(most->row) +
+                          ": its share of the friction is not determined, as others hold the same; state one "
+                          "that stands for all of them, or end the run before",
+                      at.t};
+  if (!most->one_sided) most->sign = motion.lambda[most->pressing_row] < 0.0 ? -1.0 : 1.0;
+  let_go(*most, part(motion.lambda, most->row, most->rows));
+  find_direction(*most, open, at);
+  return true;
+}
+
+/// Whether two slip velocities that begin at rest go another way than they were let go.
+bool DryFriction::turn(Rough& rough, const std::vector<std::size_t>& open, const Instant& at,
+                       const Motion& motion) {
+  if (rough.rows != 2) return false;
+  const VectorXd rate = slip_acceleration(rough, at, motion);
+  const double across = rough.direction[0] * rate[1] - rough.direction[1] * rate[0];
+  if (std::abs(across) <= std::sqrt(round_off) * rate.norm()) return false;
+  find_direction(rough, open, at);
+  return true;
+}
+
+/// Whether something did not agree with (1) and has been changed.
+bool DryFriction::amend(const std::vector<std::size_t>& open, const Instant& at, const Motion& motion) {
+  for (Rough& r : all_) {
+    const double zero = round_off_of(r, motion.a, motion.lambda);
+    if (r.mode != Mode::slides || r.one_sided || r.sign * motion.lambda[r.pressing_row] >= -zero) continue;
+    r.sign = -r.sign;
     return true;
   }
+  if (let_go_what_exceeds(open, at, motion)) return true;
   for (Rough& r : all_) {
-    if (r.mode != Mode::slides || !r.from_rest) continue;
-    if (slip(r).norm() > r.rest) continue;
+    if (r.mode != Mode::slides || !r.from_rest || slip(r).norm() > r.rest) continue;
+    if (turn(r, open, at, motion)) return true;
     if (r.direction.dot(slip_acceleration(r, at, motion)) >= 0.0) continue;
     r.mode = Mode::sticks;
     return true;
@@ -248,11 +293,11 @@ bool DryFriction::amend(const std::vector<std::size_t>& open, const Instant& at,
   return false;
 }
 
-std::vector<int> DryFriction::modes() const {
-  std::vector<int> all;
+std::vector<double> DryFriction::modes() const {
+  std::vector<double> all;
   for (const Rough& r : all_) {
-    const int way = r.mode != Mode::slides ? 0 : r.rows == 1 && r.direction[0] < 0.0 ? 2 : 1;
-    all.push_back(2 * (3 * static_cast<int>(r.mode) + way) + (r.sign > 0.0 ? 1 : 0));
+    all.insert(all.end(), {static_cast<double>(r.mode), r.sign});
+    if (r.mode == Mode::slides) all.insert(all.end(), r.direction.begin(), r.direction.end());
   }
   return all;
 }
@@ -278,7 +323,7 @@ std::vector<DryFriction::Happening> DryFriction::settle(const std::vector<std::s
   for (Rough& r : all_) begin(r, open, fallen, lambda);
   if (fallen && *fallen % 2 == 0 && all_[*fallen / 2].mode == Mode::slides)
     find_direction(all_[*fallen / 2], open, at);
-  std::set<std::vector<int>> tried;
+  std::set<std::vector<double>> tried;
   do {
     if (!tried.insert(modes()).second) refuse(at.t);
   } while (amend(open, at, solve(open, at)));

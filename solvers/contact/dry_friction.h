@@ -40,6 +40,7 @@ class DryFriction {
 
   /// Goes on with these equations, in which parameters may differ.
   void restate(std::shared_ptr<const System> stated);
+  void adopt(const Scales& scales);
 
   [[nodiscard]] bool any() const { return !all_.empty(); }
   /// Functions that fall through 0 where something changes, two of each constraint: what is left until it
@@ -63,11 +64,11 @@ class DryFriction {
   enum class Mode { absent, sticks, slides };
   struct Rough {
     std::size_t number, row, rows;  // in the layout
-    std::size_t pressed_by, pressing_row;
-    double mu, mu_static;
-    bool one_sided;
-    double sign;  // of lambda
-    double rest;  // a speed that is none
+    std::size_t pressed_by = 0, pressing_row = 0;
+    double mu = 0.0, mu_static = 0.0;
+    bool one_sided = false;
+    double sign = 1.0;  // of lambda
+    double rest = 0.0;  // a speed that is none
     Mode mode = Mode::absent;
     bool from_rest = false;
     Eigen::VectorXd direction{};
@@ -76,8 +77,12 @@ class DryFriction {
   /// Accelerations and multipliers with the modes as they are.
   struct Motion {
     std::vector<double> a, lambda;
+    std::vector<char> unique{};
   };
 
+  void read_law(Rough& rough) const;
+  [[nodiscard]] double round_off_of(const Rough& rough, std::span<const double> a,
+                                    std::span<const double> lambda) const;
   void find_slip(const Instant& at) const;
   [[nodiscard]] Eigen::VectorXd slip(const Rough& rough) const;
   void let_go(Rough& rough, const Eigen::VectorXd& held_by) const;
@@ -90,7 +95,11 @@ class DryFriction {
   void begin(Rough& rough, const std::vector<std::size_t>& open, std::optional<std::size_t> fallen,
              std::span<const double> lambda) const;
   [[nodiscard]] bool amend(const std::vector<std::size_t>& open, const Instant& at, const Motion& motion);
-  [[nodiscard]] std::vector<int> modes() const;
+  [[nodiscard]] std::vector<double> modes() const;
+  [[nodiscard]] bool let_go_what_exceeds(const std::vector<std::size_t>& open, const Instant& at,
+                                         const Motion& motion);
+  [[nodiscard]] bool turn(Rough& rough, const std::vector<std::size_t>& open, const Instant& at,
+                          const Motion& motion);
   [[noreturn]] void refuse(double t) const;
 
   std::shared_ptr<const System> stated_, system_;

@@ -44,10 +44,18 @@ Transitions::Change Transitions::pass(const FlatSample& at, std::size_t function
   return change;
 }
 
-Transitions::Change Transitions::restate(const std::shared_ptr<const System>& stated, const Instant& at) {
+Transitions::Change Transitions::restate(const std::shared_ptr<const System>& stated, const Instant& at,
+                                         std::span<const double> impulses) {
   friction_.restate(stated);
-  contacts_.restate(std::make_shared<const System>(stated->without(stated->rough())), at);
-  return settle(contacts_.pass(at, {}), at);
+  friction_.require_no_impulse(impulses, at.t);
+  const auto touching =
+      contacts_.restate(std::make_shared<const System>(stated->without(stated->rough())), at);
+  return settle(contacts_.pass(at, touching), at);
+}
+
+void Transitions::adopt(const Scales& scales) {
+  contacts_.adopt(scales);
+  friction_.adopt(scales);
 }
 
 bool Transitions::open_pulling(const FlatSample& now) {

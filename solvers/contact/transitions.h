@@ -43,8 +43,12 @@ class Transitions {
   [[nodiscard]] Change pass(const FlatSample& at, std::size_t function);
   /// See Contacts.
   [[nodiscard]] std::optional<std::size_t> driven() const { return contacts_.driven(); }
-  /// Goes on from a state that is given, with equations in which parameters may differ. Throws likewise.
-  [[nodiscard]] Change restate(const std::shared_ptr<const System>& stated, const Instant& at);
+  /// Goes on from a state that is given, with equations in which parameters may differ, to which impulses
+  /// have led. Throws likewise.
+  [[nodiscard]] Change restate(const std::shared_ptr<const System>& stated, const Instant& at,
+                               std::span<const double> impulses);
+  /// The scales of the run, where they are others than those of its constraints that always hold.
+  void adopt(const Scales& scales);
   /// See Contacts.
   [[nodiscard]] bool open_pulling(const FlatSample& now);
 

@@ -290,18 +290,31 @@ std::vector<double> take_over(const System& system, const Scales& scales, double
                               std::span<double> v, double known) {
   const auto lengths = scales.lengths();
   auto e = system.evaluation();
-  system.evaluate({t, q, v}, e);
+  evaluate_relaxed(system, {t, q, v}, e);
+  const auto refuse = [&](const Violation& by, const char* what) {
+    std::ostringstream text;
+    text << system.row_label(by.row) << what << by.size << "; state what holds then, or wait until it does";
+    throw StepFailure{text.str(), t};
+  };
+  const double least = std::max(rounding_of_the_user, known);
   const Violation violation = position_violation(system, e, lengths);
-  if (violation.size > std::max(rounding_of_the_user, known) * scales.length) {
-    std::ostringstream what;
-    what << system.row_label(violation.row) << " comes into force where it does not hold: it is violated by "
-         << violation.size << "; change the positions too, or wait until it holds";
-    throw StepFailure{what.str(), t};
-  }
-  std::vector<double> impulses(system.rows());
+  if (violation.size > least * scales.length)
+    refuse(violation, " comes into force where it does not hold: it is violated by ");
+  std::vector<double> impulses(system.rows()), a(q.size()), lambda(system.rows());
+  double fastest = scales.speed();
+  for (std::size_t i = 0; i < v.size(); ++i) fastest = std::max(fastest, std::abs(v[i]) * lengths[i]);
   Manifold manifold(system, independent_rows(system, e.w), lengths);
-  if (!manifold.strike(t, q, v, impulses))
+  if (!manifold.strike(t, q, v, impulses) || !manifold.solve_motion(t, q, v, a, lambda))
     throw StepFailure{"the constraints became dependent on each other", t};
+  const Violation left = velocity_violation(system, manifold.equations(), lengths);
+  if (left.size > least * fastest)
+    refuse(left, " contradicts the other constraints from here on: its speed is off by ");
+  Start start{{q.begin(), q.end()}, {v.begin(), v.end()}, std::move(a), std::move(lambda), {}, scales};
+  try {
+    require_consistent_accelerations(system, manifold, start, v, t);
+  } catch (const InconsistentStart& contradiction) {
+    throw StepFailure{contradiction.what(), t};
+  }
   return impulses;
 }
 

@@ -2,6 +2,7 @@
 
 #include <dalembert/solvers/base/root.h>
 #include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/contact/round_off.h>
 #include <dalembert/solvers/run/chebyshev.h>
 
 #include <algorithm>
@@ -79,7 +80,7 @@ void EventWatch::begin_anew(const FlatSample& start, std::size_t positive) {
 
 /// After a change a function may stay at 0, to round-off.
 int EventWatch::first_side(std::size_t event, double value) const {
-  return std::abs(value) > zero * largest_[event] ? sign(value) : 0;
+  return std::abs(value) > round_off * largest_[event] ? sign(value) : 0;
 }
 
 double EventWatch::value(std::size_t event, const FlatSample& at) {
@@ -111,7 +112,7 @@ std::vector<EventWatch::Place> EventWatch::places(std::size_t event, const Read&
     const bool from_zero = j == 1 && side_[event] == 0;
     if (side != 0 && (from_zero || side == sign(f_a))) {
       const double t = p.turn(a, b, side);
-      const double high = from_zero ? -zero * largest_[event] : std::min(std::abs(f_a), std::abs(f_b));
+      const double high = from_zero ? -round_off * largest_[event] : std::min(std::abs(f_a), std::abs(f_b));
       if (side * p(t) < high) places.push_back({t, value(event, read(t))});
     }
     places.push_back({b, f_b});

@@ -5,7 +5,6 @@
 #include <dalembert/solvers/base/hidden.h>
 
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,9 +21,6 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// resolves the function.
 class EventWatch {
  public:
-  /// A value that is no more than this part of the largest so far is round-off.
-  static constexpr double zero = 1e4 * std::numeric_limits<double>::epsilon();
-
   /// What the last step says at a time inside it.
   using Read = std::function<FlatSample(double t)>;
 
