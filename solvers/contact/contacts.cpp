@@ -97,7 +97,9 @@ double Contacts::watched(std::size_t contact, const FlatSample& now) const {
   if (c.closed) return c.sign * now.lambda[c.row];
   if (now.time == c.opened_at) return c.rate_at_opening;
   if (gaps_at_ != now.time) find_gaps({now.time, now.q, now.v});
-  const double gap = c.sign * g_[c.row], since = c.opened_at ? now.time - *c.opened_at : 1.0;
+  const double gap = c.sign * g_[c.row], rate = c.sign * psi_[c.row];
+  if (rate > 0.0 && gap <= c.zero && gap >= c.gap_at_opening - c.zero) return rate;
+  const double since = c.opened_at ? now.time - *c.opened_at : 1.0;
   return std::abs(gap) <= c.zero ? 0.0 : gap / since;
 }
 
@@ -157,12 +159,15 @@ void Contacts::strike(const Coupling& coupling, const std::vector<std::size_t>& 
 }
 
 /// Notes what was struck; where impacts accumulate, when they end.
-std::optional<double> Contacts::limit_of_impacts(const Change& change, double t) {
+std::optional<double> Contacts::limit_of_impacts(const Change& change, const Instant& at) {
+  const double t = at.t;
+  find_gaps(at);
   std::optional<double> limit;
   for (const Happening& happening : change.what) {
-    Accumulation& impacts = contacts_[happening.contact].impacts;
+    Contact& c = contacts_[happening.contact];
+    Accumulation& impacts = c.impacts;
     impacts.add(t);
-    if (impacts.left() <= std::sqrt(tolerance_) * scales_.time)
+    if (std::abs(psi_[c.row]) * impacts.left() <= tolerance_ * scales_.length * c.gradient)
       limit = std::max(limit.value_or(t), impacts.limit());
   }
   return limit;
@@ -188,6 +193,7 @@ Contacts::Change Contacts::begin(const Instant& start) {
     } else {
       c.opened_at = start.t;
       c.rate_at_opening = rate;
+      c.gap_at_opening = std::min(c.sign * g_[c.row], 0.0);
     }
   }
   return pass(start, stay, still);
@@ -226,7 +232,7 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
   }
   if (U.minCoeff() < 0.0) {
     strike(*coupling, touched, at.t, U, change);
-    if (const auto limit = limit_of_impacts(change, at.t)) {
+    if (const auto limit = limit_of_impacts(change, at)) {
       const double shortest = contacts_[change.what.front().contact].impacts.interval();
       for (std::size_t i = 0; i < contacts_.size(); ++i)
         if (contacts_[i].impacts.last() >= at.t - shortest && !among(touched, i)) touched.push_back(i);
@@ -314,6 +320,7 @@ void Contacts::open(std::size_t number, double t, double rate, Change& change) {
   contact.closed = false;
   contact.opened_at = t;
   contact.rate_at_opening = rate;
+  contact.gap_at_opening = std::min(contact.sign * g_[contact.row], 0.0);
 }
 
 void Contacts::settle() {
