@@ -42,7 +42,8 @@ std::vector<Group> groups() {
           {"failures", failures()},
           {"redundancy", redundancy()},
           {"round-off", at_round_off()},
-          {"discontinuities", discontinuities()}};
+          {"discontinuities", discontinuities()},
+          {"contacts", contacts()}};
 }
 
 Verdict judge(const Case& extreme, double parameter, Stepper stepper) {

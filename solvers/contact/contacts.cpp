@@ -88,7 +88,9 @@ double Contacts::watched(std::size_t contact, const FlatSample& now) const {
   if (c.closed) return c.sign * now.lambda[c.row] + tolerance_ * largest_force(*stated_, now);
   if (now.time == c.opened_at) return c.rate_at_opening;
   if (gaps_at_ != now.time) find_gaps({now.time, now.q, now.v});
-  const double gap = c.sign * g_[c.row], since = c.opened_at ? now.time - *c.opened_at : 1.0;
+  const double gap = c.sign * g_[c.row], rate = c.sign * psi_[c.row];
+  if (rate > 0.0 && gap <= c.zero && gap >= c.gap_at_opening - c.zero) return rate;
+  const double since = c.opened_at ? now.time - *c.opened_at : 1.0;
   return std::abs(gap) <= c.zero ? 0.0 : gap / since;
 }
 
@@ -166,6 +168,7 @@ void Contacts::open(std::size_t number, double t, double rate, Change& change) {
   contact.closed = false;
   contact.opened_at = t;
   contact.rate_at_opening = rate;
+  contact.gap_at_opening = std::min(contact.sign * g_[contact.row], 0.0);
 }
 
 std::vector<std::size_t> Contacts::restate(std::shared_ptr<const System> stated, const Instant& at) {

@@ -29,9 +29,9 @@ class Coupling;
 /// both have one U+ and one dU/dt. Energy changes by sum (1 - e) U- P / 2 <= 0. A contact that (2) leaves at
 /// dU/dt = 0 is closed: it is in force, like any other constraint, until its force changes its sign.
 ///
-/// Where impacts of a contact accumulate (see Accumulation) and the time left for that is less than the root
-/// of the tolerance, of the scene's time, accelerations change by no more than that meanwhile: all that was
-/// struck since the contact was last comes to rest. How far it bounces until then is below the tolerance.
+/// Where impacts of a contact accumulate (see Accumulation) and with the speed of the last one it would not
+/// go farther than the tolerance in the time that is left, all that was struck since the contact was last
+/// comes to rest: no position that follows is another one.
 class Contacts {
  public:
   /// At a state that obeys all other constraints; whether there is friction that sticks and slides. Throws
@@ -52,7 +52,8 @@ class Contacts {
   void adopt(const Scales& scales) { scales_ = scales; }
 
   /// A function of each that falls through 0 where the contact opens or closes: the force of a closed one;
-  /// the gap of an open one, over the time since it opened: that has no root there. A force that is 0 to the
+  /// the gap of an open one, over the time since it opened: that has no root there. (What is not
+  /// above the surface yet, by round-off, but leaves counts by its rate.) A force that is 0 to the
   /// tolerance, of those there are, has not fallen.
   [[nodiscard]] double watched(std::size_t contact, const FlatSample& now) const;
   /// That no open contact has been run through unseen. Throws StepFailure, which names it.
@@ -95,6 +96,7 @@ class Contacts {
     bool bears = false;                  // by the forces of (2) that were found when it was last closed
     std::optional<double> opened_at{};   // if it was closed before
     double rate_at_opening = 0.0;
+    double gap_at_opening = 0.0;  // at most 0: round-off of times and positions
     Accumulation impacts{};
     double gradient = 1.0;  // its length at the start
     double zero = 0.0;      // what counts as no gap: round-off of the positions
@@ -109,7 +111,7 @@ class Contacts {
   [[nodiscard]] std::shared_ptr<const System> only(const std::vector<std::size_t>& in_force) const;
   void strike(const Coupling& coupling, const std::vector<std::size_t>& touching, double t,
               Eigen::VectorXd& U, Change& change) const;
-  [[nodiscard]] std::optional<double> limit_of_impacts(const Change& change, double t);
+  [[nodiscard]] std::optional<double> limit_of_impacts(const Change& change, const Instant& at);
   static void rest(const Coupling& coupling, const std::vector<std::size_t>& resting, double limit,
                    Change& change);
   std::vector<Eigen::Index> part(const std::vector<std::size_t>& touched, const Eigen::VectorXd& U, double t,

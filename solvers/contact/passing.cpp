@@ -51,12 +51,15 @@ void Contacts::strike(const Coupling& coupling, const std::vector<std::size_t>& 
 }
 
 /// Notes what was struck; where impacts accumulate, when they end.
-std::optional<double> Contacts::limit_of_impacts(const Change& change, double t) {
+std::optional<double> Contacts::limit_of_impacts(const Change& change, const Instant& at) {
+  const double t = at.t;
+  find_gaps(at);
   std::optional<double> limit;
   for (const Happening& happening : change.what) {
-    Accumulation& impacts = contacts_[happening.contact].impacts;
+    Contact& c = contacts_[happening.contact];
+    Accumulation& impacts = c.impacts;
     impacts.add(t);
-    if (impacts.left() <= std::sqrt(tolerance_) * scales_.time)
+    if (std::abs(psi_[c.row]) * impacts.left() <= tolerance_ * scales_.length * c.gradient)
       limit = std::max(limit.value_or(t), impacts.limit());
   }
   return limit;
@@ -82,6 +85,7 @@ Contacts::Change Contacts::begin(const Instant& start) {
     } else {
       c.opened_at = start.t;
       c.rate_at_opening = rate;
+      c.gap_at_opening = std::min(c.sign * g_[c.row], 0.0);
     }
   }
   return pass(start, stay, still);
@@ -120,7 +124,7 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
   }
   if (U.minCoeff() < 0.0) {
     strike(*coupling, touched, at.t, U, change);
-    if (const auto limit = limit_of_impacts(change, at.t)) {
+    if (const auto limit = limit_of_impacts(change, at)) {
       const double shortest = contacts_[change.what.front().contact].impacts.interval();
       for (std::size_t i = 0; i < contacts_.size(); ++i)
         if (contacts_[i].impacts.last() >= at.t - shortest && !among(touched, i)) touched.push_back(i);

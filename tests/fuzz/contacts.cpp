@@ -35,8 +35,9 @@ class Contacts {
         moments_.push_back({at, 0});
     }
     for (std::size_t k = 0; k < run.events().size(); ++k) {
+      if (k > 0 && one_change(k - 1, k)) continue;
       moments_.push_back({run.event_sample(k).flat(), 1});
-      moments_.push_back({run.sample_after(k).flat(), 2});
+      moments_.push_back({run.sample_after(k).flat(), 1});
     }
     std::ranges::stable_sort(moments_, [](const Moment& a, const Moment& b) {
       return std::pair(a.at.time, a.order) < std::pair(b.at.time, b.order);
@@ -75,6 +76,13 @@ class Contacts {
   }
   [[nodiscard]] double sign_of(std::size_t contact) const {
     return system_.layout()->constraints[contact].contact->sign();
+  }
+
+  /// Whether two that are listed happened in one change, from one state to one other.
+  [[nodiscard]] bool one_change(std::size_t k, std::size_t l) const {
+    return run_.event_sample(k).time() == run_.event_sample(l).time() &&
+           run_.event_sample(k).energy() == run_.event_sample(l).energy() &&
+           run_.sample_after(k).energy() == run_.sample_after(l).energy();
   }
 
   [[nodiscard]] std::string order() const {
