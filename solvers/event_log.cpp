@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -49,24 +48,47 @@ FlatSample EventLog::read(Stepping& stepping, double t) {
 
 void EventLog::look(Stepping& stepping) {
   const auto reader = [&](double t) { return read(stepping, t); };
-  for (const Occurrence& one : watch_.look(reader, stepping.time(), stepping.degree())) {
-    if (one.event >= asked_for_ || watch_.event(one.event).change) {
-      change_ = one;
-      return;
+  const auto found = watch_.look(reader, stepping.time(), stepping.degree());
+  const auto changes = [this](const Occurrence& one) {
+    return one.event >= asked_for_ || watch_.event(one.event).change;
+  };
+  const auto first = std::ranges::find_if(found, changes);
+  // At the time of a change all that is due there: what was asked for before what follows from the motion.
+  const double until =
+      first == found.end() ? stepping.time() : first->time + same_time(first->time, stepping);
+  for (const Occurrence& one : found) {
+    if (one.time > until) break;
+    if (changes(one)) {
+      if (one.event < asked_for_) due_.push_back(one);
+      continue;
     }
-    const FlatSample at = read(stepping, one.time);
-    occurred_.push_back(one);
-    for (Record* record : {&before_, &after_}) {
-      record->go_on_with(stepping.system().layout());
-      record->append(at);
-    }
-    impulses_.resize(impulses_.size() + at.lambda.size());
-    if (watch_.event(one.event).ends) {
-      end_ = one.time;
-      return;
-    }
+    list(one, stepping);
+    if (!watch_.event(one.event).ends) continue;
+    end_ = one.time;
+    due_.clear();
+    return;
   }
-  if (transitions_ != nullptr) transitions_->require_open(read(stepping, stepping.time()));
+  if (first != found.end()) {
+    change_ = due_.empty() ? *first : due_.front();
+    if (!due_.empty()) due_.erase(due_.begin());
+  } else if (transitions_ != nullptr) {
+    transitions_->require_open(read(stepping, stepping.time()));
+  }
+}
+
+void EventLog::list(const Occurrence& one, Stepping& stepping) {
+  const FlatSample at = read(stepping, one.time);
+  occurred_.push_back(one);
+  for (Record* record : {&before_, &after_}) {
+    record->go_on_with(stepping.system().layout());
+    record->append(at);
+  }
+  impulses_.resize(impulses_.size() + at.lambda.size());
+}
+
+/// By what two times may differ that are the same to round-off.
+double EventLog::same_time(double t, const Stepping& stepping) {
+  return round_off * std::max(std::abs(t), stepping.start().scales.time);
 }
 
 void EventLog::carry_out(Stepping& stepping) {
@@ -86,6 +108,12 @@ void EventLog::carry_out(Stepping& stepping) {
 void EventLog::begin_anew(double t, Stepping& stepping) {
   watch_.begin_anew(read(stepping, t), asked_for_);
   change_.reset();
+  if (!due_.empty()) {
+    change_ = due_.front();
+    change_->time = t;
+    due_.erase(due_.begin());
+    return;
+  }
   if (transitions_ == nullptr) return;
   if (const auto function = transitions_->driven()) change_ = {asked_for_ + *function, t};
 }
@@ -102,7 +130,7 @@ void EventLog::require_progress(const Stepping& stepping) {
     if (std::isfinite(changes.left()) && changes.interval() <= 10.0 * std::sqrt(least) * time) chatters();
   }
   constexpr int most = 8;
-  const double apart = 4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), time);
+  const double apart = same_time(t, stepping);
   repeated_ = last_ && last_->event == change_->event && t - last_->time <= apart ? repeated_ + 1 : 0;
   last_ = change_;
   if (repeated_ == most) chatters();

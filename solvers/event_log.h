@@ -42,6 +42,8 @@ class EventLog {
 
  private:
   FlatSample read(Stepping& stepping, double t);
+  void list(const Occurrence& one, Stepping& stepping);
+  [[nodiscard]] static double same_time(double t, const Stepping& stepping);
   void require_progress(const Stepping& stepping);
   [[noreturn]] void chatters() const;
   [[nodiscard]] Transitions::Change pass(const FlatSample& at, Stepping& stepping, std::vector<double>& q);
@@ -59,6 +61,7 @@ class EventLog {
   Record before_, after_;
   std::vector<double> impulses_;
   std::shared_ptr<const System> system_;  // that goes on after a change
+  std::vector<Occurrence> due_;           // changes of the scene at the time of another one
   std::optional<Occurrence> change_, last_;
   int repeated_ = 0;  // times that the last change was due at one time
   std::optional<double> end_;

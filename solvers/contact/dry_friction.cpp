@@ -28,6 +28,11 @@ using Eigen::VectorXd;
 /// (tests/solvers/coulomb.cpp). The way that is left is the square of it, so never more than the root.
 double rest_in_space(double tolerance) { return std::min(1000.0 * tolerance, std::sqrt(tolerance)); }
 
+constexpr const char* shares =
+    ": its share of the friction is not determined, as others hold the same; state one that stands for all "
+    "of "
+    "them, or end the run before";
+
 double largest(std::span<const double> x) {
   double most = 0.0;
   for (const double value : x) most = std::max(most, std::abs(value));
@@ -211,7 +216,7 @@ void DryFriction::find_direction(Rough& rough, const std::vector<std::size_t>& o
 
 /// What to try first: as it was, but for what has changed.
 void DryFriction::begin(Rough& rough, const std::vector<std::size_t>& open, std::optional<std::size_t> fallen,
-                        std::span<const double> lambda) const {
+                        const FlatSample& motion) {
   const Mode before = rough.mode;
   if (std::ranges::find(open, rough.pressed_by) != open.end()) {
     rough.mode = Mode::absent;
@@ -222,7 +227,9 @@ void DryFriction::begin(Rough& rough, const std::vector<std::size_t>& open, std:
   if (fallen && *fallen == 2 * index + 1) rough.sign = -rough.sign;
   const VectorXd u = slip(rough);
   if (before == Mode::sticks && u.norm() <= rough.rest) {
-    if (turned) let_go(rough, part(lambda, rough.row, rough.rows));
+    if (!turned) return;
+    require_own_share(rough, motion.unique, motion.time);
+    let_go(rough, part(motion.lambda, rough.row, rough.rows));
     return;
   }
   if (turned || (u.norm() <= rough.rest && !(before == Mode::slides && rough.from_rest))) {
@@ -236,9 +243,17 @@ void DryFriction::begin(Rough& rough, const std::vector<std::size_t>& open, std:
   rough.slow = 0.0;
 }
 
-/// Of what sticks and would need more than its bound that which exceeds it most; whether there is any. What
-/// repeats others has a share of their friction that motion does not determine: as long as it slides with the
-/// bound that it stuck with that is one of the ways in which all stay, else it is not to be told.
+/// What is let go slides with less than it stuck with: of several that hold the same it decides which that
+/// is.
+void DryFriction::require_own_share(const Rough& rough, std::span<const char> unique, double t) {
+  bool own = unique.empty();
+  for (std::size_t k = 0; k < rough.rows && !unique.empty(); ++k) own = unique[rough.row + k] != 0;
+  shared_ = shared_ || !own;
+  if (own || rough.mu_static == rough.mu) return;
+  throw StepFailure{stated_->row_label(rough.row) + shares, t};
+}
+
+/// Of what sticks and would need more than its bound that which exceeds it most; whether there is any.
 bool DryFriction::let_go_what_exceeds(const std::vector<std::size_t>& open, const Instant& at,
                                       const Motion& motion) {
   Rough* most = nullptr;
@@ -252,11 +267,7 @@ bool DryFriction::let_go_what_exceeds(const std::vector<std::size_t>& open, cons
     by = ratio;
   }
   if (most == nullptr) return false;
-  if (!motion.unique[most->row] && (most->mu_static > most->mu || most->rows == 2))
-    throw StepFailure{stated_->row_label(most->row) +
-                          ": its share of the friction is not determined, as others hold the same; state one "
-                          "that stands for all of them, or end the run before",
-                      at.t};
+  require_own_share(*most, motion.unique, at.t);
   if (!most->one_sided) most->sign = motion.lambda[most->pressing_row] < 0.0 ? -1.0 : 1.0;
   let_go(*most, part(motion.lambda, most->row, most->rows));
   find_direction(*most, open, at);
@@ -315,12 +326,12 @@ void DryFriction::refuse(double t) const {
 
 std::vector<DryFriction::Happening> DryFriction::settle(const std::vector<std::size_t>& open,
                                                         const Instant& at, std::optional<std::size_t> fallen,
-                                                        std::span<const double> lambda,
-                                                        std::span<const double> a) {
+                                                        const FlatSample& motion) {
   const auto before = all_;
+  shared_ = false;
   find_slip(at);
-  const double time = fallen ? rests_at(all_[*fallen / 2], at, a) : at.t;
-  for (Rough& r : all_) begin(r, open, fallen, lambda);
+  const double time = fallen ? rests_at(all_[*fallen / 2], at, motion.a) : at.t;
+  for (Rough& r : all_) begin(r, open, fallen, motion);
   if (fallen && *fallen % 2 == 0 && all_[*fallen / 2].mode == Mode::slides)
     find_direction(all_[*fallen / 2], open, at);
   std::set<std::vector<double>> tried;

@@ -50,11 +50,10 @@ class DryFriction {
   [[nodiscard]] double watched(std::size_t function, const FlatSample& now) const;
 
   /// Decides what sticks, at a state where constraints with these numbers are not in force. `fallen` is the
-  /// function that has fallen, `lambda` and `a` what the motion was. Throws StepFailure, which names the
+  /// function that has fallen, in the motion `before`. Throws StepFailure, which names the
   /// constraints, where nothing agrees with (1); EquationFault.
   std::vector<Happening> settle(const std::vector<std::size_t>& open, const Instant& at,
-                                std::optional<std::size_t> fallen = {}, std::span<const double> lambda = {},
-                                std::span<const double> a = {});
+                                std::optional<std::size_t> fallen = {}, const FlatSample& before = {});
   /// That an impact has not pressed any of them. Throws StepFailure.
   void require_no_impulse(std::span<const double> impulses, double t) const;
   /// With what sticks in force, and what slides.
@@ -93,7 +92,8 @@ class DryFriction {
   [[nodiscard]] double rests_at(const Rough& rough, const Instant& at, std::span<const double> a) const;
   void find_direction(Rough& rough, const std::vector<std::size_t>& open, const Instant& at);
   void begin(Rough& rough, const std::vector<std::size_t>& open, std::optional<std::size_t> fallen,
-             std::span<const double> lambda) const;
+             const FlatSample& motion);
+  void require_own_share(const Rough& rough, std::span<const char> unique, double t);
   [[nodiscard]] bool amend(const std::vector<std::size_t>& open, const Instant& at, const Motion& motion);
   [[nodiscard]] std::vector<double> modes() const;
   [[nodiscard]] bool let_go_what_exceeds(const std::vector<std::size_t>& open, const Instant& at,
@@ -106,6 +106,7 @@ class DryFriction {
   Scales scales_;
   double tolerance_;
   std::vector<Rough> all_;
+  bool shared_ = false;  // what was let go has a share of the friction that is not determined
   mutable std::vector<double> g_, u_;
   mutable double slip_at_ = std::numeric_limits<double>::quiet_NaN();
 };

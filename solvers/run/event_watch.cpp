@@ -19,17 +19,29 @@ bool wanted(Crossing crossing, int before) {
   return crossing == Crossing::either || (crossing == Crossing::rising) == (before < 0);
 }
 
-/// The interpolant of a function's values at the nodes of a step.
+/// The interpolant of a function's values at the Chebyshev nodes of a step, in its barycentric form (Berrut,
+/// Trefethen, SIAM Review 46 (2004) 501).
 struct Interpolant {
-  double from, to;
-  const std::vector<double>& values;
+  const std::vector<double>&nodes, &values;
 
-  [[nodiscard]] int degree() const { return static_cast<int>(values.size()) - 1; }
+  [[nodiscard]] double weight(std::size_t j) const {
+    return (j % 2 == 0 ? 1.0 : -1.0) * (j == 0 || j + 1 == nodes.size() ? 0.5 : 1.0);
+  }
   [[nodiscard]] double operator()(double t) const {
-    const auto l = lagrange_polynomials(from, to, t, degree());
+    double sum = 0.0, weights = 0.0;
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+      if (t == nodes[j]) return values[j];
+      const double w = weight(j) / (t - nodes[j]);
+      sum += w * values[j];
+      weights += w;
+    }
+    return sum / weights;
+  }
+  [[nodiscard]] double slope(std::size_t j) const {
     double sum = 0.0;
-    for (std::size_t j = 0; j < l.size(); ++j) sum += l[j] * values[j];
-    return sum;
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      if (k != j) sum += weight(k) * (values[k] - values[j]) / (nodes[j] - nodes[k]);
+    return sum / weight(j);
   }
   /// Where between a and b it is closest to 0, or beyond it, seen from the side of `side`; by golden
   /// sections.
@@ -100,17 +112,16 @@ double EventWatch::value(std::size_t event, const FlatSample& at) {
 
 /// The nodes of the step, and where the interpolant turns towards 0 between two of one sign.
 std::vector<EventWatch::Place> EventWatch::places(std::size_t event, const Read& read,
-                                                  const std::vector<double>& values, double to) {
-  const Interpolant p{from_, to, values};
-  const auto node = [&](int j) { return chebyshev_node(from_, to, j, p.degree()); };
-  std::vector<Place> places{{from_, values.front()}};
-  for (int j = 1; j <= p.degree(); ++j) {
-    const double a = node(j - 1), b = node(j), f_a = values[static_cast<std::size_t>(j - 1)],
-                 f_b = values[static_cast<std::size_t>(j)];
+                                                  const std::vector<double>& values) {
+  const Interpolant p{nodes_, values};
+  std::vector<Place> places{{nodes_.front(), values.front()}};
+  for (std::size_t j = 1; j < nodes_.size(); ++j) {
+    const double a = nodes_[j - 1], b = nodes_[j], f_a = values[j - 1], f_b = values[j];
     const int side = sign(f_b);
     // What begins at 0 may have been on the other side meanwhile.
     const bool from_zero = j == 1 && side_[event] == 0;
-    if (side != 0 && (from_zero || side == sign(f_a))) {
+    if (side != 0 && (from_zero || side == sign(f_a)) && side * p.slope(j - 1) < 0.0 &&
+        side * p.slope(j) > 0.0) {
       const double t = p.turn(a, b, side);
       const double high = from_zero ? -round_off * largest_[event] : std::min(std::abs(f_a), std::abs(f_b));
       if (side * p(t) < high) places.push_back({t, value(event, read(t))});
@@ -120,10 +131,10 @@ std::vector<EventWatch::Place> EventWatch::places(std::size_t event, const Read&
   return places;
 }
 
-void EventWatch::find(std::size_t event, const Read& read, const std::vector<double>& values, double to,
+void EventWatch::find(std::size_t event, const Read& read, const std::vector<double>& values,
                       std::vector<Occurrence>& occurred) {
   const auto function = [&](double t) { return value(event, read(t)); };
-  const auto all = places(event, read, values, to);
+  const auto all = places(event, read, values);
   for (std::size_t i = 1; i < all.size(); ++i) {
     const auto [a, f_a] = all[i - 1];
     const auto [b, f_b] = all[i];
@@ -145,12 +156,14 @@ void EventWatch::find(std::size_t event, const Read& read, const std::vector<dou
 std::vector<Occurrence> EventWatch::look(const Read& read, double to, int degree) {
   std::vector<std::vector<double>> values;
   for (const double first : at_from_) values.push_back({first});
+  nodes_ = {from_};
   for (int j = 1; j <= degree; ++j) {
-    const FlatSample at = read(chebyshev_node(from_, to, j, degree));
+    nodes_.push_back(chebyshev_node(from_, to, j, degree));
+    const FlatSample at = read(nodes_.back());
     for (std::size_t e = 0; e < events_.size(); ++e) values[e].push_back(value(e, at));
   }
   std::vector<Occurrence> occurred;
-  for (std::size_t e = 0; e < events_.size(); ++e) find(e, read, values[e], to, occurred);
+  for (std::size_t e = 0; e < events_.size(); ++e) find(e, read, values[e], occurred);
   std::ranges::stable_sort(occurred, {}, &Occurrence::time);
   for (std::size_t e = 0; e < events_.size(); ++e) at_from_[e] = values[e].back();
   from_ = to;

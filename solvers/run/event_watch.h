@@ -43,12 +43,13 @@ class EventWatch {
   [[nodiscard]] double value(std::size_t event, const FlatSample& at);
   [[nodiscard]] int first_side(std::size_t event, double value) const;
   [[nodiscard]] std::vector<Place> places(std::size_t event, const Read& read,
-                                          const std::vector<double>& values, double to);
-  void find(std::size_t event, const Read& read, const std::vector<double>& values, double to,
+                                          const std::vector<double>& values);
+  void find(std::size_t event, const Read& read, const std::vector<double>& values,
             std::vector<Occurrence>& occurred);
 
   std::vector<FlatEvent> events_;
   double from_ = 0.0;
+  std::vector<double> nodes_;    ///< of the step that is looked at
   std::vector<double> at_from_;  ///< of each event its value where the last step ended,
   std::vector<int> side_;        ///< its sign there or before, if it is 0; 0 if it never had one,
   std::vector<double> largest_;  ///< and the largest value so far

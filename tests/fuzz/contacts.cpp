@@ -75,7 +75,7 @@ class Contacts {
     return static_cast<std::size_t>(system_.layout()->constraints[contact].first_row);
   }
   [[nodiscard]] double sign_of(std::size_t contact) const {
-    return system_.layout()->constraints[contact].contact->sign();
+    return system_.layout()->constraints[contact].holds.contact->sign();
   }
 
   /// Whether two that are listed happened in one change, from one state to one other.

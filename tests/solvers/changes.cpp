@@ -130,6 +130,57 @@ TEST_P(Changes, KickWhatRestsOnAFloor) {
   }
 }
 
+TEST_P(Changes, ThatImposeAConstraintLetContactsAndFrictionAnswer) {
+  // A ball rests on a floor, another of the same mass goes up at v beside it; where the rod between them is
+  // imposed both go up at v/2: the floor does not hold the first. On a rough floor two blocks go sideways.
+  for (const bool rough : {false, true}) {
+    Scene<2> scene;
+    const Vec<2> way = rough ? Vec<2>(1.0, 0.0) : Vec<2>(0.0, 1.0);
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto a = scene.add_particle({.mass = 1.0});
+    const auto b = scene.add_particle({.mass = 1.0, .position = 0.5 * way, .velocity = 6.0 * way});
+    const auto floor = scene.add(unilateral(OnCurve{a, Plane<2>{}}));
+    if (rough) {
+      scene.add(coulomb(floor, Slip{a, Plane<2>{}}, 0.3));
+      scene.add(OnCurve{b, Plane<2>{}});
+    }
+    const auto rod = scene.add(Distance{a, b, 1.0}, "rod");
+    scene.release(rod);
+    const Event<2> taut{"taut",
+                        [=](const auto& now) { return (now.position(b) - now.position(a)).norm() - 1.0; },
+                        Crossing::rising, false, [=](Scene<2>& s) { s.impose(rod); }};
+    const auto run = simulate(scene, options(0.2), {taut});
+    ASSERT_GE(run.events().size(), 1U);
+    const double v = run.event_sample(0).velocity(b).dot(way);
+    EXPECT_NEAR(run.sample_after(0).velocity(a).dot(way), 0.5 * v, met * v) << rough;
+    EXPECT_NEAR(run.impulse(rod, 0), -0.5 * v, met * v) << rough;
+    EXPECT_NEAR(run.impulse(floor, 0), 0.0, met * v) << rough;
+  }
+}
+
+TEST_P(Changes, AtOneTimeAreAllCarriedOutAndListed) {
+  Scene<2> scene;
+  const auto ball = scene.add_particle({.mass = 1.0, .velocity = {1.0, 0.0}});
+  const auto speed_up = [=](double by) {
+    return [=](Scene<2>& s) {
+      const Vec<2> r(s.initial_positions()[0], s.initial_positions()[1]);
+      const Vec<2> v(s.initial_velocities()[0] + by, s.initial_velocities()[1]);
+      s.replace(ball, ParticleState<2>{.mass = 1.0, .position = r, .velocity = v});
+    };
+  };
+  const auto at_half = [](const auto& now) { return now.time() - 0.5; };
+  const std::vector<Event<2>> events{{"A", at_half, Crossing::rising, false, speed_up(1.0)},
+                                     {"B", at_half, Crossing::rising, false, speed_up(2.0)},
+                                     {"C", at_half}};
+  const auto run = simulate(scene, options(1.0), events);
+  ASSERT_EQ(run.events().size(), 3U);
+  EXPECT_NEAR(run.position(ball, 10).x(), 0.5 + 0.5 * 4.0, met);
+  auto with_end = events;
+  with_end[2].ends = true;
+  const auto ended = simulate(scene, options(1.0), with_end);
+  EXPECT_NEAR(ended.times().back(), 0.5, met);
+}
+
 TEST_P(Changes, ThatChatterAreErrors) {
   // A ball that its user reflects to half its speed: the times accumulate.
   Scene<2> scene("ball");
@@ -159,6 +210,18 @@ TEST(Change, RefusesWhatCannotBe) {
         s.replace(p.rod, Distance{Fixed<2>{}, p.bob, 2.0});
       },
       "\"rod\" comes into force where");
+  Scene<2> two;
+  const auto block = two.add_particle({.mass = 1.0});
+  two.add(nonholonomic(points(block), [](auto, auto v) { return v.x(); }));
+  const auto other = two.add(nonholonomic(points(block), [](auto, auto v) { return v.x() - 1.0; }), "other");
+  two.release(other);
+  EXPECT_THAT(
+      [&] {
+        (void)simulate(two, options,
+                       {{"contradiction", [](const auto& now) { return now.time() - 0.5; }, Crossing::rising,
+                         false, [=](Scene<2>& s) { s.impose(other); }}});
+      },
+      ThrowsMessage<IntegrationFailure>(AllOf(HasSubstr("\"other\""), HasSubstr("contradicts"))));
   auto both = p.at_the_bottom([](Scene<2>&) {});
   both.ends = true;
   EXPECT_THAT([&] { (void)simulate(p.scene, options, {both}); },

@@ -215,6 +215,77 @@ TEST_P(CoulombFriction, OfASkiddingWheelEndsInRolling) {
   EXPECT_NEAR(run.multiplier(rough, 10), 0.0, met * g);
 }
 
+TEST_P(CoulombFriction, OfCoupledPucksGoesAgainstTheirAccelerations) {
+  // Two pucks with a rod between them, pulled from rest each its own way.
+  constexpr double mu = 0.3;
+  Scene<3> scene;
+  const auto a = scene.add_particle({.mass = 1.0}),
+             b = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0, 0.0}});
+  scene.add(Distance{a, b, 1.0});
+  std::vector<Constraint<2>> rough;
+  for (const auto puck : {a, b}) {
+    const auto table = scene.add(OnSurface{puck, Plane<3>{}});
+    rough.push_back(scene.add(coulomb(table, Slip{puck, Plane<3>{}}, mu)));
+  }
+  scene.add(force_law(points(a, b), [](auto, auto, auto, auto) {
+    return std::tuple{vec(3.0, 5.0, -g), vec(4.0, -3.0, -g)};
+  }));
+  const auto run = simulate(scene, options(0.1));
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    const Vec<3> sigma = run.constraint_force(rough[k], k == 0 ? a : b, 0);
+    const Vec<3> along = run.acceleration(k == 0 ? a : b, 0).normalized();
+    EXPECT_NEAR((sigma + mu * g * along).norm(), 0.0,
+                1e-5 * g);  // the root of round-off is asked of directions
+  }
+}
+
+TEST_P(CoulombFriction, IsToldBesideMuchLargerForces) {
+  // A light block that 1e11 times its weight presses nothing of.
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto light = scene.add_particle({.mass = 1.0}),
+             heavy = scene.add_particle({.mass = 1e11, .position = {5.0, 0.0}});
+  const auto floor = scene.add(OnCurve{light, Plane<2>{}});
+  scene.add(OnCurve{heavy, Plane<2>{}});
+  scene.add(coulomb(floor, Slip{light, Plane<2>{}}, 0.05));
+  scene.add(force_law(points(light), [](auto, auto) { return vec(1.0, 0.0); }));
+  const auto run = simulate(scene, options(1.0));
+  EXPECT_NEAR(run.velocity(light, 10).x(), 1.0 - 0.05 * g, met);
+}
+
+TEST_P(CoulombFriction, OfFeetThatHoldTheSameIsRefusedWhereTheirSharesDecide) {
+  // Two feet joined by a rod stick together; which of them has how much is not determined, and with
+  // mu_static > mu it would be that which decides when they go.
+  Scene<2> scene("feet");
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto left = scene.add_particle({.mass = 1.0}),
+             right = scene.add_particle({.mass = 3.0, .position = {1.0, 0.0}});
+  scene.add(Distance{left, right, 1.0});
+  for (const auto foot : {left, right}) {
+    const auto floor = scene.add(OnCurve{foot, Plane<2>{}});
+    scene.add(coulomb(floor, Slip{foot, Plane<2>{}}, 0.2, 0.3), foot == left ? "left" : "right");
+  }
+  scene.add(force_law(points(left), [](auto t, auto, auto) { return vec(6.0 * t, 0.0); }));
+  EXPECT_THAT([&] { (void)simulate(scene, options(4.0)); },
+              ThrowsMessage<IntegrationFailure>(AllOf(HasSubstr("\"left\""), HasSubstr("not determined"))));
+}
+
+TEST_P(CoulombFriction, OfALoneParticleOnASphereIsRunInItsScales) {
+  // Sent off from the side, with no length but that of the sphere.
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const double angle = 0.5;
+  const Vec<2> out(std::sin(angle), std::cos(angle)), along(std::cos(angle), -std::sin(angle));
+  const auto puck = scene.add_particle({.mass = 1.0, .position = out, .velocity = 0.4 * along});
+  const Sphere<2> sphere{};
+  const auto touch = scene.add(unilateral(OnCurve{puck, sphere}));
+  scene.add(coulomb(touch, Slip{puck, sphere}, 0.0));
+  const auto run = simulate(scene, options(0.6));
+  ASSERT_EQ(run.events().size(), 1U);
+  // v^2 = g cos where v^2 = v0^2 + 2 g (cos 0.5 - cos).
+  EXPECT_NEAR(run.event_sample(0).position(puck).y(), (0.16 + 2.0 * g * std::cos(angle)) / (3.0 * g), met);
+}
+
 TEST_P(CoulombFriction, WithoutForceDoesNotChatter) {
   // Nothing presses, nothing pulls.
   Scene<2> scene;
