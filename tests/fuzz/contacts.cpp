@@ -155,7 +155,7 @@ class Contacts {
     }
     const Occurrence& it = run_.events()[k];
     if (it.what != Happened::struck || !fault.empty()) return fault;
-    const double restitution = layout.constraints[it.event].contact->restitution;
+    const double restitution = layout.constraints[it.event].holds.contact->restitution;
     const double left = e_after.psi[row_of(it.event)] + restitution * e.psi[row_of(it.event)];
     return too_large("rebound of " + system_.row_label(row_of(it.event)), before.time, std::abs(left),
                      2.0 * slow);
