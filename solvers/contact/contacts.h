@@ -69,8 +69,7 @@ class Contacts {
   [[nodiscard]] std::optional<std::size_t> driven() const;
   /// Goes on from an instant at which the watched functions of some contacts have fallen to 0. Throws
   /// StepFailure where no velocities or accelerations do, naming the contacts; EquationFault.
-  /// Rates of at most `still`, per length of the gradient, are 0.
-  Change pass(const Instant& at, const std::vector<std::size_t>& fallen, double still = 0.0);
+  Change pass(const Instant& at, const std::vector<std::size_t>& fallen);
   /// Where the forces of closed contacts are not determined the smallest ones may pull, though there are
   /// others that push, those of (2): opens what these leave without a force. Whether there was anything.
   [[nodiscard]] bool open_pulling(const FlatSample& now);
@@ -101,6 +100,7 @@ class Contacts {
   [[nodiscard]] std::optional<double> limit_of_impacts(const Change& change, const Instant& at);
   static void rest(const Coupling& coupling, const std::vector<std::size_t>& resting, double limit,
                    Change& change);
+  [[nodiscard]] double still(const Contact& contact) const;
   void find_driven(const Instant& at);
   void accelerate(Coupling& coupling, const std::vector<std::size_t>& touched,
                   const std::vector<std::size_t>& fallen, const Eigen::VectorXd& U, const Instant& at,
@@ -114,6 +114,7 @@ class Contacts {
   double tolerance_;
   std::vector<Contact> contacts_;
   std::vector<std::size_t> touching_at_start_;
+  bool begun_ = false;
   std::vector<std::size_t> in_force_;                                  // of them
   mutable std::vector<double> g_, psi_;                                // of all rows,
   mutable double gaps_at_ = std::numeric_limits<double>::quiet_NaN();  // at this time of the state watched
