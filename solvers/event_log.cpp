@@ -117,7 +117,8 @@ void EventLog::write(Record& record) const {
   if (contacts_ == nullptr) return;
   record.after_events = of(after_);
   record.impulses.clear();
-  const std::size_t rows = contacts_->system()->rows();
+  record.coordinates = contacts_->system()->coordinates();
+  const std::size_t rows = record.rows = contacts_->system()->rows();  // also of a run that kept no sample
   for (const std::size_t k : order) {
     const auto own = std::span(impulses_).subspan(k * rows, rows);
     record.impulses.insert(record.impulses.end(), own.begin(), own.end());
