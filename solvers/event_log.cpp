@@ -219,7 +219,9 @@ void EventLog::write(Record& record) const {
   record.after_events = of(after_);
   record.events.clear();
   record.impulses.clear();
-  const std::size_t rows = occurred_.empty() ? 0 : impulses_.size() / occurred_.size();
+  if (occurred_.empty()) return;
+  record.coordinates = before_.coordinates;
+  const std::size_t rows = record.rows = before_.rows;  // also of a run that kept no sample
   for (const std::size_t k : order) {
     const auto own = std::span(impulses_).subspan(k * rows, rows);
     record.events.push_back(occurred_[k]);

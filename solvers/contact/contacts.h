@@ -76,10 +76,10 @@ class Contacts {
   [[nodiscard]] std::optional<std::size_t> driven() const;
   /// Goes on from an instant at which the watched functions of some contacts have fallen to 0. Throws
   /// StepFailure where no velocities or accelerations do, naming the contacts; EquationFault.
-  /// Rates of at most `still`, per length of the gradient, are 0. Where there is friction accelerations are
+  /// Where there is friction accelerations are
   /// not (2)'s: what touches and does not part is closed then, what has fallen open, and `open_pulling` finds
   /// what else opens.
-  Change pass(const Instant& at, const std::vector<std::size_t>& fallen, double still = 0.0);
+  Change pass(const Instant& at, const std::vector<std::size_t>& fallen);
   /// Where the forces of closed contacts are not determined the smallest ones may pull, though there are
   /// others that push, those of (2): opens what these leave without a force; with friction the one that pulls
   /// most. Whether there was anything.
@@ -116,6 +116,7 @@ class Contacts {
                    Change& change);
   std::vector<Eigen::Index> part(const std::vector<std::size_t>& touched, const Eigen::VectorXd& U, double t,
                                  Change& change);
+  [[nodiscard]] double still(const Contact& contact) const;
   void find_driven(const Instant& at);
   void close(const std::vector<std::size_t>& touched, const std::vector<std::size_t>& fallen,
              const std::vector<Eigen::Index>& resting, double t, Change& change);
@@ -132,6 +133,7 @@ class Contacts {
   bool friction_;
   std::vector<Contact> contacts_;
   std::vector<std::size_t> touching_at_start_;
+  bool begun_ = false;
   std::vector<std::size_t> in_force_;                                  // of them
   mutable std::vector<double> g_, psi_;                                // of all rows,
   mutable double gaps_at_ = std::numeric_limits<double>::quiet_NaN();  // at this time of the state watched

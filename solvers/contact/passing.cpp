@@ -73,14 +73,18 @@ void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& re
   for (const std::size_t i : resting) change.what.push_back({i, Happened::rested, limit});
 }
 
+/// What counts as no rate, of the velocities at the start and of what impacts at one time leave of them.
+double Contacts::still(const Contact& contact) const {
+  return rounding_of_the_user * scales_.speed() * contact.gradient;
+}
+
 Contacts::Change Contacts::begin(const Instant& start) {
-  const double still = rounding_of_the_user * scales_.speed();
   std::vector<std::size_t> stay;
   find_gaps(start);
   for (const std::size_t i : touching_at_start_) {
     Contact& c = contacts_[i];
     const double rate = c.sign * psi_[c.row];
-    if (rate <= still * c.gradient) {
+    if (rate <= still(c)) {
       stay.push_back(i);
     } else {
       c.opened_at = start.t;
@@ -88,16 +92,16 @@ Contacts::Change Contacts::begin(const Instant& start) {
       c.gap_at_opening = std::min(c.sign * g_[c.row], 0.0);
     }
   }
-  return pass(start, stay, still);
+  return pass(start, stay);
 }
 
-/// Rates of what left at this very time, after what others have done to it.
+/// Rates of what is open at its surface since this very time, after what others have done to it.
 void Contacts::find_driven(const Instant& at) {
   find_gaps(at);
   for (Contact& c : contacts_) {
-    if (c.closed || c.opened_at != at.t || c.rate_at_opening == 0.0) continue;
+    if (c.closed || c.opened_at != at.t) continue;
     const double rate = c.sign * psi_[c.row];
-    c.rate_at_opening = std::abs(rate) <= round_off * std::abs(c.rate_at_opening) ? 0.0 : rate;
+    c.rate_at_opening = std::abs(rate) <= still(c) ? 0.0 : rate;
   }
 }
 
@@ -107,12 +111,14 @@ std::optional<std::size_t> Contacts::driven() const {
   return std::nullopt;
 }
 
-Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t>& fallen, double still) {
+Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t>& fallen) {
   const auto unchanged = [&] {
     const std::vector<double> v(at.v.begin(), at.v.end());
     return Change{v, v, std::vector<double>(stated_->rows())};
   };
   Change change = unchanged();
+  const bool known_roughly = !begun_ || driven();
+  begun_ = true;
   auto touched = touching(at, fallen);
   if (touched.empty()) return change;
   std::optional<Coupling> coupling(std::in_place, only(touched), numbers(touched), at);
@@ -120,7 +126,7 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
   for (std::size_t k = 0; k < touched.size(); ++k) {
     const Contact& c = contacts_[touched[k]];
     double& rate = U[static_cast<Index>(k)];
-    if ((c.closed && !c.moved) || std::abs(rate) <= still * c.gradient) rate = 0.0;
+    if ((c.closed && !c.moved) || (known_roughly && std::abs(rate) <= still(c))) rate = 0.0;
   }
   if (U.minCoeff() < 0.0) {
     strike(*coupling, touched, at.t, U, change);

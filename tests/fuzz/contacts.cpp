@@ -180,6 +180,7 @@ class Contacts {
 
   /// Nothing adds energy, and where nothing takes any away it stays the same.
   [[nodiscard]] std::string energy() {
+    if (moments_.empty()) return {};  // it failed at the start
     double error = 0.0, largest = 0.0;
     for (const Moment& m : moments_) {
       error = std::max(error, energy_of_error(m.at));
