@@ -1,6 +1,6 @@
 #include "dalembert/bench/events.h"
 
-#include <dalembert/models/event_model.h>
+#include <dalembert/models/chain_over_edge.h>
 
 #include <cmath>
 #include <iostream>
@@ -13,7 +13,10 @@ int events(const EventsTable& options) {
       .columns = {"model", "event", "stepper", "tolerance", "time", "reference_time", "error", "limit"},
       .rows = {}};
   int wrong = 0;
-  for (const auto& model : models::models_with_events()) {
+  auto all = models::models_with_events();
+  all.push_back(models::chain_over_edge_model());
+  all.push_back(models::chain_over_edge_friction_model());
+  for (const auto& model : all) {
     for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
       for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
         for (const models::Timed& row : model.events(stepper, tolerance)) {

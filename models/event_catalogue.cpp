@@ -1,3 +1,5 @@
+#include <dalembert/models/bead_on_rough_hoop.h>
+#include <dalembert/models/block_on_belt.h>
 #include <dalembert/models/bouncing_ball.h>
 #include <dalembert/models/bouncing_pendulum.h>
 #include <dalembert/models/event_model.h>
@@ -24,6 +26,8 @@ std::vector<EventModel> models_with_events() {
       RockingBlock{.floor = RockingBlock::Floor::smooth}.event_model(),
       NewtonsCradle{}.event_model(),
       NewtonsCradle{.gap = 0.002}.event_model(),
+      BlockOnBelt{}.event_model(),
+      BeadOnRoughHoop{}.event_model(),
   };
 }
 

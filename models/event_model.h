@@ -23,7 +23,7 @@ struct EventModel {
   std::function<std::vector<Timed>(Stepper, double tolerance)> events;
 };
 
-/// All of them, in the order of the benchmark's table.
+/// All that run within a moment, in the order of the benchmark's table; chains are in a header of their own.
 [[nodiscard]] std::vector<EventModel> models_with_events();
 
 }  // namespace dalembert::models
