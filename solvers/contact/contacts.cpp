@@ -94,8 +94,8 @@ double Contacts::watched(std::size_t contact, const FlatSample& now) const {
   return std::abs(gap) <= c.zero ? 0.0 : gap / since;
 }
 
-/// What is closed, what has fallen to its surface, and what reaches its own before times can tell the two
-/// apart.
+/// What is closed or lies on its surface, what has fallen to it, and what reaches its own before times can
+/// tell the two apart.
 std::vector<std::size_t> Contacts::touching(const Instant& at, const std::vector<std::size_t>& fallen) const {
   const double same_time = tolerance_ * scales_.time;
   std::vector<std::size_t> touching;
@@ -103,7 +103,8 @@ std::vector<std::size_t> Contacts::touching(const Instant& at, const std::vector
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const Contact& c = contacts_[i];
     const double gap = c.sign * g_[c.row], rate = c.sign * psi_[c.row];
-    if (c.closed || among(fallen, i) || (rate < 0.0 && gap + rate * same_time <= c.zero))
+    const bool lies = gap <= c.zero && rate <= still(c);
+    if (c.closed || among(fallen, i) || lies || (rate < 0.0 && gap + rate * same_time <= c.zero))
       touching.push_back(i);
   }
   return touching;

@@ -1,8 +1,10 @@
 #include "dalembert/solvers/contact/coupling.h"
 
 #include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/contact/round_off.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace dalembert {
@@ -63,11 +65,18 @@ double Coupling::along(std::size_t contact, std::span<const double> x) const {
   return signs_[contact] * sum;
 }
 
-VectorXd Coupling::rates() const {
+VectorXd Coupling::rates(std::span<const double> v) const {
   VectorXd U(S_.rows());
   for (Index i = 0; i < U.size(); ++i) {
     const auto c = static_cast<std::size_t>(i);
-    U[i] = signs_[c] * e_.psi[rows_[c]];
+    const double rate = e_.psi[rows_[c]];
+    double sum = rate, terms = 0.0;  // psi = W v + dg/dt
+    for (const std::size_t k : system_->row(rows_[c])) {
+      const double term = e_.w[k] * v[system_->w_columns()[k]];
+      sum -= term;
+      terms += std::abs(term);
+    }
+    U[i] = std::abs(rate) <= round_off * (terms + std::abs(sum)) ? 0.0 : signs_[c] * rate;
   }
   return U;
 }

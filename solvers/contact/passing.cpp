@@ -68,7 +68,7 @@ std::optional<double> Contacts::limit_of_impacts(const Change& change, const Ins
 /// Takes all rates to 0.
 void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& resting, double limit,
                     Change& change) {
-  const VectorXd P = dense::least_squares(coupling.S(), -coupling.rates(), rank_threshold);
+  const VectorXd P = dense::least_squares(coupling.S(), -coupling.rates(change.v), rank_threshold);
   coupling.strike(P, change.v, change.impulses);
   for (const std::size_t i : resting) change.what.push_back({i, Happened::rested, limit});
 }
@@ -122,7 +122,7 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
   auto touched = touching(at, fallen);
   if (touched.empty()) return change;
   std::optional<Coupling> coupling(std::in_place, only(touched), numbers(touched), at);
-  VectorXd U = coupling->rates();
+  VectorXd U = coupling->rates(at.v);
   for (std::size_t k = 0; k < touched.size(); ++k) {
     const Contact& c = contacts_[touched[k]];
     double& rate = U[static_cast<Index>(k)];
@@ -199,7 +199,7 @@ void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& to
     // A force that has fallen to 0 falls on: what it held opens, though at this instant nothing drives it.
     const bool falls =
         among(fallen, i) && contacts_[i].closed && (*lambda)[row] <= tolerance_ * largest * unit[row];
-    if (A[row] > 0.0 || falls) {
+    if ((A[row] > 0.0 && (*lambda)[row] == 0.0) || falls) {
       open(i, at.t, 0.0, change);
     } else {
       contacts_[i].closed = true;
