@@ -59,7 +59,8 @@ std::optional<double> Contacts::limit_of_impacts(const Change& change, const Ins
     Contact& c = contacts_[happening.contact];
     Accumulation& impacts = c.impacts;
     impacts.add(t);
-    if (std::abs(psi_[c.row]) * impacts.left() <= tolerance_ * scales_.length * c.gradient)
+    if (std::isfinite(impacts.limit()) &&
+        std::abs(psi_[c.row]) * impacts.left() <= tolerance_ * scales_.length * c.gradient)
       limit = std::max(limit.value_or(t), impacts.limit());
   }
   return limit;
