@@ -18,17 +18,40 @@ bool wanted(Crossing crossing, int before) {
   return crossing == Crossing::either || (crossing == Crossing::rising) == (before < 0);
 }
 
-/// The interpolant of a function's values at the nodes of a step.
+/// The interpolant of a function's values at the nodes of a step, in barycentric form: the weights are 1, -1,
+/// 1,
+/// ..., at the ends one half of that.
 struct Interpolant {
-  double from, to;
+  Interpolant(const std::vector<double>& at_nodes, double from, double to) : values(at_nodes) {
+    for (int j = 0; j <= degree(); ++j) nodes.push_back(chebyshev_node(from, to, j, degree()));
+  }
   const std::vector<double>& values;
+  std::vector<double> nodes{};
 
   [[nodiscard]] int degree() const { return static_cast<int>(values.size()) - 1; }
+  [[nodiscard]] double weight(std::size_t j) const {
+    return (j % 2 == 0 ? 1.0 : -1.0) * (j == 0 || j + 1 == values.size() ? 0.5 : 1.0);
+  }
   [[nodiscard]] double operator()(double t) const {
-    const auto l = lagrange_polynomials(from, to, t, degree());
+    double above = 0.0, below = 0.0;
+    for (std::size_t j = 0; j < values.size(); ++j) {
+      if (t == nodes[j]) return values[j];
+      const double w = weight(j) / (t - nodes[j]);
+      above += w * values[j];
+      below += w;
+    }
+    return above / below;
+  }
+  /// At a node.
+  [[nodiscard]] double slope(std::size_t i) const {
     double sum = 0.0;
-    for (std::size_t j = 0; j < l.size(); ++j) sum += l[j] * values[j];
+    for (std::size_t j = 0; j < values.size(); ++j)
+      if (j != i) sum += weight(j) / weight(i) * (values[j] - values[i]) / (nodes[i] - nodes[j]);
     return sum;
+  }
+  /// Whether it falls towards 0 behind node i, and away from it before the next one, seen from `side`.
+  [[nodiscard]] bool turns_behind(std::size_t i, int side) const {
+    return side * slope(i) < 0.0 && side * slope(i + 1) > 0.0;
   }
   /// Where between a and b it is closest to 0, or beyond it, seen from the side of `side`; by golden
   /// sections.
@@ -91,14 +114,12 @@ double EventWatch::value(std::size_t event, const FlatSample& at) const {
 /// The nodes of the step, and where the interpolant turns towards 0 between two of one sign.
 std::vector<EventWatch::Place> EventWatch::places(std::size_t event, const Read& read,
                                                   const std::vector<double>& values, double to) const {
-  const Interpolant p{from_, to, values};
-  const auto node = [&](int j) { return chebyshev_node(from_, to, j, p.degree()); };
+  const Interpolant p(values, from_, to);
   std::vector<Place> places{{from_, values.front()}};
-  for (int j = 1; j <= p.degree(); ++j) {
-    const double a = node(j - 1), b = node(j), f_a = values[static_cast<std::size_t>(j - 1)],
-                 f_b = values[static_cast<std::size_t>(j)];
+  for (std::size_t j = 1; j < values.size(); ++j) {
+    const double a = p.nodes[j - 1], b = p.nodes[j], f_a = values[j - 1], f_b = values[j];
     const int side = sign(f_a);
-    if (side != 0 && side == sign(f_b)) {
+    if (side != 0 && side == sign(f_b) && p.turns_behind(j - 1, side)) {
       const double t = p.turn(a, b, side);
       if (side * p(t) < std::min(std::abs(f_a), std::abs(f_b))) places.push_back({t, value(event, read(t))});
     }
