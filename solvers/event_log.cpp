@@ -47,6 +47,13 @@ FlatSample EventLog::read(Stepping& stepping, double t) {
 }
 
 void EventLog::look(Stepping& stepping) {
+  if (transitions_ != nullptr && stepping.start().scales.of_path) {  // the scene's length grows with its way
+    Scales scales = stepping.start().scales;
+    const Statistics so_far = stepping.statistics();
+    scales.length = so_far.length;
+    scales.time = so_far.time;
+    transitions_->adopt(scales);
+  }
   const auto reader = [&](double t) { return read(stepping, t); };
   const auto found = watch_.look(reader, stepping.time(), stepping.degree());
   const auto changes = [this](const Occurrence& one) {

@@ -84,7 +84,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
     const auto numbers = system->conditional();
     if (numbers.empty()) return nullptr;
     require_no_force_reads(*system);
-    Start start = consistent_start(system->without(numbers), begin.q, begin.v, options);
+    Start start = first_start(system->without(numbers), begin.q, begin.v, options);
     const Instant at{options.t_start, start.q, start.v};
     auto found = std::make_unique<Transitions>(system, start.scales, options.tolerance, at);
     begin.change = found->begin(at);

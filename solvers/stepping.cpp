@@ -17,8 +17,8 @@ std::unique_ptr<TimeStepper> make_stepper(const System& system, const Start& sta
   return std::make_unique<IdaStepper>(system, start, options);
 }
 
-/// The start of a run. What has no length but that of its path gets that of a first explicit step, whose
-/// error is within the tolerance of its own length.
+}  // namespace
+
 Start first_start(const System& system, std::span<const double> q, std::span<const double> v,
                   const Options& options) {
   Start start = consistent_start(system, q, v, options);
@@ -34,8 +34,6 @@ Start first_start(const System& system, std::span<const double> q, std::span<con
   }
   return start;
 }
-
-}  // namespace
 
 Stepping::Stepping(std::shared_ptr<const System> system, std::span<const double> q, std::span<const double> v,
                    const Options& options)

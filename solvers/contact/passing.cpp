@@ -198,8 +198,9 @@ void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& to
     const std::size_t i = touched[static_cast<std::size_t>(resting[k])];
     const auto row = static_cast<Index>(k);
     // A force that has fallen to 0 falls on: what it held opens, though at this instant nothing drives it.
-    const bool falls =
-        among(fallen, i) && contacts_[i].closed && (*lambda)[row] <= tolerance_ * largest * unit[row];
+    const double own = scales_.speed() / scales_.time * contacts_[i].gradient * unit[row];
+    const bool falls = among(fallen, i) && contacts_[i].closed &&
+                       (*lambda)[row] <= tolerance_ * std::max(largest, own) * unit[row];
     if ((A[row] > 0.0 && (*lambda)[row] == 0.0) || falls) {
       open(i, at.t, 0.0, change);
     } else {

@@ -172,6 +172,36 @@ TEST_P(Impacts, AtOneTimeAreAllCarriedOut) {
   }
 }
 
+TEST_P(Impacts, AtTheStartHaveAStateBefore) {
+  Scene<2> scene;
+  const auto ball = scene.add_particle({.mass = 2.0, .velocity = {0.3, -1.0}});
+  const auto floor =
+      scene.add(unilateral(holonomic(points(ball), [](auto r) { return r.y(); }), {.restitution = 0.5}));
+  const auto run = simulate(scene, options(1.0));
+  ASSERT_EQ(run.events().size(), 1U);
+  EXPECT_EQ(run.event_sample(0).velocity(ball).y(), -1.0);
+  EXPECT_NEAR(run.event_sample(0).energy(), 1.09, met);
+  EXPECT_NEAR(run.sample_after(0).velocity(ball).y(), 0.5, met);
+  EXPECT_NEAR(run.impulse(floor, 0), 3.0, met);
+}
+
+TEST_P(Impacts, OfThreeBallsThatNeverPartEndInOneVelocity) {
+  // Below e = 7 - 4 sqrt(3), by impacts without number, without any force (McNamara and Young, 1992).
+  Scene<2> scene;
+  std::vector<Particle<2>> balls;
+  for (const auto& [x, v] : {std::pair(0.0, 1.0), std::pair(0.3, 0.0), std::pair(0.8, -0.9)})
+    balls.push_back(scene.add_particle({.mass = 1.0, .position = {x, 0.0}, .velocity = {v, 0.0}}));
+  for (std::size_t i = 0; i < 2; ++i)
+    scene.add(
+        unilateral(holonomic(points(balls[i], balls[i + 1]), [](auto a, auto b) { return b.x() - a.x(); }),
+                   {.restitution = 0.0717}));
+  Options limited = options(10.0);
+  limited.max_steps = 2000;
+  const auto run = simulate(scene, limited);
+  EXPECT_EQ(run.events().back().what, Happened::rested);
+  for (const auto ball : balls) EXPECT_NEAR(run.velocity(ball, 10).x(), 0.1 / 3.0, met);
+}
+
 TEST_P(Impacts, AreReadBetweenSamplesAndStepByStep) {
   const Ball scene(1.0);
   Options dense = options(1.0);
