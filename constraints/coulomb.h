@@ -20,7 +20,8 @@ namespace dalembert {
 /// case holds the run finds, and lists when it changes (Happened::sticks, Happened::slides).
 ///
 /// Where no motion agrees with the law (Painleve) the run stops and says so; so it does where an impact
-/// presses: the law does not tell the friction of an impact. Equilibria and small motions are not for it.
+/// presses: the law does not tell the friction of an impact; and where several that hold the same reach their
+/// bounds with shares that the motion does not determine. Equilibria and small motions are not for it.
 template <class Slip>
 struct Coulomb {
   static constexpr std::string_view kind = "Coulomb";

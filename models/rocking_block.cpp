@@ -100,8 +100,8 @@ EventModel RockingBlock::event_model() const {
               all.push_back({numbered("impact ", k + 1),
                              time_of(run, k % 2 == 0 ? built.left : built.right, Happened::struck, k / 2),
                              impact_time(k), limit});
-            // Ever smaller impacts are known to ever fewer digits by BDF, which begins anew after each with
-            // its least accurate steps; rest is their limit.
+            // By ida their limit, rest, is known to hundreds of tolerances only: the smaller impacts are, the
+            // fewer digits of their speeds are above the tolerance of the run.
             if (stepper == Stepper::erk)
               all.push_back({"rests", time_of(run, built.left, Happened::rested), rests, limit});
             return all;
