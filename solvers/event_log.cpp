@@ -33,7 +33,16 @@ EventLog::EventLog(std::vector<FlatEvent> events, Transitions* transitions,
       watch_(with_transitions(std::move(events), transitions), *stepping.system().layout()),
       changes_(asked_for_) {
   const double t = stepping.time();
-  if (at_start != nullptr) go_on(*at_start, t, stepping);
+  if (at_start != nullptr) {
+    Transitions::Change change = *at_start;
+    open_pulling(change, t, stepping);
+    const FlatSample after = read(stepping, t);
+    FlatSample before = after;  // no step led to it: with the forces that follow
+    before.v = change.v_before;
+    before.energy += stepping.system().kinetic_energy(before.v) - stepping.system().kinetic_energy(after.v);
+    for (Record* record : {&before_, &after_}) record->go_on_with(stepping.system().layout());
+    list(change, before, after);
+  }
   begin_anew(t, stepping);
 }
 
@@ -50,8 +59,10 @@ void EventLog::look(Stepping& stepping) {
   if (transitions_ != nullptr && stepping.start().scales.of_path) {  // the scene's length grows with its way
     Scales scales = stepping.start().scales;
     const Statistics so_far = stepping.statistics();
-    scales.length = so_far.length;
-    scales.time = so_far.time;
+    scales.take({.length = so_far.length,
+                 .speed = so_far.length / so_far.time,
+                 .rate = scales.way.rate,
+                 .step = scales.way.step});
     transitions_->adopt(scales);
   }
   const auto reader = [&](double t) { return read(stepping, t); };
@@ -78,9 +89,9 @@ void EventLog::look(Stepping& stepping) {
   if (first != found.end()) {
     change_ = due_.empty() ? *first : due_.front();
     if (!due_.empty()) due_.erase(due_.begin());
-  } else if (transitions_ != nullptr) {
-    transitions_->require_open(read(stepping, stepping.time()));
   }
+  if (transitions_ != nullptr)
+    transitions_->require_open(read(stepping, change_ ? change_->time : stepping.time()));
 }
 
 void EventLog::list(const Occurrence& one, Stepping& stepping) {
@@ -95,20 +106,22 @@ void EventLog::list(const Occurrence& one, Stepping& stepping) {
 
 /// By what two times may differ that are the same to round-off.
 double EventLog::same_time(double t, const Stepping& stepping) {
-  return round_off * std::max(std::abs(t), stepping.start().scales.time);
+  return round_off() * std::max(std::abs(t), stepping.start().scales.time);
 }
 
 void EventLog::carry_out(Stepping& stepping) {
   if (!change_) return;
   const double t = change_->time;
-  const FlatSample at = read(stepping, t);
-  std::vector<double> q(at.q.begin(), at.q.end());
-  const Transitions::Change change = pass(at, stepping, q);
+  (void)read(stepping, t);
+  const Moment before = seen_;
+  std::vector<double> q = before.q;
+  Transitions::Change change = pass(before.flat(), stepping, q);
   require_progress(stepping);
   before_.go_on_with(stepping.system().layout());
-  for (std::size_t k = 0; k < change.what.size(); ++k) before_.append(at);
   stepping.begin_changed(t, system_, q, change.v);
-  go_on(change, t, stepping);
+  open_pulling(change, t, stepping);
+  after_.go_on_with(stepping.system().layout());
+  list(change, before.flat(), read(stepping, t));
   begin_anew(t, stepping);
 }
 
@@ -127,20 +140,21 @@ void EventLog::begin_anew(double t, Stepping& stepping) {
 
 /// Throws StepFailure where changes of one kind accumulate, as impacts do (see Accumulation): what comes
 /// after their limit they do not tell. (Contacts come to rest there by themselves.) A parabola that takes a
-/// time D rises by D^2/8 of its acceleration: ten times the roots below keep that in sight of EventWatch.
+/// time D rises by D^2/8 of its acceleration: so many roots of the tolerance keep that in sight of
+/// EventWatch.
 void EventLog::require_progress(const Stepping& stepping) {
   const double t = change_->time, time = stepping.start().scales.time;
   if (change_->event < asked_for_) {
     Accumulation& changes = changes_[change_->event];
     changes.add(t);
-    const double least = std::max(stepping.tolerance(), round_off);
-    if (std::isfinite(changes.left()) && changes.interval() <= 10.0 * std::sqrt(least) * time) chatters();
+    const double least = std::max(stepping.tolerance(), round_off());
+    const double brief = constants.brief_changes * std::sqrt(least) * time;
+    if (std::isfinite(changes.left()) && changes.interval() <= brief) chatters();
   }
-  constexpr int most = 8;
   const double apart = same_time(t, stepping);
   repeated_ = last_ && last_->event == change_->event && t - last_->time <= apart ? repeated_ + 1 : 0;
   last_ = change_;
-  if (repeated_ == most) chatters();
+  if (repeated_ >= constants.most_at_one_time) chatters();
 }
 
 void EventLog::chatters() const {
@@ -183,22 +197,21 @@ Transitions::Change EventLog::change_scene(const FlatSample& at, Stepping& stepp
   return change;
 }
 
-/// Lists a change, with the state after it and its impulses. Where contacts share a load in many ways, those
-/// are left out that would pull.
-void EventLog::go_on(const Transitions::Change& change, double t, Stepping& stepping) {
-  FlatSample after = read(stepping, t);
-  while (transitions_ != nullptr && transitions_->open_pulling(after)) {
-    const std::vector<double> q(after.q.begin(), after.q.end()), v(after.v.begin(), after.v.end());
+/// Where contacts share a load in many ways, those are left out that would pull.
+void EventLog::open_pulling(Transitions::Change& change, double t, Stepping& stepping) {
+  FlatSample now = read(stepping, t);
+  while (transitions_ != nullptr && transitions_->open_pulling(now, change.what)) {
+    const std::vector<double> q(now.q.begin(), now.q.end()), v(now.v.begin(), now.v.end());
     stepping.begin_changed(t, transitions_->system(), q, v);
-    after = read(stepping, t);
+    now = read(stepping, t);
   }
-  FlatSample before = after;  // of a start that no step led to, with the forces that follow
-  before.v = change.v_before;
-  before.energy += stepping.system().kinetic_energy(before.v) - stepping.system().kinetic_energy(after.v);
-  after_.go_on_with(stepping.system().layout());
+}
+
+/// With the states before and after it, and its impulses.
+void EventLog::list(const Transitions::Change& change, const FlatSample& before, const FlatSample& after) {
   for (const Occurrence& one : change.what) {
     occurred_.push_back(one);
-    if (before_.times.size() < occurred_.size()) before_.append(before);
+    before_.append(before);
     after_.append(after);
     impulses_.insert(impulses_.end(), change.impulses.begin(), change.impulses.end());
   }

@@ -50,7 +50,8 @@ class EventLog {
   [[nodiscard]] Transitions::Change change_scene(const FlatSample& at, Stepping& stepping,
                                                  std::vector<double>& q);
   void begin_anew(double t, Stepping& stepping);
-  void go_on(const Transitions::Change& change, double t, Stepping& stepping);
+  void open_pulling(Transitions::Change& change, double t, Stepping& stepping);
+  void list(const Transitions::Change& change, const FlatSample& before, const FlatSample& after);
 
   std::size_t asked_for_;
   Transitions* transitions_;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -58,7 +59,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
         system(std::make_shared<const System>(std::move(s))),
         begin{q0, v0},
         transitions(conditional()),
-        stepping(transitions ? transitions->system() : system, begin.q, begin.v, o),
+        stepping(transitions ? transitions->system() : system, begin.q, begin.v, o, begin.nearest_contact),
         now(*system, stepping.start(), EventLog::changes(events)),
         next(now) {
     if (transitions) transitions->adopt(stepping.start().scales);
@@ -76,6 +77,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
     std::span<const double> q, v;
     std::vector<double> own_q{};
     Transitions::Change change{};
+    double nearest_contact = std::numeric_limits<double>::infinity();
   };
 
   /// The constraints that hold at times only, if there are any: where the others hold, with those in force
@@ -84,7 +86,8 @@ struct DALEMBERT_HIDDEN Integrator::State {
     const auto numbers = system->conditional();
     if (numbers.empty()) return nullptr;
     require_no_force_reads(*system);
-    Start start = first_start(system->without(numbers), begin.q, begin.v, options);
+    begin.nearest_contact = nearest_contact(*system, {options.t_start, begin.q, begin.v});
+    Start start = first_start(system->without(numbers), begin.q, begin.v, options, begin.nearest_contact);
     const Instant at{options.t_start, start.q, start.v};
     auto found = std::make_unique<Transitions>(system, start.scales, options.tolerance, at);
     begin.change = found->begin(at);

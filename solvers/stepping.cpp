@@ -6,6 +6,8 @@
 #include <dalembert/solvers/run/diagnosis.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace dalembert {
@@ -20,8 +22,8 @@ std::unique_ptr<TimeStepper> make_stepper(const System& system, const Start& sta
 }  // namespace
 
 Start first_start(const System& system, std::span<const double> q, std::span<const double> v,
-                  const Options& options) {
-  Start start = consistent_start(system, q, v, options);
+                  const Options& options, double nearest_contact) {
+  Start start = consistent_start(system, q, v, options, nearest_contact);
   if (!start.scales.of_path) return start;
   try {
     ErkStepper first(system, start, options);
@@ -36,10 +38,10 @@ Start first_start(const System& system, std::span<const double> q, std::span<con
 }
 
 Stepping::Stepping(std::shared_ptr<const System> system, std::span<const double> q, std::span<const double> v,
-                   const Options& options)
+                   const Options& options, double nearest_contact)
     : system_(std::move(system)),
       options_(options),
-      start_(first_start(*system_, q, v, options)),
+      start_(first_start(*system_, q, v, options, nearest_contact)),
       lambda_at_start_(start_.lambda),
       state_{start_.q, start_.v} {
   if (system_->compliant()) springs_ = Springs(start_.lambda.size());
@@ -158,6 +160,14 @@ void Stepping::begin_changed(double t, std::shared_ptr<const System> system, std
                              std::span<const double> v) {
   keep_step();  // if it could not be kept before
   Start start = dalembert::begin_changed(*system, start_, t, q, v, options_.tolerance);
+  if (start.scales.of_path) {  // a first step, see IdaStepper, must advance the time
+    const double rounding =
+        constants.roundings_of_path * std::numeric_limits<double>::epsilon() * std::abs(t);
+    Way way = start.scales.way;
+    way.length = std::max(
+        way.length, way.speed * rounding / (constants.first_implicit_step * std::sqrt(options_.tolerance)));
+    start.scales.take(way);
+  }
   past_ = statistics();
   past_.advice.clear();
   start_ = std::move(start);

@@ -14,17 +14,18 @@ namespace DALEMBERT_HIDDEN dalembert {
 
 /// The start of a run. What has no length but that of its path gets that of a first explicit step, whose
 /// error is within the tolerance of its own length. Throws InconsistentStart.
+/// A contact that is not in force may be as near as `nearest_contact`.
 [[nodiscard]] Start first_start(const System& system, std::span<const double> q, std::span<const double> v,
-                                const Options& options);
+                                const Options& options, double nearest_contact);
 
 /// A system's way through time: the stepper that the options ask for, restarted with other rows where those
 /// in use come to depend on each other, and giving way to the explicit one at isolated singular positions.
 /// What is read from it lies on the constraints.
 class Stepping {
  public:
-  /// Throws InconsistentStart; StepFailure and EquationFault at the start.
+  /// See first_start. Throws InconsistentStart; StepFailure and EquationFault at the start.
   Stepping(std::shared_ptr<const System> system, std::span<const double> q, std::span<const double> v,
-           const Options& options);
+           const Options& options, double nearest_contact);
 
   [[nodiscard]] double time() const { return stepper_->time(); }
   /// The one whose equations are stepped.

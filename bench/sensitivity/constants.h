@@ -65,6 +65,10 @@ inline const std::array named_constants = {
     CONSTANT(free_of_push),
     CONSTANT(free_way),
     CONSTANT(below_all),
+    CONSTANT(roundings_at_contacts),
+    CONSTANT(rest_in_space),
+    CONSTANT(most_at_one_time),
+    CONSTANT(brief_changes),
 };
 #undef CONSTANT
 static_assert(sizeof(Constants) == std::tuple_size_v<decltype(named_constants)> * sizeof(double),

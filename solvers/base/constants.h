@@ -94,6 +94,20 @@ struct Constants {
   /// An instant after rest, of the scene's time: long enough for a direction, too short for a change.
   double instant_after = 1e-12;
 
+  // Contacts and friction.
+  /// Below so many roundings of the largest beside it a number is what some thousand operations leave of 0.
+  double roundings_at_contacts = 1e4;
+  /// So many tolerances of the scene's speed are rest for what slides in space, never more than the root. A
+  /// step over the rest itself turns the friction while it lasts, and errs by a part of the speed it came
+  /// with: steps that err by less than a tolerance pass none from so many. The way that is left is the
+  /// square.
+  double rest_in_space = 1000.0;
+  /// Changes at one time, before they count as chattering.
+  double most_at_one_time = 8.0;
+  /// Changes of the scene that accumulate are an error where they follow each other in so many roots of the
+  /// tolerance: what comes between two of them is to be in sight.
+  double brief_changes = 10.0;
+
   // Equilibria and small motions.
   /// Of the largest stiffness over mass what counts as none: free motions get so much, so that Newton's
   /// matrix is regular.

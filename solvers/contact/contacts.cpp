@@ -25,7 +25,37 @@ double largest_force(const System& system, const FlatSample& now) {
   return largest;
 }
 
+/// The length of a contact's gradient; 0 where it has none, as a string of length 0.
+double gradient_of(const System& stated, std::size_t number, const Instant& at,
+                   std::span<const double> lengths) {
+  std::vector<std::size_t> others = stated.conditional();
+  std::erase(others, number);
+  const System alone = stated.without(others);
+  auto e = alone.evaluation();
+  try {
+    alone.evaluate(at, e);
+  } catch (const EquationFault&) {
+    return 0.0;
+  }
+  return gradient_length(alone, e.w, lengths,
+                         static_cast<std::size_t>(stated.layout()->constraints[number].first_row));
+}
+
 }  // namespace
+
+double nearest_contact(const System& stated, const Instant& at) {
+  std::vector<double> g(stated.rows()), rates(stated.rows());
+  stated.gaps(at, g, rates);
+  double farthest = 0.0;
+  for (const double x : at.q) farthest = std::max(farthest, std::abs(x));
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const std::size_t number : stated.contacts()) {
+    const double gradient = gradient_of(stated, number, at, stated.coordinate_scales(1.0));
+    const double gap = std::abs(g[static_cast<std::size_t>(stated.layout()->constraints[number].first_row)]);
+    if (gap > round_off() * farthest * gradient) nearest = std::min(nearest, gap / gradient);
+  }
+  return nearest;
+}
 
 Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, double tolerance,
                    const Instant& start, bool friction)
@@ -45,11 +75,11 @@ Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, d
   find_gaps(start);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     Contact& c = contacts_[i];
-    const double gap = c.sign * g_[c.row], gradient = gradient_of(c, start);
+    const double gap = c.sign * g_[c.row],
+                 gradient = gradient_of(*stated_, c.number, start, scales_.lengths());
     const double allowed = rounding_of_the_user * scales_.length * gradient;
     if (std::abs(gap) <= allowed) touching_at_start_.push_back(i);
     c.gradient = gradient;
-    c.zero = gradient * scales_.rounding(start.q);
     if (gap >= -allowed) continue;
     std::ostringstream what;
     what << stated_->row_label(c.row) << " is violated by the initial positions: distance " << -gap / gradient
@@ -68,30 +98,17 @@ void Contacts::find_gaps(const Instant& at) const {
   gaps_at_ = at.t;
 }
 
-/// The length of a contact's gradient; 0 where it has none, as a string of length 0.
-double Contacts::gradient_of(const Contact& contact, const Instant& at) const {
-  std::vector<std::size_t> others;
-  for (const Contact& c : contacts_)
-    if (c.number != contact.number) others.push_back(c.number);
-  const System alone = stated_->without(others);
-  auto e = alone.evaluation();
-  try {
-    alone.evaluate(at, e);
-  } catch (const EquationFault&) {
-    return 0.0;
-  }
-  return gradient_length(alone, e.w, scales_.lengths(), contact.row);
-}
-
 double Contacts::watched(std::size_t contact, const FlatSample& now) const {
   const Contact& c = contacts_[contact];
   if (c.closed) return c.sign * now.lambda[c.row] + tolerance_ * largest_force(*stated_, now);
   if (now.time == c.opened_at) return c.rate_at_opening;
   if (gaps_at_ != now.time) find_gaps({now.time, now.q, now.v});
   const double gap = c.sign * g_[c.row], rate = c.sign * psi_[c.row];
-  if (rate > 0.0 && gap <= c.zero && gap >= c.gap_at_opening - c.zero) return rate;
+  const double none = no_gap(c, now.q), below = c.parted ? none : std::max(none, error_of_gap(c));
+  const bool leaves = rate > round_off() * scales_.speed() * c.gradient;
+  if (leaves && gap <= none && gap >= c.gap_at_opening - below) return rate;
   const double since = c.opened_at ? now.time - *c.opened_at : 1.0;
-  return std::abs(gap) <= c.zero ? 0.0 : gap / since;
+  return std::abs(gap) <= none ? 0.0 : gap / since;
 }
 
 /// What is closed or lies on its surface, what has fallen to it, and what reaches its own before times can
@@ -103,8 +120,9 @@ std::vector<std::size_t> Contacts::touching(const Instant& at, const std::vector
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const Contact& c = contacts_[i];
     const double gap = c.sign * g_[c.row], rate = c.sign * psi_[c.row];
-    const bool lies = gap <= c.zero && rate <= still(c);
-    if (c.closed || among(fallen, i) || lies || (rate < 0.0 && gap + rate * same_time <= c.zero))
+    const double none = no_gap(c, at.q);
+    const bool lies = gap <= none && rate <= still(c);
+    if (c.closed || among(fallen, i) || lies || (rate < 0.0 && gap + rate * same_time <= none))
       touching.push_back(i);
   }
   return touching;
@@ -130,12 +148,13 @@ void Contacts::refuse(const std::vector<std::size_t>& contacts, double t, const 
   throw StepFailure{names + ": " + what, t};
 }
 
-bool Contacts::open_pulling(const FlatSample& now) {
+bool Contacts::open_pulling(const FlatSample& now, std::vector<Happening>& what) {
+  find_gaps({now.time, now.q, now.v});
   double largest = 0.0;
   for (const double lambda : now.lambda) largest = std::max(largest, std::abs(lambda));
   const auto pull = [&](const Contact& c) { return c.sign * now.lambda[c.row]; };
   const auto may_open = [&](const Contact& c) {
-    return c.closed && (friction_ || !now.unique[c.row]) && pull(c) < -round_off * largest;
+    return c.closed && (friction_ || !now.unique[c.row]) && pull(c) < -round_off() * largest;
   };
   const auto most =
       std::ranges::min_element(contacts_, {}, [&](const Contact& c) { return may_open(c) ? pull(c) : 0.0; });
@@ -144,32 +163,54 @@ bool Contacts::open_pulling(const FlatSample& now) {
   for (Contact& c : contacts_) {
     const bool opens = friction_ ? &c == &*most : c.closed && !c.bears;
     if (!opens) continue;
-    c.closed = false;
-    c.opened_at = now.time;
-    c.rate_at_opening = 0.0;
+    open(c, now.time, 0.0);
     found = true;
+    if (c.closed_at < now.time)
+      what.push_back({static_cast<std::size_t>(&c - contacts_.data()), Happened::opened, now.time});
   }
   settle();
   return found;
 }
 
-void Contacts::require_open(const FlatSample& now) const {
+/// What counts as no gap: round-off of the positions.
+double Contacts::no_gap(const Contact& contact, std::span<const double> q) const {
+  return contact.gradient * scales_.rounding(q);
+}
+
+/// What steps may err by in a gap.
+double Contacts::error_of_gap(const Contact& contact) const {
+  return tolerance_ * scales_.length * contact.gradient;
+}
+
+void Contacts::require_open(const FlatSample& now) {
   find_gaps({now.time, now.q, now.v});
-  for (const Contact& c : contacts_) {
-    if (c.closed || -c.sign * g_[c.row] <= tolerance_ * scales_.length * c.gradient) continue;
+  for (Contact& c : contacts_) {
+    const double gap = c.sign * g_[c.row];
+    c.parted = c.parted || gap > error_of_gap(c);
+    const double of_time = 8.0 * std::numeric_limits<double>::epsilon() * std::abs(now.time * psi_[c.row]);
+    if (c.closed || gap >= -error_of_gap(c) - of_time) continue;
     throw StepFailure{
         stated_->row_label(c.row) + " was run through: at none of the times looked at was it closed",
         now.time};
   }
 }
 
-void Contacts::open(std::size_t number, double t, double rate, Change& change) {
-  Contact& contact = contacts_[number];
-  if (contact.closed) change.what.push_back({number, Happened::opened, t});
-  contact.closed = false;
+/// With g_ as it is then.
+void Contacts::open(Contact& contact, double t, double rate) const {
+  contact.closed = contact.parted = false;
   contact.opened_at = t;
   contact.rate_at_opening = rate;
   contact.gap_at_opening = std::min(contact.sign * g_[contact.row], 0.0);
+}
+
+void Contacts::close(Contact& contact, double t) {
+  if (!contact.closed) contact.closed_at = t;
+  contact.closed = true;
+}
+
+void Contacts::open(std::size_t number, double t, double rate, Change& change) {
+  if (contacts_[number].closed) change.what.push_back({number, Happened::opened, t});
+  open(contacts_[number], t, rate);
 }
 
 std::vector<std::size_t> Contacts::restate(std::shared_ptr<const System> stated, const Instant& at) {

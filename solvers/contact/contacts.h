@@ -18,6 +18,9 @@ namespace DALEMBERT_HIDDEN dalembert {
 
 class Coupling;
 
+/// The distance to the nearest one-sided constraint that is not touched; infinite if there is none.
+[[nodiscard]] double nearest_contact(const System& stated, const Instant& at);
+
 /// The one-sided constraints of a run: which of them are closed, and what happens where that changes.
 ///
 /// With gaps s g >= 0 and forces s lambda >= 0, s the sign that each contact allows, U = d(s g)/dt,
@@ -52,12 +55,13 @@ class Contacts {
   void adopt(const Scales& scales) { scales_ = scales; }
 
   /// A function of each that falls through 0 where the contact opens or closes: the force of a closed one;
-  /// the gap of an open one, over the time since it opened: that has no root there. (What is not
-  /// above the surface yet, by round-off, but leaves counts by its rate.) A force that is 0 to the
-  /// tolerance, of those there are, has not fallen.
+  /// the gap of an open one, over the time since it opened: that has no root there. (What has just opened
+  /// and is not above the surface yet, by what a step errs, but leaves counts by its rate.) A force that is 0
+  /// to the tolerance, of those there are, has not fallen.
   [[nodiscard]] double watched(std::size_t contact, const FlatSample& now) const;
-  /// That no open contact has been run through unseen. Throws StepFailure, which names it.
-  void require_open(const FlatSample& now) const;
+  /// Notes which open contacts have parted where a step ends, or a change. Throws StepFailure, which names
+  /// it, if one has been run through unseen.
+  void require_open(const FlatSample& now);
 
   struct Happening {
     std::size_t contact;
@@ -82,8 +86,8 @@ class Contacts {
   Change pass(const Instant& at, const std::vector<std::size_t>& fallen);
   /// Where the forces of closed contacts are not determined the smallest ones may pull, though there are
   /// others that push, those of (2): opens what these leave without a force; with friction the one that pulls
-  /// most. Whether there was anything.
-  [[nodiscard]] bool open_pulling(const FlatSample& now);
+  /// most. Returns whether there was anything, and adds what was closed before.
+  [[nodiscard]] bool open_pulling(const FlatSample& now, std::vector<Happening>& what);
   /// The numbers in the layout of those that are open.
   [[nodiscard]] std::vector<std::size_t> open() const;
 
@@ -93,18 +97,18 @@ class Contacts {
     std::size_t row;
     double sign, restitution;
     bool closed = false, moved = false;  // though closed
-    bool bears = false;                  // by the forces of (2) that were found when it was last closed
-    std::optional<double> opened_at{};   // if it was closed before
+    double closed_at = 0.0;
+    bool bears = false;                 // by the forces of (2) that were found when it was last closed
+    std::optional<double> opened_at{};  // if it was closed before
     double rate_at_opening = 0.0;
     double gap_at_opening = 0.0;  // at most 0: round-off of times and positions
+    bool parted = true;           // since then it has been farther off than steps err
     Accumulation impacts{};
     double gradient = 1.0;  // its length at the start
-    double zero = 0.0;      // what counts as no gap: round-off of the positions
   };
 
   [[nodiscard]] static bool among(const std::vector<std::size_t>& all, std::size_t contact);
   void find_gaps(const Instant& at) const;
-  [[nodiscard]] double gradient_of(const Contact& contact, const Instant& at) const;
   [[nodiscard]] std::vector<std::size_t> touching(const Instant& at,
                                                   const std::vector<std::size_t>& fallen) const;
   [[nodiscard]] std::vector<std::size_t> numbers(const std::vector<std::size_t>& chosen) const;
@@ -118,12 +122,17 @@ class Contacts {
                                  Change& change);
   [[nodiscard]] double still(const Contact& contact) const;
   void find_driven(const Instant& at);
+  [[nodiscard]] bool join_slow(const Instant& at, std::vector<std::size_t>& touched) const;
   void close(const std::vector<std::size_t>& touched, const std::vector<std::size_t>& fallen,
              const std::vector<Eigen::Index>& resting, double t, Change& change);
   void accelerate(Coupling& coupling, const std::vector<std::size_t>& touched,
                   const std::vector<std::size_t>& fallen, const std::vector<Eigen::Index>& resting,
                   const Instant& at, Change& change);
   [[noreturn]] void refuse(const std::vector<std::size_t>& contacts, double t, const char* what) const;
+  [[nodiscard]] double error_of_gap(const Contact& contact) const;
+  [[nodiscard]] double no_gap(const Contact& contact, std::span<const double> q) const;
+  void open(Contact& contact, double t, double rate) const;
+  static void close(Contact& contact, double t);
   void open(std::size_t number, double t, double rate, Change& change);
   void settle();
 

@@ -76,7 +76,7 @@ VectorXd Coupling::rates(std::span<const double> v) const {
       sum -= term;
       terms += std::abs(term);
     }
-    U[i] = std::abs(rate) <= round_off * (terms + std::abs(sum)) ? 0.0 : signs_[c] * rate;
+    U[i] = std::abs(rate) <= round_off() * (terms + std::abs(sum)) ? 0.0 : signs_[c] * rate;
   }
   return U;
 }

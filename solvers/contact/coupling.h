@@ -27,7 +27,7 @@ class Coupling {
   Coupling(std::shared_ptr<const System> system, const std::vector<std::size_t>& contacts, const Instant& at);
 
   [[nodiscard]] const Eigen::MatrixXd& S() const { return S_; }
-  /// Of the state that it was made for, with these velocities; 0 where they are round-off.
+  /// Of the state that it was made for, whose velocities these are; 0 where they are round-off.
   [[nodiscard]] Eigen::VectorXd rates(std::span<const double> v) const;
   /// Of the contacts' rates, with the given velocities, if they exert no force. (M a - W_b^T lambda_b = F.)
   [[nodiscard]] Eigen::VectorXd accelerations_without(const Instant& at);

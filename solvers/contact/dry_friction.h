@@ -9,7 +9,6 @@
 
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -82,6 +81,7 @@ class DryFriction {
   void read_law(Rough& rough) const;
   [[nodiscard]] double round_off_of(const Rough& rough, std::span<const double> a,
                                     std::span<const double> lambda) const;
+  [[nodiscard]] static Eigen::VectorXd part(const Rough& rough, std::span<const double> all);
   void find_slip(const Instant& at) const;
   [[nodiscard]] Eigen::VectorXd slip(const Rough& rough) const;
   void let_go(Rough& rough, const Eigen::VectorXd& held_by) const;
@@ -93,7 +93,7 @@ class DryFriction {
   void find_direction(Rough& rough, const std::vector<std::size_t>& open, const Instant& at);
   void begin(Rough& rough, const std::vector<std::size_t>& open, std::optional<std::size_t> fallen,
              const FlatSample& motion);
-  void require_own_share(const Rough& rough, std::span<const char> unique, double t);
+  void require_own_share(const Rough& rough, std::span<const char> unique, double t) const;
   [[nodiscard]] bool amend(const std::vector<std::size_t>& open, const Instant& at, const Motion& motion);
   [[nodiscard]] std::vector<double> modes() const;
   [[nodiscard]] bool let_go_what_exceeds(const std::vector<std::size_t>& open, const Instant& at,
@@ -106,7 +106,6 @@ class DryFriction {
   Scales scales_;
   double tolerance_;
   std::vector<Rough> all_;
-  bool shared_ = false;  // what was let go has a share of the friction that is not determined
   mutable std::vector<double> g_, u_;
   mutable double slip_at_ = std::numeric_limits<double>::quiet_NaN();
 };

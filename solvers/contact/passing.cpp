@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 /// x without what is round-off beside the largest, each in its own unit.
 void clear_round_off(VectorXd& x, const VectorXd& unit, double largest) {
   for (Index i = 0; i < x.size(); ++i)
-    if (std::abs(x[i]) * unit[i] <= round_off * largest) x[i] = 0.0;
+    if (std::abs(x[i]) * unit[i] <= round_off() * largest) x[i] = 0.0;
 }
 
 /// The unit in which a rate of each contact is comparable with those of others.
@@ -88,9 +88,7 @@ Contacts::Change Contacts::begin(const Instant& start) {
     if (rate <= still(c)) {
       stay.push_back(i);
     } else {
-      c.opened_at = start.t;
-      c.rate_at_opening = rate;
-      c.gap_at_opening = std::min(c.sign * g_[c.row], 0.0);
+      open(c, start.t, rate);
     }
   }
   return pass(start, stay);
@@ -110,6 +108,19 @@ std::optional<std::size_t> Contacts::driven() const {
   for (std::size_t i = 0; i < contacts_.size(); ++i)
     if (!contacts_[i].closed && contacts_[i].rate_at_opening < 0.0) return i;
   return std::nullopt;
+}
+
+/// Adds what impacts at one time have left at its surface, no faster than velocities are known: what is
+/// thrown to and fro in a slot without play would else be open on both sides of it. Whether there was any.
+bool Contacts::join_slow(const Instant& at, std::vector<std::size_t>& touched) const {
+  const std::size_t before = touched.size();
+  find_gaps(at);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Contact& c = contacts_[i];
+    const bool slow = std::abs(psi_[c.row]) <= still(c) && c.sign * g_[c.row] <= no_gap(c, at.q);
+    if (!c.closed && slow && !among(touched, i)) touched.push_back(i);
+  }
+  return touched.size() > before;
 }
 
 Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t>& fallen) {
@@ -142,13 +153,22 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
     }
   }
   for (Contact& c : contacts_) c.moved = false;
+  const Instant after{at.t, at.q, change.v};
+  if (known_roughly && join_slow(after, touched)) {
+    coupling.emplace(only(touched), numbers(touched), after);
+    U = coupling->rates(after.v);
+    for (std::size_t k = 0; k < touched.size(); ++k) {
+      double& rate = U[static_cast<Index>(k)];
+      if (std::abs(rate) <= still(contacts_[touched[k]])) rate = 0.0;
+    }
+  }
   const auto resting = part(touched, U, at.t, change);
   if (friction_) {
     close(touched, fallen, resting, at.t, change);
   } else {
     accelerate(*coupling, touched, fallen, resting, at, change);
   }
-  find_driven({at.t, at.q, change.v});
+  find_driven(after);
   settle();
   return change;
 }
@@ -161,7 +181,7 @@ void Contacts::close(const std::vector<std::size_t>& touched, const std::vector<
     if (among(fallen, i) && contacts_[i].closed) {
       open(i, t, 0.0, change);
     } else {
-      contacts_[i].closed = true;
+      close(contacts_[i], t);
     }
   }
 }
@@ -204,7 +224,7 @@ void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& to
     if ((A[row] > 0.0 && (*lambda)[row] == 0.0) || falls) {
       open(i, at.t, 0.0, change);
     } else {
-      contacts_[i].closed = true;
+      close(contacts_[i], at.t);
       contacts_[i].bears = (*lambda)[row] > 0.0;
     }
   }

@@ -1,12 +1,14 @@
 #pragma once
 
-#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/base/constants.h>
 
 #include <limits>
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// What is below this part of the largest beside it is what some thousand roundings leave of 0.
-inline constexpr double round_off = 1e4 * std::numeric_limits<double>::epsilon();
+/// The part of the largest beside it below which a number is round-off.
+[[nodiscard]] inline double round_off() {
+  return constants.roundings_at_contacts * std::numeric_limits<double>::epsilon();
+}
 
 }  // namespace dalembert

@@ -20,14 +20,18 @@ double Transitions::watched(std::size_t function, const FlatSample& now) const {
                                      : friction_.watched(function - contacts_.size(), now);
 }
 
+void Transitions::add(const std::vector<Contacts::Happening>& contacts,
+                      const std::vector<DryFriction::Happening>& friction,
+                      std::vector<Occurrence>& what) const {
+  for (const auto& one : contacts) what.push_back({contacts_.index(one.contact), one.time, one.what});
+  for (const auto& one : friction) what.push_back({one.constraint, one.time, one.what});
+}
+
 /// What contacts did, and what that does to friction.
 Transitions::Change Transitions::settle(Contacts::Change contacts, const Instant& at) {
   friction_.require_no_impulse(contacts.impulses, at.t);
   Change change{std::move(contacts.v_before), std::move(contacts.v), std::move(contacts.impulses)};
-  for (const auto& one : contacts.what)
-    change.what.push_back({contacts_.index(one.contact), one.time, one.what});
-  for (const auto& one : friction_.settle(contacts_.open(), {at.t, at.q, change.v}))
-    change.what.push_back({one.constraint, one.time, one.what});
+  add(contacts.what, friction_.settle(contacts_.open(), {at.t, at.q, change.v}), change.what);
   return change;
 }
 
@@ -38,8 +42,7 @@ Transitions::Change Transitions::pass(const FlatSample& at, std::size_t function
   if (function < contacts_.size()) return settle(contacts_.pass(now, {function}), now);
   const std::vector<double> v(at.v.begin(), at.v.end());
   Change change{v, v, std::vector<double>(at.lambda.size())};
-  for (const auto& one : friction_.settle(contacts_.open(), now, function - contacts_.size(), at))
-    change.what.push_back({one.constraint, one.time, one.what});
+  add({}, friction_.settle(contacts_.open(), now, function - contacts_.size(), at), change.what);
   return change;
 }
 
@@ -57,9 +60,10 @@ void Transitions::adopt(const Scales& scales) {
   friction_.adopt(scales);
 }
 
-bool Transitions::open_pulling(const FlatSample& now) {
-  if (!contacts_.open_pulling(now)) return false;
-  friction_.settle(contacts_.open(), {now.time, now.q, now.v});
+bool Transitions::open_pulling(const FlatSample& now, std::vector<Occurrence>& what) {
+  std::vector<Contacts::Happening> opened;
+  if (!contacts_.open_pulling(now, opened)) return false;
+  add(opened, friction_.settle(contacts_.open(), {now.time, now.q, now.v}), what);
   return true;
 }
 

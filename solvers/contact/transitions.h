@@ -35,7 +35,7 @@ class Transitions {
   [[nodiscard]] std::string label(std::size_t function) const;
   [[nodiscard]] double watched(std::size_t function, const FlatSample& now) const;
   /// See Contacts.
-  void require_open(const FlatSample& now) const { contacts_.require_open(now); }
+  void require_open(const FlatSample& now) { contacts_.require_open(now); }
 
   /// What happens at the start. Throws as Contacts::pass and DryFriction::settle.
   [[nodiscard]] Change begin(const Instant& at);
@@ -50,10 +50,12 @@ class Transitions {
   /// The scales of the run, where they are others than those of its constraints that always hold.
   void adopt(const Scales& scales);
   /// See Contacts.
-  [[nodiscard]] bool open_pulling(const FlatSample& now);
+  [[nodiscard]] bool open_pulling(const FlatSample& now, std::vector<Occurrence>& what);
 
  private:
   [[nodiscard]] Change settle(Contacts::Change contacts, const Instant& at);
+  void add(const std::vector<Contacts::Happening>& contacts,
+           const std::vector<DryFriction::Happening>& friction, std::vector<Occurrence>& what) const;
 
   Contacts contacts_;
   DryFriction friction_;

@@ -118,18 +118,9 @@ const Scales& ErkStepper::scales() const { return state_->scales; }
 double ErkStepper::time() const { return state_->to.t; }
 double ErkStepper::sine() const { return state_->to.sine; }
 
-namespace {
-
-/// The cubic through two values and derivatives, a step h apart, at the part u of it.
-double cubic(double u, double h, double f0, double f1, double d0, double d1) {
-  return f0 + u * u * (3.0 - 2.0 * u) * (f1 - f0) + h * u * (1.0 - u) * ((1.0 - u) * d0 - u * d1);
-}
-
-}  // namespace
-
-/// Round-off of positions is 1/h times as much in the derivative of their polynomial. In a step of a
-/// hundredth of the usual, as one up to a switch is, a cubic of the velocities errs by 1e-8 of what it would
-/// in a usual one, which is less.
+/// Velocities are the derivative of the polynomial of positions, but for its round-off, that of positions and
+/// times over h: where the polynomial of velocities and accelerations, which is of lower degree, agrees to
+/// that, it has less.
 void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v) {
   State& s = *state_;
   for (const State::Node* node : {&s.to, &s.from}) {
@@ -141,16 +132,17 @@ void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v)
   if (s.crossed) return s.read_crossing(t, q, v);
   s.find_middle();
   const Hermite<3> polynomial({s.from.t, s.middle.t, s.to.t}, t);
-  const double h = s.to.t - s.from.t;
-  const bool brief = h < 0.01 * s.usual;
+  const Hermite<3, 2> of_velocities({s.from.t, s.middle.t, s.to.t}, t);
+  const double rounding = s.scales.rounding(s.to.q), h = s.to.t - s.from.t,
+               of_time = 10.0 * std::numeric_limits<double>::epsilon() * std::abs(s.to.t);
   for (std::size_t i = 0; i < s.n; ++i) {
-    const auto x =
-        polynomial({s.from.q[i], s.middle.q[i], s.to.q[i]}, {s.from.va[i], s.middle.va[i], s.to.va[i]},
-                   {s.from.va[s.n + i], s.middle.va[s.n + i], s.to.va[s.n + i]});
+    const std::array speeds{s.from.va[i], s.middle.va[i], s.to.va[i]},
+        accelerations{s.from.va[s.n + i], s.middle.va[s.n + i], s.to.va[s.n + i]};
+    const auto x = polynomial({s.from.q[i], s.middle.q[i], s.to.q[i]}, speeds, accelerations);
+    const double of_lower_degree = of_velocities(speeds, accelerations).value;
+    const double round_off = 10.0 * (rounding + of_time * std::abs(speeds[0])) / h;
     q[i] = x.value;
-    v[i] = brief
-               ? cubic((t - s.from.t) / h, h, s.from.va[i], s.to.va[i], s.from.va[s.n + i], s.to.va[s.n + i])
-               : x.derivative;
+    v[i] = std::abs(x.derivative - of_lower_degree) <= round_off ? of_lower_degree : x.derivative;
   }
 }
 

@@ -37,9 +37,9 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
       difference(2 * start.q.size()),
       weight(difference.size()),
       covered(start.scales.way),
-      h(std::min(
-          constants.first_explicit_step * std::pow(options.tolerance, 1.0 / pair.order) * start.scales.time,
-          options.t_end - options.t_start)),
+      usual(constants.first_explicit_step * std::pow(options.tolerance, 1.0 / pair.order) *
+            start.scales.time),
+      h(std::min(usual, options.t_end - options.t_start)),
       passage(n),
       switches(s, {options.t_start, start.q, start.v}, start.lambda),
       multipliers(start.lambda.size()) {

@@ -107,8 +107,8 @@ struct ErkStepper::State {
   std::vector<double> difference, weight;  // of positions and velocities
   std::vector<double> force_of_spring;     // per row, 0 in rigid ones; empty if all are
   Way covered;                             // by the steps taken; `scales` may be those of one that is tried
-  double h;
-  double usual = h;  // step
+  double usual;                            // step, however near the end of the run is
+  double h;                                // to try next
   long steps = 0, failures = 0, stability_limited = 0;
 
   Passage passage;

@@ -25,12 +25,15 @@ std::vector<double> Scales::lengths() const {
 /// Relative to the way, errors are the same whatever the units and wherever t_end lies: a step from rest at
 /// constant acceleration a covers a h^2/2, and the first term of its error is smaller by a power of h over
 /// the time in which the acceleration changes. Round-off in forces of size m a moves it in a step by eps a
-/// h^2: that must not count against the tolerance, so no way is shorter than some eps a h^2 over the
-/// tolerance.
+/// h^2, in the positions themselves by eps |q|: that must not count against the tolerance, so no way is
+/// shorter than some of these over the tolerance.
 Way Scales::further(std::span<const double> q, std::span<const double> v, double h, double tolerance) const {
   const double rounding = constants.roundings_of_path * std::numeric_limits<double>::epsilon();
   const double noise = std::max(rounding / tolerance * forced * h, least);
-  Way next{std::max({way.length, noise * h, least}), std::max(way.speed, noise), way.rate, h};
+  double least_length = std::max(noise * h, least);
+  for (std::size_t i = 0; i < q.size(); ++i)
+    if (is_angle[i] == 0.0) least_length = std::max(least_length, rounding / tolerance * std::abs(q[i]));
+  Way next{std::max(way.length, least_length), std::max(way.speed, noise), way.rate, h};
   for (std::size_t i = 0; i < q.size(); ++i) {
     if (is_angle[i] > 0.0) {
       next.rate = std::max(next.rate, std::abs(v[i]));

@@ -2,12 +2,12 @@
 
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/manifold/first_scales.h>
 #include <dalembert/solvers/manifold/manifold.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <sstream>
 
 namespace dalembert {
@@ -16,27 +16,6 @@ namespace {
 
 /// What Newton's iteration leaves when it has converged; a few units of round-off.
 constexpr double converged = 1e-14;
-
-double largest_entry(std::span<const double> x) {
-  return std::accumulate(x.begin(), x.end(), 0.0,
-                         [](double m, double y) { return std::max(m, std::abs(y)); });
-}
-
-/// Largest |x_i| in units of each coordinate's scale; coordinates of scale 0 do not count.
-double largest_scaled(std::span<const double> x, std::span<const double> scale) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (scale[i] > 0.0) largest = std::max(largest, std::abs(x[i]) / scale[i]);
-  }
-  return largest;
-}
-
-/// F/m, as if there were no constraints.
-std::vector<double> forced_acceleration(const System& system, const System::Evaluation& e) {
-  std::vector<double> a(e.force);
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] /= system.masses()[i];
-  return a;
-}
 
 /// The equations at a state whose springs are as long as it says: compliant rows are obeyed there.
 void evaluate_relaxed(const System& system, const Instant& at, System::Evaluation& e) {
@@ -49,61 +28,11 @@ void evaluate_relaxed(const System& system, const Instant& at, System::Evaluatio
 void require_gradients(const System& system, const System::Evaluation& e, double t) {
   for (std::size_t r = 0; r < system.rows(); ++r) {
     const auto own = std::span(e.w).subspan(system.row(r).front(), system.row(r).size());
-    if (!system.in_force(r) || largest_entry(own) > 0.0) continue;
+    if (!system.in_force(r) || std::ranges::any_of(own, [](double w) { return w != 0.0; })) continue;
     std::ostringstream what;
     what << system.row_label(r) << " has no gradient: " << system.singular_hint(r) << " (t = " << t << ')';
     throw InconsistentStart(what.str());
   }
-}
-
-/// 1 for every coordinate that is a length, 0 for an angle.
-std::vector<double> lengths_only(const System& system) {
-  auto scales = system.coordinate_scales(0.0);
-  for (double& s : scales) s = 1.0 - s;
-  return scales;
-}
-
-/// Smallest radius of curvature of the holonomic constraints, from their second derivatives at
-/// unit gradient; infinite if all are flat. It needs no knowledge of what they are.
-double smallest_radius(const System& system, const Instant& at, const System::Evaluation& e) {
-  std::vector<double> unit(system.rows(), 0.0);
-  for (std::size_t r = 0; r < system.holonomic_rows(); ++r) {
-    double square = 0.0;
-    for (const std::size_t k : system.row(r)) {
-      square += e.w[k] * e.w[k];
-    }
-    if (system.in_force(r)) unit[r] = 1.0 / std::sqrt(square);
-  }
-  auto bent = system.linearisation();
-  system.linearise_constraints(at, unit, bent);
-  double curvature = 0.0;
-  const auto length = lengths_only(system);
-  for (std::size_t k = 0; k < system.stiffness_of_constraints(); ++k) {
-    const auto [row, column] = system.stiffness_pattern()[k];
-    if (length[row] == 0.0 || length[column] == 0.0) continue;
-    curvature = std::max(curvature, std::abs(bent.stiffness[k]));
-  }
-  return 1.0 / curvature;
-}
-
-/// Sets the length of the scene: the box around its points; for a lone particle on a surface or curve
-/// the radius of curvature, unless it does not get so far. What is free or on something nearly flat has no
-/// length but that of its path, of which the first instant gives a guess. (On a compliant constraint that
-/// guess has to do: an explicit step would tell the vibration of the spring.)
-void set_length(const System& system, const Instant& at, const System::Evaluation& e, const Options& options,
-                Scales& scales) {
-  const double duration = options.t_end - options.t_start;
-  scales.length = options.length > 0.0 ? options.length : system.extent(at.t);
-  if (scales.length > 0.0) return;
-  const double radius = smallest_radius(system, at, e);
-  const auto lengths = lengths_only(system);
-  const double v = largest_scaled(at.v, lengths);
-  const double a = largest_scaled(forced_acceleration(system, e), lengths);
-  const double reach = v * duration + a * duration * duration;
-  scales.length = reach > 0.0 ? std::min(radius, reach) : std::isfinite(radius) ? radius : 1.0;
-  scales.of_path = !system.compliant() && scales.length < radius && largest_entry(lengths) > 0.0;
-  if (std::isinf(radius) && v > 0.0 && a > 0.0) scales.length = v * v / a;
-  scales.forced = a;
 }
 
 /// Squares of lengths and their inverses occur everywhere.
@@ -114,19 +43,6 @@ void require_size(double length) {
        << ", is beyond what double precision computes with; choose other units, or correct the position or "
           "speed that makes it so";
   throw InconsistentStart(what.str());
-}
-
-/// The shortest time in which the scene's speeds, forces or accelerations move a coordinate by its
-/// scale.
-double time_scale(const System& system, const System::Evaluation& e, const Start& start, double duration) {
-  const auto& scale = start.scales.coordinate;
-  const double v = largest_scaled(start.v, scale);
-  const double a =
-      std::max(largest_scaled(start.a, scale), largest_scaled(forced_acceleration(system, e), scale));
-  double time = duration;
-  if (v > 0.0) time = std::min(time, 1.0 / v);
-  if (a > 0.0) time = std::min(time, 1.0 / std::sqrt(a));
-  return time;
 }
 
 [[noreturn]] void refuse(const System& system, const Violation& violation, double t, const char* quantity,
@@ -220,7 +136,7 @@ void start_velocities(const System& system, const Start& start, const System::Ev
 }  // namespace
 
 Start consistent_start(const System& system, std::span<const double> q, std::span<const double> v,
-                       const Options& options) {
+                       const Options& options, double nearest_contact) {
   const double t = options.t_start;
   const double duration = options.t_end - options.t_start;
   Start start{{q.begin(), q.end()},
@@ -233,7 +149,7 @@ Start consistent_start(const System& system, std::span<const double> q, std::spa
     auto e = system.evaluation();
     evaluate_relaxed(system, {t, q, v}, e);
     require_gradients(system, e, t);
-    set_length(system, {t, q, v}, e, options, start.scales);
+    set_length(system, {t, q, v}, e, options, nearest_contact, start.scales);
     require_size(start.scales.length);
     start.scales.coordinate = system.coordinate_scales(start.scales.length);
     start.scales.is_angle = system.coordinate_scales(0.0);

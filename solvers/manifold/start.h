@@ -6,6 +6,7 @@
 #include <dalembert/solvers/linear/rows.h>
 #include <dalembert/solvers/manifold/scales.h>
 
+#include <limits>
 #include <vector>
 
 namespace DALEMBERT_HIDDEN dalembert {
@@ -22,9 +23,11 @@ struct Start {
 };
 
 /// Checks the given state against the constraints, or with options.assemble moves it onto them,
-/// and finds accelerations and multipliers. Throws InconsistentStart, naming the constraint.
+/// and finds accelerations and multipliers. A contact that is not among the constraints may be as near as
+/// `nearest_contact`. Throws InconsistentStart, naming the constraint.
 [[nodiscard]] Start consistent_start(const System& system, std::span<const double> q,
-                                     std::span<const double> v, const Options& options);
+                                     std::span<const double> v, const Options& options,
+                                     double nearest_contact = std::numeric_limits<double>::infinity());
 
 /// A start from a state on the way of a run whose constraints have changed since it began with `before`: put
 /// onto those that there are now, of which it is right to `known`, a part of the scene's length. Throws

@@ -92,7 +92,7 @@ void EventWatch::begin_anew(const FlatSample& start, std::size_t positive) {
 
 /// After a change a function may stay at 0, to round-off.
 int EventWatch::first_side(std::size_t event, double value) const {
-  return std::abs(value) > round_off * largest_[event] ? sign(value) : 0;
+  return std::abs(value) > round_off() * largest_[event] ? sign(value) : 0;
 }
 
 double EventWatch::value(std::size_t event, const FlatSample& at) {
@@ -123,7 +123,7 @@ std::vector<EventWatch::Place> EventWatch::places(std::size_t event, const Read&
     if (side != 0 && (from_zero || side == sign(f_a)) && side * p.slope(j - 1) < 0.0 &&
         side * p.slope(j) > 0.0) {
       const double t = p.turn(a, b, side);
-      const double high = from_zero ? -round_off * largest_[event] : std::min(std::abs(f_a), std::abs(f_b));
+      const double high = from_zero ? -round_off() * largest_[event] : std::min(std::abs(f_a), std::abs(f_b));
       if (side * p(t) < high) places.push_back({t, value(event, read(t))});
     }
     places.push_back({b, f_b});

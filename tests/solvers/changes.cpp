@@ -1,5 +1,4 @@
-#include <dalembert/dalembert.h>
-#include <dalembert/tests/both_steppers.h>
+#include <dalembert/tests/solvers/with_events.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,16 +12,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double g = 9.81, tolerance = 1e-10;
-/// As in the tests of events.
-constexpr double met = 100.0 * tolerance;
-
-class Changes : public testing::TestWithParam<Stepper> {
- protected:
-  [[nodiscard]] static Options options(double t_end) {
-    return {.t_end = t_end, .samples = 11, .tolerance = tolerance, .stepper = GetParam()};
-  }
-};
+class Changes : public WithEvents {};
 INSTANTIATE_TEST_SUITE_P(Steppers, Changes, both_steppers, stepper_name);
 
 /// A pendulum of length 1 that is let go where it is level.

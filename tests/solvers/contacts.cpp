@@ -1,6 +1,5 @@
-#include <dalembert/dalembert.h>
 #include <dalembert/solvers/contact/complementarity.h>
-#include <dalembert/tests/both_steppers.h>
+#include <dalembert/tests/solvers/with_events.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,10 +14,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-constexpr double g = 9.81, tolerance = 1e-10;
-/// As in the tests of events.
-constexpr double met = 100.0 * tolerance;
 
 TEST(Complementarity, IsSolvedForRandomPositiveSemidefiniteMatrices) {
   // What a solution is needs no other solver. Ranks below the size, and rows repeated, make ties.
@@ -51,12 +46,7 @@ TEST(Complementarity, WithoutSolutionSaysSo) {
   EXPECT_TRUE(complementary_solution(M, Eigen::Vector2d(-1.0, 1.0)));
 }
 
-class Contacts : public testing::TestWithParam<Stepper> {
- protected:
-  [[nodiscard]] static Options options(double t_end) {
-    return {.t_end = t_end, .samples = 11, .tolerance = tolerance, .stepper = GetParam()};
-  }
-};
+class Contacts : public WithEvents {};
 INSTANTIATE_TEST_SUITE_P(Steppers, Contacts, both_steppers, stepper_name);
 
 TEST_P(Contacts, OfAVibratingTableThrowItsLoadOff) {

@@ -1,5 +1,4 @@
-#include <dalembert/dalembert.h>
-#include <dalembert/tests/both_steppers.h>
+#include <dalembert/tests/solvers/with_events.h>
 
 #include <gtest/gtest.h>
 
@@ -8,17 +7,8 @@
 namespace dalembert {
 namespace {
 
-constexpr double g = 9.81, tolerance = 1e-10;
-/// A run of a few seconds errs by some tens of its tolerance, and so do the times at which it gets anywhere.
-constexpr double met = 100.0 * tolerance;
-
 /// Contacts that touch, close and open at the limits of what round-off can tell.
-class ContactsAtRoundOff : public testing::TestWithParam<Stepper> {
- protected:
-  [[nodiscard]] static Options options(double t_end) {
-    return {.t_end = t_end, .samples = 11, .tolerance = tolerance, .stepper = GetParam()};
-  }
-};
+class ContactsAtRoundOff : public WithEvents {};
 INSTANTIATE_TEST_SUITE_P(Steppers, ContactsAtRoundOff, both_steppers, stepper_name);
 
 TEST_P(ContactsAtRoundOff, OnBothSidesPushOnTheSideThatIsPressed) {
@@ -57,6 +47,30 @@ TEST_P(ContactsAtRoundOff, OpenWhereTheirForceVanishesAmongImpacts) {
     EXPECT_EQ(opened, 1U) << height;
     EXPECT_EQ(run.multiplier(floor, 10), 0.0);
     EXPECT_NEAR(run.position(block, 10).y(), 1.0 / 6.0, met);
+  }
+}
+
+TEST_P(ContactsAtRoundOff, OfASlotWithoutPlayStopWhatIsThrownAcross) {
+  // To and fro in no time, slower each time; then one side bears what pulls, and it goes along the slot.
+  Scene<2> scene;
+  const auto ball = scene.add_particle({.mass = 1.0, .position = {0.6, -0.5}, .velocity = {-4.0, 0.5}});
+  scene.add(force_law(points(ball), [](auto t, auto, auto) { return vec(3.0 + 0.0 * t, 0.0 * t); }));
+  const auto right = scene.add(
+                 unilateral(OnCurve{ball, Plane<2>{{0.6, -0.5}, {-0.8, -0.6}}}, {.restitution = 0.16})),
+             left = scene.add(
+                 unilateral(OnCurve{ball, Plane<2>{{0.6, -0.5}, {0.8, 0.6}}}, {.restitution = 0.52}));
+  Options o = options(1.0);
+  o.max_steps = 1000;
+  const auto run = simulate(scene, o);
+  const Vec<2> n(0.8, 0.6), along(-0.6, 0.8);
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const double t = run.times()[i];
+    // What is left of the speed across is known no better than the velocities at the start, to 1e-8.
+    EXPECT_NEAR((run.position(ball, i) - Vec<2>(0.6, -0.5)).dot(n), 0.0, met) << t;
+    EXPECT_NEAR(run.velocity(ball, i).dot(along), 2.8 - 1.8 * t, met * 4.0) << t;
+    if (i == 0) continue;  // its forces are those of the first impact
+    EXPECT_NEAR(run.multiplier(right, i), 2.4, met) << t;
+    EXPECT_EQ(run.multiplier(left, i), 0.0) << t;
   }
 }
 

@@ -1,5 +1,4 @@
-#include <dalembert/dalembert.h>
-#include <dalembert/tests/both_steppers.h>
+#include <dalembert/tests/solvers/with_events.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,16 +13,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double g = 9.81, tolerance = 1e-10;
-/// As in the tests of events.
-constexpr double met = 100.0 * tolerance;
-
-class CoulombFriction : public testing::TestWithParam<Stepper> {
- protected:
-  [[nodiscard]] static Options options(double t_end) {
-    return {.t_end = t_end, .samples = 11, .tolerance = tolerance, .stepper = GetParam()};
-  }
-};
+class CoulombFriction : public WithEvents {};
 INSTANTIATE_TEST_SUITE_P(Steppers, CoulombFriction, both_steppers, stepper_name);
 
 /// A block of mass 2 on a line at this angle.
@@ -98,53 +88,6 @@ TEST_P(CoulombFriction, LetsGoWhereItsBoundIsReached) {
   EXPECT_NEAR(run.velocity(scene.block, 10).x(), v, met * v);
 }
 
-TEST_P(CoulombFriction, IsRoundInSpace) {
-  // A puck on a plane that is pulled along x by m f, below what friction holds:
-  //
-  //   u' = -mu g u/|u| + f e_x,   d(mu g |u| + f u_x)/dt = f^2 - (mu g)^2
-  //
-  // so it rests after (mu g |u0| + f u0_x)/((mu g)^2 - f^2), whatever the bend of its path.
-  constexpr double mu = 0.3, a = mu * g;
-  for (const double f : {0.0, 0.5 * a, 0.8 * a}) {
-    for (const double angle : {0.0, 0.7, 2.0, 3.0}) {
-      Scene<3> scene;
-      scene.add(UniformGravity<3>{{f, 0.0, -g}});
-      const Vec<3> along(std::cos(angle), std::sin(angle), 0.0);
-      const auto puck = scene.add_particle({.mass = 2.0, .velocity = 2.0 * along});
-      const auto table = scene.add(OnSurface{puck, Plane<3>{}});
-      const auto rough = scene.add(coulomb(table, Slip{puck, Plane<3>{}}, mu));
-      const double rests = 2.0 * (a + f * along.x()) / (a * a - f * f);
-      const auto run = simulate(scene, options(rests + 1.0));
-      EXPECT_NEAR((run.constraint_force(rough, puck, 0) + 2.0 * a * along).norm(), 0.0, met * g);
-      ASSERT_EQ(run.events().size(), 1U) << f << ' ' << angle;
-      EXPECT_EQ(run.events()[0].what, Happened::sticks);
-      EXPECT_NEAR(run.events()[0].time, rests, met * rests) << f << ' ' << angle;
-      EXPECT_NEAR(run.constraint_force(rough, puck, 10).x(), -2.0 * f, met * g);
-      if (f == 0.0) {
-        EXPECT_NEAR((run.position(puck, 10) - 2.0 / a * along).norm(), 0.0, met);
-      }
-    }
-  }
-}
-
-TEST_P(CoulombFriction, InSpaceGoesTheWayItIsPulled) {
-  // From rest, by a force that grows: as the block in the plane.
-  constexpr double k = 5.0, mu = 0.3, mu_static = 0.5;
-  Scene<3> scene;
-  scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
-  const auto puck = scene.add_particle({.mass = 2.0});
-  const auto table = scene.add(OnSurface{puck, Plane<3>{}});
-  scene.add(coulomb(table, Slip{puck, Plane<3>{}}, mu, mu_static));
-  const Vec<3> way = Vec<3>(0.6, -0.8, 0.0);
-  scene.add(force_law(points(puck), [way](auto t, auto, auto) { return (k * t * way).eval(); }));
-  const double goes = mu_static * 2.0 * g / k, t = goes + 1.0;
-  const auto run = simulate(scene, options(t));
-  ASSERT_EQ(run.events().size(), 1U);
-  EXPECT_NEAR(run.events()[0].time, goes, met);
-  const double v = (k * (t * t - goes * goes) / 2.0 - mu * 2.0 * g * (t - goes)) / 2.0;
-  EXPECT_NEAR((run.velocity(puck, 10) - v * way).norm(), 0.0, met * v);
-}
-
 TEST_P(CoulombFriction, OfAWireThatPressesEitherWay) {
   // A bead on a horizontal ring, no gravity: v' = -mu v^2/R, v = v0/(1 + mu v0 t/R). With gravity across the
   // ring's plane its multiplier changes sign on the way.
@@ -215,30 +158,6 @@ TEST_P(CoulombFriction, OfASkiddingWheelEndsInRolling) {
   EXPECT_NEAR(run.multiplier(rough, 10), 0.0, met * g);
 }
 
-TEST_P(CoulombFriction, OfCoupledPucksGoesAgainstTheirAccelerations) {
-  // Two pucks with a rod between them, pulled from rest each its own way.
-  constexpr double mu = 0.3;
-  Scene<3> scene;
-  const auto a = scene.add_particle({.mass = 1.0}),
-             b = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0, 0.0}});
-  scene.add(Distance{a, b, 1.0});
-  std::vector<Constraint<2>> rough;
-  for (const auto puck : {a, b}) {
-    const auto table = scene.add(OnSurface{puck, Plane<3>{}});
-    rough.push_back(scene.add(coulomb(table, Slip{puck, Plane<3>{}}, mu)));
-  }
-  scene.add(force_law(points(a, b), [](auto, auto, auto, auto) {
-    return std::tuple{vec(3.0, 5.0, -g), vec(4.0, -3.0, -g)};
-  }));
-  const auto run = simulate(scene, options(0.1));
-  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-    const Vec<3> sigma = run.constraint_force(rough[k], k == 0 ? a : b, 0);
-    const Vec<3> along = run.acceleration(k == 0 ? a : b, 0).normalized();
-    EXPECT_NEAR((sigma + mu * g * along).norm(), 0.0,
-                1e-5 * g);  // the root of round-off is asked of directions
-  }
-}
-
 TEST_P(CoulombFriction, IsToldBesideMuchLargerForces) {
   // A light block that 1e11 times its weight presses nothing of.
   Scene<2> scene;
@@ -270,20 +189,31 @@ TEST_P(CoulombFriction, OfFeetThatHoldTheSameIsRefusedWhereTheirSharesDecide) {
               ThrowsMessage<IntegrationFailure>(AllOf(HasSubstr("\"left\""), HasSubstr("not determined"))));
 }
 
-TEST_P(CoulombFriction, OfALoneParticleOnASphereIsRunInItsScales) {
-  // Sent off from the side, with no length but that of the sphere.
+TEST_P(CoulombFriction, ThatLetsGoMayOpenAContact) {
+  // A rod leans on a smooth wall at 45 degrees, its foot pulled away by F = k t. The foot holds F + m g of
+  // what 1.5 (2 m g) it could; then, without friction, the rod would have to pull its top onto the wall by
+  // F - m g. Free, it is under a tension of sqrt(2) (F - m g)/3, which gives its top a third of g.
+  constexpr double k = 4.0;
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -g}});
-  const double angle = 0.5;
-  const Vec<2> out(std::sin(angle), std::cos(angle)), along(std::cos(angle), -std::sin(angle));
-  const auto puck = scene.add_particle({.mass = 1.0, .position = out, .velocity = 0.4 * along});
-  const Sphere<2> sphere{};
-  const auto touch = scene.add(unilateral(OnCurve{puck, sphere}));
-  scene.add(coulomb(touch, Slip{puck, sphere}, 0.0));
-  const auto run = simulate(scene, options(0.6));
-  ASSERT_EQ(run.events().size(), 1U);
-  // v^2 = g cos where v^2 = v0^2 + 2 g (cos 0.5 - cos).
-  EXPECT_NEAR(run.event_sample(0).position(puck).y(), (0.16 + 2.0 * g * std::cos(angle)) / (3.0 * g), met);
+  const auto foot = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}}),
+             top = scene.add_particle({.mass = 1.0, .position = {0.0, 1.0}});
+  scene.add(Distance{foot, top, std::sqrt(2.0)});
+  const auto floor = scene.add(OnCurve{foot, Plane<2>{}}),
+             wall = scene.add(unilateral(OnCurve{top, Plane<2>{{0.0, 0.0}, {1.0, 0.0}}}));
+  const auto rough = scene.add(coulomb(floor, Slip{foot, Plane<2>{}}, 0.0, 1.5));
+  scene.add(force_law(points(foot), [](auto t, auto, auto) { return vec(k * t, 0.0 * t); }));
+  const double goes = 2.0 * g / k;
+  const auto run = simulate(scene, options(goes + 0.1));
+  ASSERT_EQ(run.events().size(), 2U);
+  for (const Occurrence& it : run.events()) EXPECT_NEAR(it.time, goes, met);
+  EXPECT_EQ(run.events()[0].what, Happened::slides);
+  EXPECT_EQ(run.events()[0].event, static_cast<std::size_t>(rough.index));
+  EXPECT_EQ(run.events()[1].what, Happened::opened);
+  EXPECT_EQ(run.events()[1].event, static_cast<std::size_t>(wall.index));
+  EXPECT_NEAR(run.event_sample(1).multiplier(wall), g, met * g);
+  EXPECT_EQ(run.sample_after(1).multiplier(wall), 0.0);
+  EXPECT_NEAR(run.sample_after(1).acceleration(top).x(), g / 3.0, met * g);
 }
 
 TEST_P(CoulombFriction, WithoutForceDoesNotChatter) {

@@ -1,6 +1,5 @@
-#include <dalembert/dalembert.h>
 #include <dalembert/solvers/base/root.h>
-#include <dalembert/tests/both_steppers.h>
+#include <dalembert/tests/solvers/with_events.h>
 
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <boost/math/special_functions/ellint_1.hpp>
@@ -18,16 +17,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double g = 9.81, tolerance = 1e-10;
-/// A run of a few seconds errs by some tens of its tolerance, and so do the times at which it gets anywhere.
-constexpr double met = 100.0 * tolerance;
-
-class Events : public testing::TestWithParam<Stepper> {
- protected:
-  [[nodiscard]] static Options options(double t_end) {
-    return {.t_end = t_end, .samples = 11, .tolerance = tolerance, .stepper = GetParam()};
-  }
-};
+class Events : public WithEvents {};
 INSTANTIATE_TEST_SUITE_P(Steppers, Events, both_steppers, stepper_name);
 
 /// A pendulum of length 1, from rest at an angle from the downward vertical.

@@ -1,5 +1,4 @@
-#include <dalembert/dalembert.h>
-#include <dalembert/tests/both_steppers.h>
+#include <dalembert/tests/solvers/with_events.h>
 
 #include <gtest/gtest.h>
 
@@ -9,16 +8,7 @@
 namespace dalembert {
 namespace {
 
-constexpr double g = 9.81, tolerance = 1e-10;
-/// A run of a few seconds errs by some tens of its tolerance, and so do the times at which it gets anywhere.
-constexpr double met = 100.0 * tolerance;
-
-class Impacts : public testing::TestWithParam<Stepper> {
- protected:
-  [[nodiscard]] static Options options(double t_end) {
-    return {.t_end = t_end, .samples = 11, .tolerance = tolerance, .stepper = GetParam()};
-  }
-};
+class Impacts : public WithEvents {};
 INSTANTIATE_TEST_SUITE_P(Steppers, Impacts, both_steppers, stepper_name);
 
 /// A ball of mass 2 that falls from a height of 1, going sideways.

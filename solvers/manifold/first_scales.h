@@ -1,0 +1,32 @@
+#pragma once
+
+#include <dalembert/core/scene/system.h>
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/base/options.h>
+#include <dalembert/solvers/manifold/start.h>
+
+#include <span>
+#include <vector>
+
+/// The scales of a scene (see Scales), from its start.
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// Largest |x_i| in units of each coordinate's scale; coordinates of scale 0 do not count.
+[[nodiscard]] double largest_scaled(std::span<const double> x, std::span<const double> scale);
+/// F/m, as if there were no constraints.
+[[nodiscard]] std::vector<double> forced_acceleration(const System& system, const System::Evaluation& e);
+
+/// Sets the length of the scene: the box around its points; for a lone particle on a surface or curve
+/// the radius of curvature, unless it does not get so far. What is free or on something nearly flat has no
+/// length but that of its path, of which the first instant gives a guess. (On a compliant constraint that
+/// guess has to do: an explicit step would tell the vibration of the spring.) It does not lead through a
+/// contact.
+void set_length(const System& system, const Instant& at, const System::Evaluation& e, const Options& options,
+                double nearest_contact, Scales& scales);
+
+/// The shortest time in which the scene's speeds, forces or accelerations move a coordinate by its
+/// scale.
+[[nodiscard]] double time_scale(const System& system, const System::Evaluation& e, const Start& start,
+                                double duration);
+
+}  // namespace dalembert

@@ -1,0 +1,86 @@
+#include <dalembert/tests/solvers/with_events.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace dalembert {
+namespace {
+
+class CoulombFrictionInSpace : public WithEvents {};
+INSTANTIATE_TEST_SUITE_P(Steppers, CoulombFrictionInSpace, both_steppers, stepper_name);
+
+TEST_P(CoulombFrictionInSpace, IsRound) {
+  // A puck on a plane that is pulled along x by m f, below what friction holds:
+  //
+  //   u' = -mu g u/|u| + f e_x,   d(mu g |u| + f u_x)/dt = f^2 - (mu g)^2
+  //
+  // so it rests after (mu g |u0| + f u0_x)/((mu g)^2 - f^2), whatever the bend of its path.
+  constexpr double mu = 0.3, a = mu * g;
+  for (const double f : {0.0, 0.5 * a, 0.8 * a}) {
+    for (const double angle : {0.0, 0.7, 2.0, 3.0}) {
+      Scene<3> scene;
+      scene.add(UniformGravity<3>{{f, 0.0, -g}});
+      const Vec<3> along(std::cos(angle), std::sin(angle), 0.0);
+      const auto puck = scene.add_particle({.mass = 2.0, .velocity = 2.0 * along});
+      const auto table = scene.add(OnSurface{puck, Plane<3>{}});
+      const auto rough = scene.add(coulomb(table, Slip{puck, Plane<3>{}}, mu));
+      const double rests = 2.0 * (a + f * along.x()) / (a * a - f * f);
+      const auto run = simulate(scene, options(rests + 1.0));
+      EXPECT_NEAR((run.constraint_force(rough, puck, 0) + 2.0 * a * along).norm(), 0.0, met * g);
+      ASSERT_EQ(run.events().size(), 1U) << f << ' ' << angle;
+      EXPECT_EQ(run.events()[0].what, Happened::sticks);
+      EXPECT_NEAR(run.events()[0].time, rests, met * rests) << f << ' ' << angle;
+      EXPECT_NEAR(run.constraint_force(rough, puck, 10).x(), -2.0 * f, met * g);
+      if (f == 0.0) {
+        EXPECT_NEAR((run.position(puck, 10) - 2.0 / a * along).norm(), 0.0, met);
+      }
+    }
+  }
+}
+
+TEST_P(CoulombFrictionInSpace, GoesTheWayItIsPulled) {
+  // From rest, by a force that grows: as the block in the plane.
+  constexpr double k = 5.0, mu = 0.3, mu_static = 0.5;
+  Scene<3> scene;
+  scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
+  const auto puck = scene.add_particle({.mass = 2.0});
+  const auto table = scene.add(OnSurface{puck, Plane<3>{}});
+  scene.add(coulomb(table, Slip{puck, Plane<3>{}}, mu, mu_static));
+  const Vec<3> way = Vec<3>(0.6, -0.8, 0.0);
+  scene.add(force_law(points(puck), [way](auto t, auto, auto) { return (k * t * way).eval(); }));
+  const double goes = mu_static * 2.0 * g / k, t = goes + 1.0;
+  const auto run = simulate(scene, options(t));
+  ASSERT_EQ(run.events().size(), 1U);
+  EXPECT_NEAR(run.events()[0].time, goes, met);
+  const double v = (k * (t * t - goes * goes) / 2.0 - mu * 2.0 * g * (t - goes)) / 2.0;
+  EXPECT_NEAR((run.velocity(puck, 10) - v * way).norm(), 0.0, met * v);
+}
+
+TEST_P(CoulombFrictionInSpace, OfCoupledPucksGoesAgainstTheirAccelerations) {
+  // Two pucks with a rod between them, pulled from rest each its own way.
+  constexpr double mu = 0.3;
+  Scene<3> scene;
+  const auto a = scene.add_particle({.mass = 1.0}),
+             b = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0, 0.0}});
+  scene.add(Distance{a, b, 1.0});
+  std::vector<Constraint<2>> rough;
+  for (const auto puck : {a, b}) {
+    const auto table = scene.add(OnSurface{puck, Plane<3>{}});
+    rough.push_back(scene.add(coulomb(table, Slip{puck, Plane<3>{}}, mu)));
+  }
+  scene.add(force_law(points(a, b), [](auto, auto, auto, auto) {
+    return std::tuple{vec(3.0, 5.0, -g), vec(4.0, -3.0, -g)};
+  }));
+  const auto run = simulate(scene, options(0.1));
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    const Vec<3> sigma = run.constraint_force(rough[k], k == 0 ? a : b, 0);
+    const Vec<3> along = run.acceleration(k == 0 ? a : b, 0).normalized();
+    EXPECT_NEAR((sigma + mu * g * along).norm(), 0.0,
+                1e-5 * g);  // the root of round-off is asked of directions
+  }
+}
+
+}  // namespace
+}  // namespace dalembert

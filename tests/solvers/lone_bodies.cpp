@@ -1,0 +1,102 @@
+#include <dalembert/tests/solvers/with_events.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace dalembert {
+namespace {
+
+/// One particle and what it touches: the scene has no length but that of its path.
+class LoneBodies : public WithEvents {};
+INSTANTIATE_TEST_SUITE_P(Steppers, LoneBodies, both_steppers, stepper_name);
+
+TEST_P(LoneBodies, BounceInTheScaleOfTheirHeight) {
+  // However long the run: without the floor it would lead a million times as far.
+  constexpr int impacts = 1000;
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto ball = scene.add_particle({.mass = 1.0, .position = {0.0, 1.0}});
+  scene.add(unilateral(OnCurve{ball, Plane<2>{}}, {.restitution = 1.0}));
+  const double fall = std::sqrt(2.0 / g);
+  const auto run = simulate(scene, options(2.0 * impacts * fall));
+  EXPECT_LE(run.statistics().length, 1.0 + met);
+  ASSERT_EQ(run.events().size(), std::size_t{impacts});
+  // A flight errs by the tolerance in height and in speed: in energy, of g 1 m, by 3 of them at most.
+  for (std::size_t i = 0; i < run.size(); ++i)
+    EXPECT_NEAR(run.energy(i), g, 3.0 * impacts * tolerance * g) << i;
+}
+
+TEST_P(LoneBodies, LeaveASphereFromWhereTheyStart) {
+  // Hardly faster than gravity holds: the gap opens as t^2, less than a step errs by at first.
+  for (const double looser : {1e-4, 1e-6, 1e-10}) {
+    Scene<3> scene;
+    scene.add(UniformGravity<3>{{0.0, 0.0, -7.52}});
+    const Vec<3> r(0.0187133, -0.374519, 0.378247), v(-1.26777, -0.885417, -0.813967);
+    const auto body = scene.add_particle({.mass = 1.0, .position = r, .velocity = v});
+    scene.add(unilateral(OnSurface{body, Sphere<3>{.radius = r.norm()}}));
+    const auto run = simulate(
+        scene, {.t_end = 1.0, .samples = 2, .tolerance = looser, .stepper = GetParam(), .max_steps = 1000});
+    const Vec<3> n = r.normalized(), left = v - std::min(0.0, n.dot(v)) * n;
+    const Vec<3> due = r + left - 0.5 * 7.52 * Vec<3>::UnitZ();
+    EXPECT_LE((run.position(body, 1) - due).norm(), 100.0 * looser) << looser;
+  }
+}
+
+TEST_P(LoneBodies, StickWhereTheyStartFarFromTheOrigin) {
+  for (const double slope : {-0.4375, -0.1755, 0.1122, 0.1755, 0.3742, 0.5281, 0.5927}) {
+    for (const double at : {-1.126, -0.5817, -0.1674, 0.721, 1.46, 1.971, 1e3}) {
+      Scene<2> scene;
+      scene.add(UniformGravity<2>{{0.0, -g}});
+      const Vec<2> r = at * Vec<2>(1.0, slope).normalized();
+      const Plane<2> plane{{0.0, 0.0}, Vec<2>(-slope, 1.0).normalized()};
+      const auto block = scene.add_particle({.mass = 1.0, .position = r});
+      const auto floor = scene.add(OnCurve{block, plane});
+      const auto rough = scene.add(coulomb(floor, Slip{block, plane}, 1.0));
+      const auto run = simulate(scene, options(1.0));
+      EXPECT_TRUE(run.events().empty());
+      // Round-off of the plane's equation, some of |r|.
+      EXPECT_LE((run.position(block, 10) - r).norm(), 1e-14 * std::abs(at)) << slope << ' ' << at;
+      EXPECT_NEAR(std::abs(run.multiplier(rough, 10)), g * std::abs(slope) / std::hypot(1.0, slope), met * g);
+    }
+  }
+}
+
+TEST_P(LoneBodies, MayEndTheirRunWhereTheyTurn) {
+  // x'' = -x -+ f: from 1 it turns at -(1 - 2 f) after pi, and so on. Near to that, too, the steps before and
+  // after are what they usually are.
+  constexpr double f = 0.05;
+  for (const int turn : {1, 2, 3}) {
+    for (const double off : {-1e-8, -1e-10, -1e-11, -1e-12, 0.0, 1e-12, 1e-11, 1e-10, 1e-8}) {
+      Scene<2> scene;
+      scene.add(UniformGravity<2>{{0.0, -g}});
+      const auto block = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
+      const auto table = scene.add(OnCurve{block, Plane<2>{}});
+      scene.add(coulomb(table, Slip{block, Plane<2>{}}, f / g));
+      scene.add(potential(points(block), [](auto r) { return 0.5 * r.x() * r.x(); }));
+      const auto run = simulate(scene, options(turn * std::numbers::pi * (1.0 + off)));
+      const double due = (turn % 2 == 0 ? 1.0 : -1.0) * (1.0 - 2.0 * f * turn);
+      EXPECT_NEAR(run.position(block, 10).x(), due, met) << turn << ' ' << off;
+    }
+  }
+}
+
+TEST_P(LoneBodies, SlideOnASphereInItsScales) {
+  // Sent off from the side, with no length but that of the sphere.
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const double angle = 0.5;
+  const Vec<2> out(std::sin(angle), std::cos(angle)), along(std::cos(angle), -std::sin(angle));
+  const auto puck = scene.add_particle({.mass = 1.0, .position = out, .velocity = 0.4 * along});
+  const Sphere<2> sphere{};
+  const auto touch = scene.add(unilateral(OnCurve{puck, sphere}));
+  scene.add(coulomb(touch, Slip{puck, sphere}, 0.0));
+  const auto run = simulate(scene, options(0.6));
+  ASSERT_EQ(run.events().size(), 1U);
+  // v^2 = g cos where v^2 = v0^2 + 2 g (cos 0.5 - cos).
+  EXPECT_NEAR(run.event_sample(0).position(puck).y(), (0.16 + 2.0 * g * std::cos(angle)) / (3.0 * g), met);
+}
+
+}  // namespace
+}  // namespace dalembert
