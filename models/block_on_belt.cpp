@@ -1,49 +1,65 @@
 #include "dalembert/models/block_on_belt.h"
 
 #include <dalembert/models/event_times.h>
+#include <dalembert/models/numbered.h>
 
 #include <cmath>
 #include <numbers>
 
 namespace dalembert::models {
 
-double BlockOnBelt::slips() const {
-  const double omega = std::sqrt(stiffness / mass), d = (mu_static - mu) * mass * gravity / stiffness;
-  return (std::numbers::pi + 2.0 * std::atan2(belt, omega * d)) / omega;
+double BlockOnBelt::frequency() const { return std::sqrt(stiffness / mass); }
+
+BlockOnBelt::Built BlockOnBelt::scene() const {
+  Scene<2> scene("block-on-belt");
+  scene.add(UniformGravity<2>{{0.0, -gravity}});
+  const auto block = scene.add_particle({.mass = mass}, "block");
+  const auto table = scene.add(OnCurve{block, Plane<2>{}}, "belt");
+  const auto rough =
+      scene.add(coulomb(table, Slip{block, Plane<2>{}, Vec<2>(belt, 0.0)}, friction, sticking), "rough");
+  const auto spring = scene.add(
+      potential(points(block), [k = stiffness](const auto& r) { return 0.5 * k * r.x() * r.x(); }), "spring");
+  return {.scene = std::move(scene), .block = block, .belt = table, .rough = rough, .spring = spring};
 }
 
-double BlockOnBelt::period() const {
-  return slips() + 2.0 * (mu_static - mu) * mass * gravity / (stiffness * belt);
+double BlockOnBelt::slip_time() const {
+  return 2.0 / frequency() * (std::numbers::pi - std::atan(frequency() * excess() / belt));
+}
+
+double BlockOnBelt::period() const { return slip_time() + 2.0 * excess() / belt; }
+
+double BlockOnBelt::sticking_time(int k) const {
+  if (k > 0) return slipping_time(k - 1) + slip_time();
+  return std::asin(belt / (balance() * frequency())) / frequency();
+}
+
+double BlockOnBelt::slipping_time(int k) const {
+  const double caught = balance() * (1.0 - std::cos(frequency() * sticking_time()));
+  return sticking_time() + (balance() + excess() - caught) / belt + k * period();
+}
+
+double BlockOnBelt::heat_of_period() const {
+  return friction * weight() * (belt * slip_time() + 2.0 * excess());
 }
 
 EventModel BlockOnBelt::event_model() const {
-  return {
-      "block-on-belt", "-", [model = *this](Stepper stepper, double tolerance) {
-        Scene<2> scene("block on belt");
-        scene.add(UniformGravity<2>{{0.0, -model.gravity}});
-        const auto block = scene.add_particle({.mass = model.mass, .velocity = {model.belt, 0.0}});
-        const auto belt = scene.add(OnCurve{block, Plane<2>{}});
-        const auto rough =
-            scene.add(coulomb(belt, Slip{block, Plane<2>{}, {model.belt, 0.0}}, model.mu, model.mu_static));
-        scene.add(
-            potential(points(block), [k = model.stiffness](auto r) { return 0.5 * k * r.x() * r.x(); }));
-        const double first = model.mu_static * model.mass * model.gravity / (model.stiffness * model.belt);
-        const auto run = simulate(scene, {.t_end = first + (model.periods + 0.1) * model.period(),
-                                          .samples = 2,
-                                          .tolerance = tolerance,
-                                          .stepper = stepper});
-        std::vector<Timed> all;
-        for (int k = 0; k <= model.periods; ++k) {
-          const double begins = first + k * model.period();
-          const auto number = std::to_string(k + 1);
-          all.push_back(
-              {"slides " + number, time_of(run, rough, Happened::slides, k), begins, time_limit(tolerance)});
-          if (k == model.periods) break;
-          all.push_back({"sticks " + number, time_of(run, rough, Happened::sticks, k), begins + model.slips(),
-                         time_limit(tolerance)});
-        }
-        return all;
-      }};
+  return {.name = "block-on-belt", .notes = "", .events = [*this](Stepper stepper, double tolerance) {
+            constexpr int periods = 5;
+            const Built built = scene();
+            const double limit = time_limit(tolerance);
+            const auto run = simulate(built.scene, {.t_end = slipping_time(periods) + 0.1 * slip_time(),
+                                                    .samples = 2,
+                                                    .tolerance = tolerance,
+                                                    .stepper = stepper});
+            std::vector<Timed> all;
+            for (int k = 0; k <= periods; ++k) {
+              all.push_back({numbered("sticks ", k + 1), time_of(run, built.rough, Happened::sticks, k),
+                             sticking_time(k), limit});
+              all.push_back({numbered("slips ", k + 1), time_of(run, built.rough, Happened::slides, k),
+                             slipping_time(k), limit});
+            }
+            return all;
+          }};
 }
 
 }  // namespace dalembert::models

@@ -5,6 +5,7 @@
 #include <dalembert/models/event_model.h>
 #include <dalembert/models/newtons_cradle.h>
 #include <dalembert/models/particle_off_sphere.h>
+#include <dalembert/models/puck_on_rough_table.h>
 #include <dalembert/models/rocking_block.h>
 #include <dalembert/models/slack_string.h>
 #include <dalembert/models/sliding_ladder.h>
@@ -28,6 +29,7 @@ std::vector<EventModel> models_with_events() {
       NewtonsCradle{.gap = 0.002}.event_model(),
       BlockOnBelt{}.event_model(),
       BeadOnRoughHoop{}.event_model(),
+      PuckOnRoughTable{}.event_model(),
   };
 }
 

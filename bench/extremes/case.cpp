@@ -43,6 +43,7 @@ std::vector<Group> groups() {
           {"redundancy", redundancy()},
           {"round-off", at_round_off()},
           {"discontinuities", discontinuities()},
+          {"sticking", sticking()},
           {"contacts", contacts()}};
 }
 

@@ -58,6 +58,7 @@ struct Group {
 [[nodiscard]] std::vector<Case> at_round_off();
 [[nodiscard]] std::vector<Case> failures();
 [[nodiscard]] std::vector<Case> discontinuities();
+[[nodiscard]] std::vector<Case> sticking();
 [[nodiscard]] std::vector<Case> contacts();
 
 /// All of them.

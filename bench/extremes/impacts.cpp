@@ -51,7 +51,8 @@ Case elastic() {
 }
 
 /// Dropped from 1 m it rests after sqrt(2 h/g) (1 + e)/(1 - e). What steps err by in speed, E/T, makes all
-/// flights that follow longer, by 2/(g (1 - e)) together.
+/// flights that follow longer, by 2/(g (1 - e)) together. What they err by in height, E, makes an impact late
+/// by E over its speed: the third, which is the first to tell that they accumulate, by E/(v e^2).
 Case accumulation() {
   const auto due = [](double e) { return std::sqrt(2.0 / g) * (1.0 + e) / (1.0 - e); };
   return {.name = "accumulation",
@@ -71,7 +72,9 @@ Case accumulation() {
           .limit =
               [due](const Run& run) {
                 const double e = run.parameter, E = drift(run, 0.0);
-                return (E / run.statistics.time * 2.0 / (g * (1.0 - e)) + E) / due(e) + 100.0 * epsilon;
+                const double longer = E / run.statistics.time * 2.0 / (g * (1.0 - e)),
+                             late = E / (std::sqrt(2.0 * g) * e * e);
+                return (longer + late) / due(e) + 100.0 * epsilon;
               }};
 }
 

@@ -31,6 +31,7 @@ TEST(Extremes, StartsAreAssembledOrRefusedByName) { expect_right(starts()); }
 TEST(Extremes, WhatRepeatsItselfIsAsGoodAsWhatDoesNot) { expect_right(redundancy()); }
 TEST(Extremes, AtRoundOffAndAtSingularPositionsForcesAreRightOrNotRead) { expect_right(at_round_off()); }
 TEST(Extremes, KinksJumpsAndSticking) { expect_right(discontinuities()); }
+TEST(Extremes, FrictionHoldsUpToTheEdgeOfItsCone) { expect_right(sticking()); }
 TEST(Extremes, ContactsThatAreGrazedStruckAtOnceOrWithoutEnd) { expect_right(contacts()); }
 TEST(Extremes, FailuresInMidRunSayWhenAndWhat) { expect_right(failures()); }
 
