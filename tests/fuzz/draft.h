@@ -211,6 +211,9 @@ void add_passive_force(Draft<D>& draft);
 /// A floor or a wall, a string, a sphere, two particles that may meet: one-sided constraints.
 template <int D>
 void add_one_sided(Draft<D>& draft);
+/// Coulomb's friction of a particle on a plane or sphere.
+template <int D>
+void add_rough(Draft<D>& draft);
 
 /// A whole scene.
 template <int D>

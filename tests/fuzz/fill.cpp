@@ -27,14 +27,15 @@ void add_any_force(Draft<D>& draft) {
   return kind < 0.8 ? add_field(draft) : add_own_force(draft);
 }
 
-/// At least one constraint of them is one-sided.
+/// At least one constraint of them is one-sided, or rough.
 template <int D>
 void fill_one_sided(Draft<D>& draft) {
   const Plan& plan = draft.plan;
   for (int i = 0; i < plan.particles; ++i) draft.add_particle();
   for (int i = 0; i < plan.constraints; ++i) add_rod(draft);
   for (int i = 0; i < plan.forces; ++i) add_passive_force(draft);
-  for (int i = 1 + draft.random.below(4); i > 0; --i) add_one_sided(draft);
+  const bool rough = plan.family == Family::rough;
+  for (int i = 1 + draft.random.below(4); i > 0; --i) rough ? add_rough(draft) : add_one_sided(draft);
 }
 
 }  // namespace
@@ -42,7 +43,7 @@ void fill_one_sided(Draft<D>& draft) {
 template <int D>
 void fill(Draft<D>& draft) {
   const Plan& plan = draft.plan;
-  if (plan.family == Family::one_sided) return fill_one_sided(draft);
+  if (plan.family == Family::one_sided || plan.family == Family::rough) return fill_one_sided(draft);
   if (plan.family == Family::redundant) add_redundant(draft);
   for (int i = 0; i < plan.bodies; ++i) draft.add_body();
   for (int i = 0; i < plan.rotors; ++i) draft.add_rotor();

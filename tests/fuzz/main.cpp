@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
   app.add_option("--stepper", steppers)->check(CLI::IsMember({"ida", "erk", "both"}))->capture_default_str();
   app.add_option("--only", only, "write down the scenes of these seeds and what becomes of them");
   app.add_option("--family", family, "of scenes; redundant and kinked ones are run against a twin")
-      ->check(CLI::IsMember({"any", "redundant", "kinked", "one-sided", "all"}))
+      ->check(CLI::IsMember({"any", "redundant", "kinked", "one-sided", "rough", "all"}))
       ->capture_default_str();
   app.add_option("--corpus", file, "run the scenes of this file first");
   app.add_option("--longest", longest, "a scene that takes more processor time hangs [s]; the slowest take 4")

@@ -88,8 +88,9 @@ void make_one_sided(Random& random, Plan& plan) {
   plan.bodies = plan.rotors = 0;
   plan.particles = 1 + random.below(5);
   plan.constraints = random.below(plan.particles);
-  plan.still = random.chance(0.1) ? 0.6 : 1.0;
-  plan.lossless = random.chance(0.3);
+  const bool rough = plan.family == Family::rough;  // where it moves it works
+  plan.still = !rough && random.chance(0.1) ? 0.6 : 1.0;
+  plan.lossless = !rough && random.chance(0.3);
 }
 
 }  // namespace
@@ -122,8 +123,10 @@ const char* name(Family family) {
       return "redundant";
     case Family::kinked:
       return "kinked";
-    default:
+    case Family::one_sided:
       return "one-sided";
+    default:
+      return "rough";
   }
 }
 
@@ -149,7 +152,7 @@ Plan random_plan(Random& random, Family family) {
   plan.moving = random.chance(0.7);
   plan.options = random_options(random, plan);
   if (plan.kind == Plan::Kind::invalid && random.chance(0.2)) spoil(random, plan.options);
-  if (family == Family::one_sided) {
+  if (family == Family::one_sided || family == Family::rough) {
     make_one_sided(random, plan);
   } else if (family != Family::any) {
     make_comparable(random, plan);

@@ -15,8 +15,10 @@ namespace dalembert::fuzz {
 ///   redundant  hinges, frames and constraints that say again what others imply: against the run without
 ///   those kinked     forces and constraints with kinks and jumps: one stepper against the other
 ///   one-sided  floors, walls, strings, spheres, particles that meet: gaps, signs of forces, impulses, energy
-enum class Family { any, redundant, kinked, one_sided };
-inline constexpr std::array families{Family::any, Family::redundant, Family::kinked, Family::one_sided};
+///   rough      particles that stick and slide on planes and spheres: bounds of friction, energy
+enum class Family { any, redundant, kinked, one_sided, rough };
+inline constexpr std::array families{Family::any, Family::redundant, Family::kinked, Family::one_sided,
+                                     Family::rough};
 [[nodiscard]] const char* name(Family family);
 
 /// What kind of scene a seed makes, in which units, and how it is run.

@@ -39,9 +39,10 @@ double largest(std::span<const double> x) {
   return most;
 }
 
-/// The system as it is at a sample: one-sided constraints without a force say nothing.
+/// The system as it is at a sample: one-sided constraints without a force say nothing, nor do rough ones
+/// where they may slide.
 System in_force(const System& system, const FlatSample& sample) {
-  std::vector<std::size_t> idle;
+  std::vector<std::size_t> idle = system.rough();
   for (const std::size_t c : system.contacts()) {
     const auto row = static_cast<std::size_t>(system.layout()->constraints[c].first_row);
     if (sample.lambda[row] == 0.0) idle.push_back(c);
@@ -160,7 +161,7 @@ std::string Check::run(double accuracy, std::string& detail) {
   std::string fault = residuals(determined ? held : std::max(held, error_of_run * accuracy), detail);
   if (!determined) return fault;
   if (fault.empty()) fault = accelerations(detail);
-  return fault.empty() ? principle(detail) : fault;
+  return fault.empty() && system.rough().empty() ? principle(detail) : fault;  // friction works
 }
 
 std::string fault_of_times(std::span<const double> times, std::span<const double> wanted,
@@ -198,7 +199,7 @@ std::string fault_of_run(const Draft<D>& draft, const Trajectory<D>& run, std::o
     const std::string fault = check.run(run.statistics().accuracy, detail);
     if (!fault.empty()) return fault;
   }
-  return system.contacts().empty() ? "" : fault_of_contacts(draft, run, detail);
+  return system.conditional().empty() ? "" : fault_of_contacts(draft, run, detail);
 }
 
 template std::string fault_of_run(const Draft<2>&, const Trajectory<2>&, std::optional<double>, std::string&);
