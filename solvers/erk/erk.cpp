@@ -119,8 +119,8 @@ double ErkStepper::time() const { return state_->to.t; }
 double ErkStepper::sine() const { return state_->to.sine; }
 
 /// Velocities are the derivative of the polynomial of positions, but for its round-off, that of positions and
-/// times over h: where the polynomial of velocities and accelerations, which is of lower degree, agrees to
-/// that, it has less.
+/// times over h: where the cubic of velocities and accelerations at both ends is right to that, the
+/// polynomial that takes the middle, too, is better.
 void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v) {
   State& s = *state_;
   for (const State::Node* node : {&s.to, &s.from}) {
@@ -133,16 +133,18 @@ void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v)
   s.find_middle();
   const Hermite<3> polynomial({s.from.t, s.middle.t, s.to.t}, t);
   const Hermite<3, 2> of_velocities({s.from.t, s.middle.t, s.to.t}, t);
+  const Hermite<2, 2> of_ends({s.from.t, s.to.t}, t);
   const double rounding = s.scales.rounding(s.to.q), h = s.to.t - s.from.t,
                of_time = 10.0 * std::numeric_limits<double>::epsilon() * std::abs(s.to.t);
   for (std::size_t i = 0; i < s.n; ++i) {
     const std::array speeds{s.from.va[i], s.middle.va[i], s.to.va[i]},
         accelerations{s.from.va[s.n + i], s.middle.va[s.n + i], s.to.va[s.n + i]};
     const auto x = polynomial({s.from.q[i], s.middle.q[i], s.to.q[i]}, speeds, accelerations);
-    const double of_lower_degree = of_velocities(speeds, accelerations).value;
+    const double better = of_velocities(speeds, accelerations).value;
+    const double cubic = of_ends({speeds[0], speeds[2]}, {accelerations[0], accelerations[2]}).value;
     const double round_off = 10.0 * (rounding + of_time * std::abs(speeds[0])) / h;
     q[i] = x.value;
-    v[i] = std::abs(x.derivative - of_lower_degree) <= round_off ? of_lower_degree : x.derivative;
+    v[i] = std::abs(cubic - better) <= round_off ? better : x.derivative;
   }
 }
 
