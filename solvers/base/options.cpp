@@ -11,7 +11,7 @@ namespace {
 
 constexpr double largest_tolerance = 1e-1;
 
-/// More are no result that one could hold, at some hundred bytes each.
+/// More could not be held in memory, at some hundred bytes each.
 constexpr double most_samples = 1e8;
 constexpr const char* too_many = "asks for more than 1e8 samples; use a Simulation and its steps";
 

@@ -5,7 +5,7 @@
 
 namespace dalembert {
 
-/// How time is stepped.
+/// The integration method.
 enum class Stepper {
   ida,  ///< implicit (BDF of SUNDIALS' IDA): for every scene, the stiff ones in particular
   erk   ///< explicit (Runge-Kutta of order 8): several times faster where nothing is stiff
@@ -24,29 +24,29 @@ struct Options {
   /// given.
   int samples = 101;
   double sample_interval =
-      0.0;                      ///< or a sample every so often, from t_start; at most the run's length [time]
-  std::vector<double> times{};  ///< or samples at these very times, increasing, within the run
+      0.0;  ///< or the time between samples, from t_start; at most the run's length [time]
+  std::vector<double> times{};  ///< or samples at these times, increasing, within the run
 
-  /// Relative accuracy: the steps are chosen so that each errs by the tolerance (of `ida`, whose steps are
-  /// many, by a twentieth of it) times the scene's own length in position, and that length over the scene's
+  /// Relative accuracy: the error of each step is held to the tolerance (in `ida`, whose steps are many, to a
+  /// twentieth of it) times the scene's characteristic length in position, and that length over the scene's
   /// time in velocity. Between 1e-13 and 1e-1. The error of the result grows with the length of the run; the
   /// benchmarks show how much.
   double tolerance = 1e-6;
   Stepper stepper = Stepper::ida;
-  /// Keep the motion between the samples too, for Trajectory::at: of each coordinate 12 numbers in a step of
-  /// `ida`, 18 of `erk`, and in `ida` 18 of each multiplier if a constraint is compliant; two to four times
+  /// Keep the motion between the samples too, for Trajectory::at: for each coordinate 12 numbers per step of
+  /// `ida`, 18 of `erk`, and in `ida` 18 for each multiplier if a constraint is compliant; two to four times
   /// the run time (`dalembert-bench leave-out`). `erk` then evaluates the equations in the middle of each
   /// step too.
   bool dense = false;
   long max_steps = 10'000'000;  ///< give up after so many steps
 
-  /// False: an initial state that violates a constraint is an error. True: it is moved onto the
-  /// constraints, in Newton steps of which each is the least mass-weighted one.
+  /// False: an initial state that violates a constraint is an error. True: it is projected onto the
+  /// constraint manifold, by Newton steps that are each the least in the mass-weighted norm.
   bool assemble = false;
 
-  /// The scene's own length, to which the tolerance is relative; 0: the box around its points, or, of a lone
-  /// particle, the radius of its curve or surface, or the extent that its path has covered so far. See
-  /// Statistics for what was used. Finite, >= 0 [length]
+  /// The scene's characteristic length, to which the tolerance is relative; 0: the size of the box around its
+  /// points or, for a lone particle, the radius of its curve or surface, or the extent of its path so far.
+  /// See Statistics for the value used. Finite, >= 0 [length]
   double length = 0.0;
 };
 

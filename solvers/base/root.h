@@ -22,7 +22,7 @@ template <class F>
       half = 0.5 * std::abs(b - a);
     }
     if (!(x > std::min(a, b) && x < std::max(a, b))) x = 0.5 * (a + b);
-    if (x == a || x == b) return b;  // neighbours
+    if (x == a || x == b) return b;  // adjacent numbers
     const double f_x = f(x);
     if (f_x == 0.0) return x;
     if ((f_x > 0.0) == (f_b > 0.0)) {

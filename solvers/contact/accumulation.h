@@ -6,21 +6,20 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// The times at which a contact is struck, and their limit if they accumulate: intervals D_k whose ratios
-/// r_k = D_k/D_(k-1) tend to a limit rho < 1 as the time that is left does to 0,
+/// The impact times of a contact, and their limit if they accumulate: intervals D_k whose ratios r_k =
+/// D_k/D_(k-1) tend to a limit rho < 1 as the time left tends to 0,
 ///
 ///   r_(k+1) - rho = rho (r_k - rho),
 ///
-/// as they do where forces and restitution vary smoothly. Early intervals tell the limit as well as that
-/// holds, late ones as well as times are known: the best estimate is that which changed least from the one
-/// before.
+/// as they do where forces and restitution vary smoothly. Early intervals give the limit as well as that
+/// holds, late ones as well as times are known: the best estimate is the one that changed least.
 class Accumulation {
  public:
   void add(double t);
   /// Time between the last two impacts, and the last one.
   [[nodiscard]] double interval() const { return interval_; }
   [[nodiscard]] double last() const { return last_; }
-  /// What is left at the last impact; infinite if they do not accumulate.
+  /// The time left after the last impact; infinite if they do not accumulate.
   [[nodiscard]] double left() const { return left_; }
   [[nodiscard]] double limit() const { return limit_; }
 

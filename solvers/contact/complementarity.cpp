@@ -14,11 +14,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Entries of a column below this part of its largest, a rounding for each pivot that made it, are 0.
+/// Entries of a column below this fraction of its largest, a rounding error for each pivot so far, are 0.
 constexpr double round_off = 1e3 * std::numeric_limits<double>::epsilon();
 
-/// The equations w - M z - 1 z0 = q solved for the basic variables: of each a row (w-part | z-part | z0 | q).
-/// Variables are counted in that order, w_i is i, z_i is n + i, z0 is 2 n.
+/// The equations w - M z - 1 z0 = q solved for the basic variables: each row is (w-part | z-part | z0 | q).
+/// Variables are numbered in that order, w_i is i, z_i is n + i, z0 is 2 n.
 class Tableau {
  public:
   Tableau(const MatrixXd& M, const VectorXd& q) : n_(q.size()), rows_(n_, 2 * n_ + 2) {
@@ -31,8 +31,8 @@ class Tableau {
     return variable < n_ ? variable + n_ : variable - n_;
   }
 
-  /// Where a variable that grows from 0 makes the first basic one vanish; none if it may grow for ever. Of
-  /// those that vanish together z0 is taken, else the one of the least row, as the lexicographic rule has it.
+  /// The ratio test: the row whose basic variable is the first to vanish as another grows from 0; none if
+  /// that is unbounded. Ties go to z0, else to the lexicographically least row.
   [[nodiscard]] std::optional<Index> blocking_row(Index entering) const {
     const double least = round_off * rows_.col(entering).cwiseAbs().maxCoeff();
     std::optional<Index> best;
@@ -42,8 +42,8 @@ class Tableau {
     }
     return best;
   }
-  /// The row at which z0 enters: that of the least q, and of several the last, which the lexicographic order
-  /// puts first.
+  /// The row at which z0 enters: that of the least q, and of ties the last, which comes first in the
+  /// lexicographic order.
   [[nodiscard]] Index most_negative() const {
     const auto q = rows_.col(2 * n_ + 1);
     const double least = q.minCoeff() * (1.0 - round_off);
@@ -52,7 +52,7 @@ class Tableau {
     return row;
   }
 
-  /// Puts a variable into the basis; gives the one that leaves.
+  /// A pivot: puts a variable into the basis; returns the one that leaves.
   Index exchange(Index row, Index entering) {
     rows_.row(row) /= rows_(row, entering);
     for (Index i = 0; i < n_; ++i) {

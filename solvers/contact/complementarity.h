@@ -12,12 +12,12 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///
 ///   w = M z + q,   w >= 0,   z >= 0,   w^T z = 0,
 ///
-/// by Lemke's pivoting with the lexicographic rule, which ends after finitely many pivots however many of
-/// them are ties (Cottle, Pang, Stone, The Linear Complementarity Problem, 4.4). For a positive semi-definite
-/// M it finds a solution if there is one, and w is unique. The diagonal of M gives each w and z its unit.
-/// None if the problem has no solution, or, M being of another kind, none was found.
+/// by Lemke's pivoting with the lexicographic rule, which ends after finitely many pivots whatever the ties
+/// (Cottle, Pang, Stone, The Linear Complementarity Problem, 4.4). For a positive semi-definite M it finds a
+/// solution if there is one, and w is unique. The diagonal of M gives each w and z its unit. None if the
+/// problem has no solution, or, for another M, none was found.
 ///
-/// Of each pair the one that the last basis holds is given, the other is 0 exactly.
+/// Of each pair the basic variable has its value, the other is 0 exactly.
 [[nodiscard]] std::optional<Eigen::VectorXd> complementary_solution(const Eigen::MatrixXd& M,
                                                                     const Eigen::VectorXd& q);
 

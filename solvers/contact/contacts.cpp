@@ -16,7 +16,7 @@ namespace dalembert {
 
 namespace {
 
-/// Of constraint or inertia, on any coordinate; never 0.
+/// The largest force of constraint or inertia on any coordinate; never 0.
 double largest_force(const System& system, const FlatSample& now) {
   double largest = std::numeric_limits<double>::min();
   for (const double force : now.forces) largest = std::max(largest, std::abs(force));
@@ -25,7 +25,7 @@ double largest_force(const System& system, const FlatSample& now) {
   return largest;
 }
 
-/// The length of a contact's gradient; 0 where it has none, as a string of length 0.
+/// The length of a contact's gradient; 0 where it has none, as for a string of length 0.
 double gradient_of(const System& stated, std::size_t number, const Instant& at,
                    std::span<const double> lengths) {
   std::vector<std::size_t> others = stated.conditional();
@@ -83,7 +83,7 @@ Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, d
     if (gap >= -allowed) continue;
     std::ostringstream what;
     what << stated_->row_label(c.row) << " is violated by the initial positions: distance " << -gap / gradient
-         << " on the side that it does not allow, at t = " << start.t << "; correct the positions";
+         << " on the forbidden side, at t = " << start.t << "; correct the positions";
     throw InconsistentStart(what.str());
   }
   settle();
@@ -111,8 +111,8 @@ double Contacts::watched(std::size_t contact, const FlatSample& now) const {
   return std::abs(gap) <= none ? 0.0 : gap / since;
 }
 
-/// What is closed or lies on its surface, what has fallen to it, and what reaches its own before times can
-/// tell the two apart.
+/// Contacts that are closed or have no gap, that have just reached 0, and that will before times can be told
+/// apart.
 std::vector<std::size_t> Contacts::touching(const Instant& at, const std::vector<std::size_t>& fallen) const {
   const double same_time = tolerance_ * scales_.time;
   std::vector<std::size_t> touching;
@@ -172,12 +172,12 @@ bool Contacts::open_pulling(const FlatSample& now, std::vector<Happening>& what)
   return found;
 }
 
-/// What counts as no gap: round-off of the positions.
+/// Gaps that count as 0: round-off of the positions.
 double Contacts::no_gap(const Contact& contact, std::span<const double> q) const {
   return contact.gradient * scales_.rounding(q);
 }
 
-/// What steps may err by in a gap.
+/// The error of a step in a gap.
 double Contacts::error_of_gap(const Contact& contact) const {
   return tolerance_ * scales_.length * contact.gradient;
 }
@@ -190,12 +190,11 @@ void Contacts::require_open(const FlatSample& now) {
     const double of_time = 8.0 * std::numeric_limits<double>::epsilon() * std::abs(now.time * psi_[c.row]);
     if (c.closed || gap >= -error_of_gap(c) - of_time) continue;
     throw StepFailure{
-        stated_->row_label(c.row) + " was run through: at none of the times looked at was it closed",
-        now.time};
+        stated_->row_label(c.row) + " was penetrated: at none of the times examined was it closed", now.time};
   }
 }
 
-/// With g_ as it is then.
+/// Uses the current g_.
 void Contacts::open(Contact& contact, double t, double rate) const {
   contact.closed = contact.parted = false;
   contact.opened_at = t;

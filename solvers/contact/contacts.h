@@ -18,27 +18,27 @@ namespace DALEMBERT_HIDDEN dalembert {
 
 class Coupling;
 
-/// The distance to the nearest one-sided constraint that is not touched; infinite if there is none.
+/// The distance to the nearest one-sided constraint that is open; infinite if there is none.
 [[nodiscard]] double nearest_contact(const System& stated, const Instant& at);
 
 /// The one-sided constraints of a run: which of them are closed, and what happens where that changes.
 ///
-/// With gaps s g >= 0 and forces s lambda >= 0, s the sign that each contact allows, U = d(s g)/dt,
+/// With gaps s g >= 0 and forces s lambda >= 0, s the admissible sign of each contact, U = d(s g)/dt,
 ///
 ///   impact:        P >= 0,       U+ + e U- >= 0,   P (U+ + e U-) = 0    (Newton; Moreau for several) (1)
 ///   acceleration:  lambda >= 0,  dU/dt >= 0,       lambda dU/dt = 0                                      (2)
 ///
-/// over the contacts that touch, P the impulses, U+ - U- and dU/dt by Coupling. Both are solved exactly, and
-/// both have one U+ and one dU/dt. Energy changes by sum (1 - e) U- P / 2 <= 0. A contact that (2) leaves at
-/// dU/dt = 0 is closed: it is in force, like any other constraint, until its force changes its sign.
+/// over the touching contacts, P the impulses, U+ - U- and dU/dt by Coupling. Both are solved exactly, and
+/// have a unique U+ and dU/dt. Energy changes by sum (1 - e) U- P / 2 <= 0. A contact with dU/dt = 0 by (2)
+/// is closed: it is in force, like any other constraint, until its force changes its sign.
 ///
-/// Where impacts of a contact accumulate (see Accumulation) and with the speed of the last one it would not
-/// go farther than the tolerance in the time that is left, all that was struck since the contact was last
-/// comes to rest: no position that follows is another one.
+/// Where impacts of a contact accumulate (see Accumulation) and at the speed of the last one it would move by
+/// less than the tolerance in the time left, all contacts with an impact since its previous one come to rest:
+/// that changes no later position.
 class Contacts {
  public:
-  /// At a state that obeys all other constraints; whether there is friction that sticks and slides. Throws
-  /// InconsistentStart where a gap is negative.
+  /// At a state that satisfies all other constraints; whether there is friction that sticks and slides.
+  /// Throws InconsistentStart where a gap is negative.
   Contacts(std::shared_ptr<const System> stated, const Scales& scales, double tolerance, const Instant& start,
            bool friction);
   /// The system with the closed contacts in force, and the others not.
@@ -49,18 +49,18 @@ class Contacts {
   [[nodiscard]] std::string label(std::size_t contact) const {
     return stated_->row_label(contacts_[contact].row);
   }
-  /// Goes on with these equations, in which parameters may differ, at a state that may: returns what touches
+  /// Goes on with these equations, whose parameters may differ, at a state that may too: returns what touches
   /// there. Throws StepFailure where a gap is negative, naming the contact.
   [[nodiscard]] std::vector<std::size_t> restate(std::shared_ptr<const System> stated, const Instant& at);
   void adopt(const Scales& scales) { scales_ = scales; }
 
-  /// A function of each that falls through 0 where the contact opens or closes: the force of a closed one;
-  /// the gap of an open one, over the time since it opened: that has no root there. (What has just opened
-  /// and is not above the surface yet, by what a step errs, but leaves counts by its rate.) A force that is 0
-  /// to the tolerance, of those there are, has not fallen.
+  /// A switching function for each, which falls through 0 where the contact opens or closes: the force of a
+  /// closed one; the gap of an open one over the time since it opened, which has no root there. (One that has
+  /// just opened and is not above the surface yet, within the error of a step, but separates counts by its
+  /// rate.) A force that is 0 to the tolerance, relative to the others, has not fallen.
   [[nodiscard]] double watched(std::size_t contact, const FlatSample& now) const;
-  /// Notes which open contacts have parted where a step ends, or a change. Throws StepFailure, which names
-  /// it, if one has been run through unseen.
+  /// Notes which open contacts have separated where a step ends, or a change. Throws StepFailure, naming it,
+  /// if one has been penetrated unnoticed.
   void require_open(const FlatSample& now);
 
   struct Happening {
@@ -73,20 +73,19 @@ class Contacts {
     std::vector<double> v_before{}, v{}, impulses{};
     std::vector<Happening> what{};
   };
-  /// The impacts of that state, and which contacts are closed after them. What touches and leaves is open.
+  /// The impacts of that state, and which contacts are closed after them. What touches and separates is open.
   Change begin(const Instant& start);
-  /// One that an impact on others has driven to its surface, of those that touched and were leaving: it is
-  /// struck next, at the same time.
+  /// A contact driven back to its surface by an impact on others, of those that touched and were separating:
+  /// its impact is next, at the same time.
   [[nodiscard]] std::optional<std::size_t> driven() const;
-  /// Goes on from an instant at which the watched functions of some contacts have fallen to 0. Throws
-  /// StepFailure where no velocities or accelerations do, naming the contacts; EquationFault.
-  /// Where there is friction accelerations are
-  /// not (2)'s: what touches and does not part is closed then, what has fallen open, and `open_pulling` finds
-  /// what else opens.
+  /// Goes on from an instant at which the switching functions of some contacts have fallen to 0. Throws
+  /// StepFailure where no velocities or accelerations satisfy (1), (2), naming the contacts; EquationFault.
+  /// With friction accelerations are not those of (2): what touches and does not separate is closed then,
+  /// what has fallen open, and `open_pulling` finds what else opens.
   Change pass(const Instant& at, const std::vector<std::size_t>& fallen);
-  /// Where the forces of closed contacts are not determined the smallest ones may pull, though there are
-  /// others that push, those of (2): opens what these leave without a force; with friction the one that pulls
-  /// most. Returns whether there was anything, and adds what was closed before.
+  /// Where the forces of closed contacts are not determined the smallest ones may pull, though others, those
+  /// of (2), push: opens the contacts without a force by these; with friction the one that pulls most.
+  /// Returns whether there was any, and adds those closed before.
   [[nodiscard]] bool open_pulling(const FlatSample& now, std::vector<Happening>& what);
   /// The numbers in the layout of those that are open.
   [[nodiscard]] std::vector<std::size_t> open() const;
@@ -102,7 +101,7 @@ class Contacts {
     std::optional<double> opened_at{};  // if it was closed before
     double rate_at_opening = 0.0;
     double gap_at_opening = 0.0;  // at most 0: round-off of times and positions
-    bool parted = true;           // since then it has been farther off than steps err
+    bool parted = true;           // since then the gap has exceeded the error of a step
     Accumulation impacts{};
     double gradient = 1.0;  // its length at the start
   };

@@ -19,7 +19,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// The part of the scene's speed at which two slip velocities are at rest.
+/// The fraction of the scene's speed at which two slip velocities are at rest.
 double rest_in_space(double tolerance) {
   return std::min(constants.rest_in_space * tolerance, std::sqrt(tolerance));
 }
@@ -90,7 +90,7 @@ VectorXd DryFriction::part(const Rough& rough, std::span<const double> all) {
 
 VectorXd DryFriction::slip(const Rough& rough) const { return part(rough, u_); }
 
-/// Of forces on what it acts on, those of inertia and its own; never 0.
+/// Round-off of the forces on what it acts on, of inertia and its own; never 0.
 double DryFriction::round_off_of(const Rough& rough, std::span<const double> a,
                                  std::span<const double> lambda) const {
   double force = std::abs(lambda[rough.pressing_row]);
@@ -104,9 +104,9 @@ double DryFriction::round_off_of(const Rough& rough, std::span<const double> a,
   return round_off() * force + std::numeric_limits<double>::min();
 }
 
-/// The stepper takes what slides on past rest, in its direction: where that is one of two it holds, where it
-/// is one of a plane that has none at rest the run stops before, at a speed that is rest to its tolerance.
-/// What is 0 to round-off, of what slides without moving, has not fallen.
+/// The stepper takes what slides on past rest, in its direction: a single slip velocity keeps that, two have
+/// none at rest and the run stops before, at a speed that is rest to its tolerance. What is 0 to round-off,
+/// of what slides without moving, has not fallen.
 double DryFriction::watched(std::size_t function, const FlatSample& now) const {
   const Rough& r = all_[function / 2];
   const double force = round_off_of(r, now.a, now.lambda);
@@ -122,7 +122,7 @@ double DryFriction::watched(std::size_t function, const FlatSample& now) const {
   return r.rows == 1 ? u[0] * r.direction[0] + round_off() * scales_.speed() : u.norm() - r.rest;
 }
 
-/// Slides from here on, against what has held it.
+/// Starts to slide, against the force that held it.
 void DryFriction::let_go(Rough& rough, const VectorXd& held_by) const {
   rough.mode = Mode::slides;
   rough.from_rest = true;
@@ -158,8 +158,8 @@ void DryFriction::require_no_impulse(std::span<const double> impulses, double t)
   for (const Rough& r : all_) {
     if (std::abs(impulses[r.pressing_row]) <= round_off() * largest(impulses)) continue;
     throw StepFailure{
-        stated_->row_label(r.row) + " is pressed by an impact through " + stated_->row_label(r.pressing_row) +
-            ", whose impulse of friction Coulomb's law does not tell; end the run before, or leave "
+        stated_->row_label(r.row) + " is loaded by an impact through " + stated_->row_label(r.pressing_row) +
+            ", whose frictional impulse Coulomb's law does not determine; end the run before, or leave "
             "friction out",
         t};
   }

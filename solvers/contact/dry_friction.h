@@ -15,16 +15,16 @@
 namespace DALEMBERT_HIDDEN dalembert {
 
 /// The constraints of Coulomb's law in a run: which of them stick, which slide, and what happens where that
-/// changes. With u the slip velocities, sigma the friction that is the multiplier of u = 0, lambda the force
-/// that presses,
+/// changes. With u the slip velocities, sigma the friction that is the multiplier of u = 0, lambda the normal
+/// force,
 ///
 ///   sticks:  u = 0,   |sigma| <= mu_static |lambda|
 ///   slides:  sigma = -mu |lambda| d,   d = u/|u|; from rest d = u'/|u'|                                  (1)
 ///
-/// What sticks slides where |sigma| comes to its bound, the way that sigma held it; what slides comes to rest
-/// where u comes to 0, and sticks there or slides on the other way. Of several those that would need more
-/// than their bound are let go one by one, that which exceeds it most first, until all agree with (1); if
-/// none of what is tried does, that is an error.
+/// What sticks begins to slide where |sigma| reaches its bound, in the direction that sigma opposed; what
+/// slides comes to rest where u reaches 0, and sticks there or slides back. If several would exceed their
+/// bounds they are released one by one, the largest excess first, until all satisfy (1); if none of the
+/// combinations tried does, that is an error.
 class DryFriction {
  public:
   /// What happened to a constraint, by its number in the layout.
@@ -37,25 +37,25 @@ class DryFriction {
   /// Of the constraints that a scene states.
   DryFriction(std::shared_ptr<const System> stated, const Scales& scales, double tolerance);
 
-  /// Goes on with these equations, in which parameters may differ.
+  /// Goes on with these equations, whose parameters may differ.
   void restate(std::shared_ptr<const System> stated);
   void adopt(const Scales& scales);
 
   [[nodiscard]] bool any() const { return !all_.empty(); }
-  /// Functions that fall through 0 where something changes, two of each constraint: what is left until it
-  /// sticks or slides, and the force that presses, if that may change its sign.
+  /// Switching functions, which fall through 0 where something changes, two for each constraint: what is left
+  /// until it sticks or slides, and the normal force, if that may change its sign.
   [[nodiscard]] std::size_t functions() const { return 2 * all_.size(); }
   [[nodiscard]] std::string label(std::size_t function) const;
   [[nodiscard]] double watched(std::size_t function, const FlatSample& now) const;
 
-  /// Decides what sticks, at a state where constraints with these numbers are not in force. `fallen` is the
-  /// function that has fallen, in the motion `before`. Throws StepFailure, which names the
-  /// constraints, where nothing agrees with (1); EquationFault.
+  /// Decides what sticks, at a state where constraints with these numbers are open. `fallen` is the switching
+  /// function that has fallen, in the motion `before`. Throws StepFailure, naming the constraints, where
+  /// nothing satisfies (1); EquationFault.
   std::vector<Happening> settle(const std::vector<std::size_t>& open, const Instant& at,
                                 std::optional<std::size_t> fallen = {}, const FlatSample& before = {});
-  /// That an impact has not pressed any of them. Throws StepFailure.
+  /// Throws StepFailure if an impact has loaded any of them.
   void require_no_impulse(std::span<const double> impulses, double t) const;
-  /// With what sticks in force, and what slides.
+  /// The system with what sticks and what slides.
   [[nodiscard]] const std::shared_ptr<const System>& system() const { return system_; }
 
  private:
@@ -66,7 +66,7 @@ class DryFriction {
     double mu = 0.0, mu_static = 0.0;
     bool one_sided = false;
     double sign = 1.0;  // of lambda
-    double rest = 0.0;  // a speed that is none
+    double rest = 0.0;  // a speed that counts as rest
     Mode mode = Mode::absent;
     bool from_rest = false;
     Eigen::VectorXd direction{};

@@ -17,20 +17,20 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// x without what is round-off beside the largest, each in its own unit.
+/// Sets to 0 what is round-off of the largest, each in its own unit.
 void clear_round_off(VectorXd& x, const VectorXd& unit, double largest) {
   for (Index i = 0; i < x.size(); ++i)
     if (std::abs(x[i]) * unit[i] <= round_off() * largest) x[i] = 0.0;
 }
 
-/// The unit in which a rate of each contact is comparable with those of others.
+/// The units that make rates of different contacts comparable.
 VectorXd units(const Eigen::MatrixXd& S) {
   return S.diagonal().unaryExpr([](double s) { return s > 0.0 ? 1.0 / std::sqrt(s) : 0.0; });
 }
 
 }  // namespace
 
-/// (1). U becomes that after the impact.
+/// Solves (1). U becomes U+.
 void Contacts::strike(const Coupling& coupling, const std::vector<std::size_t>& touching, double t,
                       VectorXd& U, Change& change) const {
   const VectorXd before = U;
@@ -50,7 +50,7 @@ void Contacts::strike(const Coupling& coupling, const std::vector<std::size_t>& 
     if ((*P)[i] > 0.0) change.what.push_back({touching[static_cast<std::size_t>(i)], Happened::struck, t});
 }
 
-/// Notes what was struck; where impacts accumulate, when they end.
+/// Notes the impacts; where they accumulate, when they end.
 std::optional<double> Contacts::limit_of_impacts(const Change& change, const Instant& at) {
   const double t = at.t;
   find_gaps(at);
@@ -66,7 +66,7 @@ std::optional<double> Contacts::limit_of_impacts(const Change& change, const Ins
   return limit;
 }
 
-/// Takes all rates to 0.
+/// Brings all rates to 0.
 void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& resting, double limit,
                     Change& change) {
   const VectorXd P = dense::least_squares(coupling.S(), -coupling.rates(change.v), rank_threshold);
@@ -74,7 +74,7 @@ void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& re
   for (const std::size_t i : resting) change.what.push_back({i, Happened::rested, limit});
 }
 
-/// What counts as no rate, of the velocities at the start and of what impacts at one time leave of them.
+/// Rates that count as 0, of velocities at the start and after impacts at one time.
 double Contacts::still(const Contact& contact) const {
   return rounding_of_the_user * scales_.speed() * contact.gradient;
 }
@@ -94,7 +94,7 @@ Contacts::Change Contacts::begin(const Instant& start) {
   return pass(start, stay);
 }
 
-/// Rates of what is open at its surface since this very time, after what others have done to it.
+/// Updates the rates of contacts that opened at this very time, after the impacts of others.
 void Contacts::find_driven(const Instant& at) {
   find_gaps(at);
   for (Contact& c : contacts_) {
@@ -110,8 +110,8 @@ std::optional<std::size_t> Contacts::driven() const {
   return std::nullopt;
 }
 
-/// Adds what impacts at one time have left at its surface, no faster than velocities are known: what is
-/// thrown to and fro in a slot without play would else be open on both sides of it. Whether there was any.
+/// Adds contacts left at their surface by impacts at one time, no faster than velocities are known: what
+/// bounces to and fro in a slot without play would else be open on both sides. Whether there was any.
 bool Contacts::join_slow(const Instant& at, std::vector<std::size_t>& touched) const {
   const std::size_t before = touched.size();
   find_gaps(at);
@@ -173,7 +173,7 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
   return change;
 }
 
-/// What touches and does not part is closed, what has fallen open.
+/// What touches and does not separate is closed, what has fallen open.
 void Contacts::close(const std::vector<std::size_t>& touched, const std::vector<std::size_t>& fallen,
                      const std::vector<Index>& resting, double t, Change& change) {
   for (const Index k : resting) {
@@ -186,7 +186,7 @@ void Contacts::close(const std::vector<std::size_t>& touched, const std::vector<
   }
 }
 
-/// Opens those that go apart; the others.
+/// Opens those that separate; returns the others.
 std::vector<Index> Contacts::part(const std::vector<std::size_t>& touched, const VectorXd& U, double t,
                                   Change& change) {
   std::vector<Index> resting;
@@ -200,7 +200,7 @@ std::vector<Index> Contacts::part(const std::vector<std::size_t>& touched, const
   return resting;
 }
 
-/// (2), for the velocities that the change has come to; closes and opens.
+/// Solves (2) for the velocities after the change; closes and opens.
 void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& touched,
                           const std::vector<std::size_t>& fallen, const std::vector<Index>& resting,
                           const Instant& at, Change& change) {
@@ -209,7 +209,7 @@ void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& to
   const auto lambda = complementary_solution(S, free);
   if (!lambda)
     refuse(touched, at.t,
-           "no accelerations agree with all of them: other constraints drive them into each other");
+           "no accelerations satisfy all of them: other constraints drive them into each other");
   const VectorXd unit = units(S);
   const double largest = free.size() > 0 ? free.cwiseProduct(unit).cwiseAbs().maxCoeff() : 0.0;
   VectorXd A = free + S * *lambda;
@@ -217,7 +217,7 @@ void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& to
   for (std::size_t k = 0; k < resting.size(); ++k) {
     const std::size_t i = touched[static_cast<std::size_t>(resting[k])];
     const auto row = static_cast<Index>(k);
-    // A force that has fallen to 0 falls on: what it held opens, though at this instant nothing drives it.
+    // A force that has fallen to 0 goes on falling: the contact opens, though nothing separates it yet.
     const double own = scales_.speed() / scales_.time * contacts_[i].gradient * unit[row];
     const bool falls = among(fallen, i) && contacts_[i].closed &&
                        (*lambda)[row] <= tolerance_ * std::max(largest, own) * unit[row];

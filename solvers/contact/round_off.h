@@ -6,7 +6,7 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// The part of the largest beside it below which a number is round-off.
+/// The fraction of the largest number beside it below which a number is round-off.
 [[nodiscard]] inline double round_off() {
   return constants.roundings_at_contacts * std::numeric_limits<double>::epsilon();
 }

@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-/// Which of what is rough sticks at an instant, and which way the rest slides.
+/// Which rough contacts stick at an instant, and in which direction the others slide.
 namespace dalembert {
 
 namespace {
@@ -18,13 +18,12 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr const char* shares =
-    ": its share of the friction is not determined, as others hold the same; state one that stands for all "
-    "of them, or end the run before";
+    ": its share of the friction is not determined, as others constrain the same slip; state one in place "
+    "of all, or end the run before";
 
 }  // namespace
 
-/// u' = W v' + gamma; what is round-off beside its terms, or within the root of the tolerance as forces are,
-/// is 0.
+/// u' = W v' + gamma; 0 where it is round-off of its terms, or below the root of the tolerance as forces are.
 VectorXd DryFriction::slip_acceleration(const Rough& rough, const Instant& at, const Motion& motion) const {
   auto e = stated_->evaluation();
   std::vector<double> gamma(stated_->rows());
@@ -48,7 +47,7 @@ VectorXd DryFriction::slip_acceleration(const Rough& rough, const Instant& at, c
   return rate;
 }
 
-/// When two slip velocities that are as slow as the run watches them come to rest; else now.
+/// When two slip velocities, as slow as the run watches them, come to rest; else now.
 double DryFriction::rests_at(const Rough& rough, const Instant& at, std::span<const double> a) const {
   if (rough.mode != Mode::slides || rough.rows == 1) return at.t;
   const VectorXd u = slip(rough), rate = slip_acceleration(rough, at, {{a.begin(), a.end()}, {}});
@@ -56,7 +55,7 @@ double DryFriction::rests_at(const Rough& rough, const Instant& at, std::span<co
   return slows > 0.0 ? at.t + 1.0 / slows : at.t;
 }
 
-/// Of two slip velocities that begin at rest: d(phi) such that u' is along it.
+/// For two slip velocities that start from rest: d(phi) such that u' is along it.
 void DryFriction::find_direction(Rough& rough, const std::vector<std::size_t>& open, const Instant& at) {
   if (rough.rows != 2) return;
   const double first = std::atan2(rough.direction[1], rough.direction[0]);
@@ -74,7 +73,7 @@ void DryFriction::find_direction(Rough& rough, const std::vector<std::size_t>& o
   rough.direction = Eigen::Vector2d(std::cos(phi), std::sin(phi));
 }
 
-/// What to try first: as it was, but for what has changed.
+/// The mode to try first: as it was, but for what has changed.
 void DryFriction::begin(Rough& rough, const std::vector<std::size_t>& open, std::optional<std::size_t> fallen,
                         const FlatSample& motion) {
   const Mode before = rough.mode;
@@ -103,8 +102,7 @@ void DryFriction::begin(Rough& rough, const std::vector<std::size_t>& open, std:
   rough.slow = 0.0;
 }
 
-/// What is let go slides with less than it stuck with: of several that hold the same it decides which that
-/// is.
+/// What starts to slide has less friction than it stuck with: of redundant ones that decides which slides.
 void DryFriction::require_own_share(const Rough& rough, std::span<const char> unique, double t) const {
   bool own = unique.empty();
   for (std::size_t k = 0; k < rough.rows && !unique.empty(); ++k) own = unique[rough.row + k] != 0;
@@ -112,7 +110,7 @@ void DryFriction::require_own_share(const Rough& rough, std::span<const char> un
   throw StepFailure{stated_->row_label(rough.row) + shares, t};
 }
 
-/// Of what sticks and would need more than its bound that which exceeds it most; whether there is any.
+/// Releases, of what sticks and would exceed its bound, what exceeds it most; whether there is any.
 bool DryFriction::let_go_what_exceeds(const std::vector<std::size_t>& open, const Instant& at,
                                       const Motion& motion) {
   Rough* most = nullptr;
@@ -133,7 +131,7 @@ bool DryFriction::let_go_what_exceeds(const std::vector<std::size_t>& open, cons
   return true;
 }
 
-/// Whether two slip velocities that begin at rest go another way than they were let go.
+/// Whether two slip velocities that start from rest take another direction than they were released in.
 bool DryFriction::turn(Rough& rough, const std::vector<std::size_t>& open, const Instant& at,
                        const Motion& motion) {
   if (rough.rows != 2) return false;
@@ -144,7 +142,7 @@ bool DryFriction::turn(Rough& rough, const std::vector<std::size_t>& open, const
   return true;
 }
 
-/// Whether something did not agree with (1) and has been changed.
+/// Whether something violated (1) and has been changed.
 bool DryFriction::amend(const std::vector<std::size_t>& open, const Instant& at, const Motion& motion) {
   for (Rough& r : all_) {
     const double zero = round_off_of(r, motion.a, motion.lambda);
@@ -176,11 +174,10 @@ void DryFriction::refuse(double t) const {
   std::string names;
   for (const Rough& r : all_)
     if (r.mode != Mode::absent) names += (names.empty() ? "" : ", ") + stated_->row_label(r.row);
-  throw StepFailure{
-      names +
-          ": no motion agrees with Coulomb's law here, neither sticking nor sliding (Painleve's "
-          "paradox); make mu smaller, or end the run before",
-      t};
+  throw StepFailure{names +
+                        ": no motion satisfies Coulomb's law here, neither sticking nor sliding (Painleve's "
+                        "paradox); make mu smaller, or end the run before",
+                    t};
 }
 
 std::vector<DryFriction::Happening> DryFriction::settle(const std::vector<std::size_t>& open,

@@ -27,7 +27,7 @@ void Transitions::add(const std::vector<Contacts::Happening>& contacts,
   for (const auto& one : friction) what.push_back({one.constraint, one.time, one.what});
 }
 
-/// What contacts did, and what that does to friction.
+/// What contacts did, and its effect on friction.
 Transitions::Change Transitions::settle(Contacts::Change contacts, const Instant& at) {
   friction_.require_no_impulse(contacts.impulses, at.t);
   Change change{std::move(contacts.v_before), std::move(contacts.v), std::move(contacts.impulses)};

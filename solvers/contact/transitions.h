@@ -11,7 +11,7 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// All constraints of a run that hold at times only: contacts, and what sticks and slides on what presses.
+/// All constraints of a run that hold only at times: contacts, and dry friction.
 class Transitions {
  public:
   /// What happened at an instant, by numbers of constraints in the layout; the velocities before and after
@@ -21,16 +21,16 @@ class Transitions {
     std::vector<Occurrence> what{};
   };
 
-  /// At a state that obeys all constraints that always hold. Throws InconsistentStart where a gap is
+  /// At a state that satisfies all constraints that always hold. Throws InconsistentStart where a gap is
   /// negative.
   Transitions(const std::shared_ptr<const System>& stated, const Scales& scales, double tolerance,
               const Instant& start);
 
-  /// Those in force as they are now, and the others not.
+  /// With those in force that are now, and the others not.
   [[nodiscard]] const std::shared_ptr<const System>& system() const {
     return friction_.any() ? friction_.system() : contacts_.system();
   }
-  /// Functions that fall through 0 where something changes, and what each belongs to.
+  /// Switching functions, which fall through 0 where something changes, and what each belongs to.
   [[nodiscard]] std::size_t functions() const { return contacts_.size() + friction_.functions(); }
   [[nodiscard]] std::string label(std::size_t function) const;
   [[nodiscard]] double watched(std::size_t function, const FlatSample& now) const;
@@ -39,15 +39,15 @@ class Transitions {
 
   /// What happens at the start. Throws as Contacts::pass and DryFriction::settle.
   [[nodiscard]] Change begin(const Instant& at);
-  /// Goes on from where a function has fallen to 0. Throws likewise.
+  /// Goes on from where a switching function has fallen to 0. Throws likewise.
   [[nodiscard]] Change pass(const FlatSample& at, std::size_t function);
   /// See Contacts.
   [[nodiscard]] std::optional<std::size_t> driven() const { return contacts_.driven(); }
-  /// Goes on from a state that is given, with equations in which parameters may differ, to which impulses
-  /// have led. Throws likewise.
+  /// Goes on from a given state, reached by impulses, with equations whose parameters may differ. Throws
+  /// likewise.
   [[nodiscard]] Change restate(const std::shared_ptr<const System>& stated, const Instant& at,
                                std::span<const double> impulses);
-  /// The scales of the run, where they are others than those of its constraints that always hold.
+  /// The scales of the run, where they differ from those of the constraints that always hold.
   void adopt(const Scales& scales);
   /// See Contacts.
   [[nodiscard]] bool open_pulling(const FlatSample& now, std::vector<Occurrence>& what);

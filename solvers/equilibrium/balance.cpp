@@ -20,7 +20,7 @@ void require_finite(double time, const Turning<3>& turning, int dimension) {
   if (!turning.rate.allFinite() || !turning.centre.allFinite())
     throw InvalidArgument("Option turning of an equilibrium: rate and centre must be finite");
   if (dimension == 2 && turning.rate.head<2>().norm() > 0.0)
-    throw InvalidArgument("Option turning of an equilibrium: a plane turns about its normal only");
+    throw InvalidArgument("Option turning of an equilibrium: a planar scene rotates about its normal only");
 }
 
 void require_frictionless(const System& system) {
@@ -35,7 +35,7 @@ void require_bilateral(const System& system) {
   const auto label = system.held_at_times();
   if (label.empty()) return;
   throw InvalidScene("Equilibria of scene \"" + system.layout()->scene + "\": " + label +
-                     " holds at times only; state it as it always holds, and see what force it has");
+                     " holds only at times; state it as a bilateral one, and check the sign of its force");
 }
 
 double largest(std::span<const double> x) {
@@ -53,7 +53,7 @@ Balance::Balance(const System& system, std::span<const double> guess, double tim
   require_bilateral(system);
   std::vector<double> v(guess.size());
   carrier_.velocity(guess, v);
-  // A duration only for scenes without a length; a turn, where there is one.
+  // A duration for scenes without a length only; a radian of rotation, where there is one.
   const double duration = carrier_.turns() ? 1.0 / carrier_.rate() : 1.0;
   Start start =
       consistent_start(system, guess, v, {.t_end = time + duration, .t_start = time, .assemble = true});
@@ -80,7 +80,7 @@ void Balance::share_by_particle(std::span<double> forces) const {
   }
 }
 
-/// A particle is in balance if what is left is little against what acts on itself: a stiff spring elsewhere
+/// A particle is in balance if the residual is small against the forces on itself: a stiff spring elsewhere
 /// holds nothing up.
 void Balance::evaluate(State& s) const {
   carrier_.velocity(s.q, s.v);
@@ -131,9 +131,9 @@ ActiveRows Balance::rows_at(const State& s) const {
   return independent_rows(*system_, e.w);
 }
 
-/// Of the stiffness at the guess: what K + s M needs so that free motions, along which K is 0, do not make it
-/// singular (Newton's iteration then converges by this part of K a step), and for each coordinate the force
-/// that is none, as a displacement of round-off makes it.
+/// From the stiffness at the guess: the shift s that keeps K + s M regular along free motions, where K is 0
+/// (Newton's iteration then converges by this part of K a step), and for each coordinate the force that
+/// counts as 0, made by a displacement of round-off.
 void Balance::measure_stiffness() {
   std::vector<double> v(q0_.size());
   carrier_.velocity(q0_, v);
@@ -150,15 +150,15 @@ void Balance::measure_stiffness() {
   share_along_rows(terms.w);
 }
 
-/// What is held by constraints alone feels in them what is none elsewhere: the torque of a wheel that nothing
-/// turns is the round-off of the force that its contact takes up.
+/// Forces of round-off spread along constraints: the torque of a wheel that nothing turns is the round-off of
+/// the force that its contact transmits.
 void Balance::share_along_rows(std::span<const double> w) {
   const auto lengths = scales_.lengths();
   const auto share = [&](std::size_t r) {
     const double gradient = gradient_length(*system_, w, lengths, r);
     double multiplier = 0.0;
     if (gradient == 0.0) return false;
-    for (const std::size_t k : system_->row(r)) {  // of each force the part along the row
+    for (const std::size_t k : system_->row(r)) {  // the part of each force along the row
       const std::size_t i = system_->w_columns()[k];
       const double along = std::abs(w[k]) / lengths[i] / gradient;
       multiplier = std::max(multiplier, along * least_force_[i] / lengths[i] / gradient);
@@ -195,8 +195,8 @@ bool Balance::step(const State& s, double shift, std::vector<double>& x) const {
   return std::ranges::all_of(x, [](double value) { return std::isfinite(value); });
 }
 
-/// Along a step as far as the residual falls enough, measured by what acts where the step begins: where one
-/// force alone acts on a particle it is all of what acts anywhere.
+/// Line search: as far along a step as the residual falls enough, relative to the forces where the step
+/// begins: where a single force acts on a particle the residual relative to its own would always be 1.
 bool Balance::improve(State& s, const std::vector<double>& x) const {
   const std::size_t n = s.q.size();
   double fraction = 1.0;
@@ -224,7 +224,6 @@ bool Balance::solve(State& s) const {
   return s.size <= balanced;
 }
 
-/// Puts positions onto all constraints, with the multipliers of the motion that begins there.
 bool Balance::land(State& s) const {
   Manifold manifold(*system_, rows_at(s), scales_.lengths());
   const double close = 1e-12 * scales_.length + scales_.rounding(s.q);
@@ -288,8 +287,8 @@ void Balance::refuse(const State& s, const std::string& why) const {
   throw NoEquilibrium(what.str());
 }
 
-/// Whether other multipliers hold a state where it is: a bearing that does not turn with what it carries
-/// takes up the load with one row, then with another.
+/// Whether other multipliers balance a state: a bearing that does not turn with what it carries takes up the
+/// load with one row, then with another.
 bool Balance::held_otherwise(State& s) const {
   const std::vector<double> q = s.q;
   if (!land(s) || s.size > 1e-8) return false;
@@ -299,8 +298,8 @@ bool Balance::held_otherwise(State& s) const {
   return true;
 }
 
-/// A scene that stays does so later too; one that is only for an instant as if at rest does not. The instants
-/// are no part of a period of anything likely.
+/// An equilibrium persists; a state that is at rest only for an instant does not. The instants tried are no
+/// likely fraction of a period.
 void Balance::require_lasting(const State& s) const {
   const double t = carrier_.turns() ? 1.0 / carrier_.rate() : scales_.time;
   const auto lengths = scales_.lengths();
@@ -315,7 +314,7 @@ void Balance::require_lasting(const State& s) const {
     if (moving.size > 1e-8 * speed + scales_.rounding(s.q) / t) {
       std::ostringstream what;
       what << system_->row_label(moving.row) << " moves by " << moving.size << " at t = " << time_ + later
-           << (carrier_.turns() ? " against what turns with the scene" : ", where the scene is to rest")
+           << (carrier_.turns() ? " relative to the rotating frame" : ", where the scene is to be at rest")
            << "; give the turning of its drive as an option, or a scene whose constraints do not move";
       throw NoEquilibrium(what.str());
     }

@@ -13,7 +13,7 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// A state whose residual no longer falls is one of balance if it is as small as this, see Balance::State.
+/// A state whose residual no longer falls counts as balanced if it is below this, see Balance::State.
 inline constexpr double balanced = 1e-10;
 
 /// The search for a state (q, lambda) in which all forces balance, see `equilibrium`:
@@ -26,12 +26,12 @@ class Balance {
     double scale = 0.0;                       ///< of forces: the largest that balance here
     std::vector<double> acting{};             ///< the largest on the particle of each coordinate
     std::vector<double> force{}, distance{};  ///< R1, and R2 of all holonomic rows
-    /// The largest of R1 over what acts on its own particle, and of R2 over the scene's length.
+    /// The larger of R1 over the forces on its own particle, and of R2 over the scene's length.
     double size = 0.0;
     double off = 0.0;  ///< R2's part of it
   };
 
-  /// Puts the guess onto the constraints. Throws InconsistentStart, NoEquilibrium.
+  /// Projects the guess onto the constraint manifold. Throws InconsistentStart, NoEquilibrium.
   Balance(const System& system, std::span<const double> guess, double time, const Turning<3>& turning);
 
   /// v, R1, R2 and size of a state's q and lambda. Throws EquationFault.
@@ -42,16 +42,16 @@ class Balance {
   [[nodiscard]] State start() const;
   /// Newton's iteration from a state; false if it does not converge.
   [[nodiscard]] bool solve(State& s) const;
-  /// Moves a state downhill until Newton's iteration converges from there. Throws NoEquilibrium.
+  /// Descends until Newton's iteration converges. Throws NoEquilibrium.
   void slide(State& s) const;
-  /// Puts positions onto all constraints, with the multipliers of the motion that begins there; false if that
-  /// fails.
+  /// Projects positions onto the constraint manifold, with the multipliers of the motion that begins there;
+  /// false if that fails.
   [[nodiscard]] bool land(State& s) const;
-  /// The same, and solves from there.
+  /// The same, then solves from there.
   [[nodiscard]] bool settle(State& s) const { return land(s) && solve(s); }
-  /// That the state lasts. Throws NoEquilibrium.
+  /// Throws NoEquilibrium unless the state persists.
   void require_lasting(const State& s) const;
-  /// The state with its forces, the multipliers of dependent rows as small as they can be.
+  /// The state with its forces, those of dependent rows of least norm.
   [[nodiscard]] std::shared_ptr<const Record> record(const State& s) const;
 
   [[nodiscard]] const Carrier& carrier() const { return carrier_; }
@@ -62,7 +62,7 @@ class Balance {
   [[nodiscard]] double high_stiffness() const { return 10.0 * shift_ / constants.no_stiffness; }
 
  private:
-  /// The residual of a state by what acts in another.
+  /// The residual of a state relative to the forces in another.
   [[nodiscard]] static double size(const State& s, std::span<const double> acting);
   [[nodiscard]] bool step(const State& s, double shift, std::vector<double>& x) const;
   [[nodiscard]] bool improve(State& s, const std::vector<double>& x) const;

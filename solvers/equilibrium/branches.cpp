@@ -15,7 +15,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Of the way between two points, to which bifurcations are found.
+/// The fraction of the way between two points to which bifurcations are located.
 constexpr double exact = 1e-14;
 constexpr std::size_t most_points = 5000, most_branches = 50;
 
@@ -37,7 +37,7 @@ class Follower {
     const auto along = corrector_.tangent(corrector_.begin());
     if (!along)
       throw InvalidScene(
-          "The branch of equilibria turns back where it is to begin, at option from; begin at "
+          "The branch of equilibria has a fold where it is to begin, at option from; begin at "
           "another value, or go from `to` to `from`");
     starts_.push_back({corrector_.begin(), *along, no_bifurcation});
     for (std::size_t b = 0; b < starts_.size() && b < most_branches; ++b) follow_branch(starts_[b]);
@@ -70,7 +70,7 @@ class Follower {
       const double end = progress(guess), way = end - progress(last);
       const bool at_end = (end >= 1.0 && way > 0.0) || (end <= 0.0 && way < 0.0);
       VectorXd normal = along;
-      if (at_end) {  // the last point is in the plane of the end
+      if (at_end) {  // the last point is at the end of the range
         normal.setZero();
         normal[normal.size() - 1] = 1.0;
         guess.x = last.x + (std::clamp(end, 0.0, 1.0) - progress(last)) / way * step * along;
@@ -96,7 +96,7 @@ class Follower {
     found_.branches.push_back(std::move(branch));
   }
 
-  /// The point between two at which the eigenvalue that changes its sign is 0.
+  /// The point between two at which an eigenvalue changes its sign.
   [[nodiscard]] std::optional<Node> crossing(const Node& a, const Node& b, Index shape) const {
     const VectorXd chord = b.x - a.x, normal = chord.normalized();
     std::optional<Node> found;
@@ -112,8 +112,8 @@ class Follower {
     return found;
   }
 
-  /// Finds what lies between two points of a branch, and the branches that begin there. Eigenvalues that
-  /// vanish at one point make one bifurcation.
+  /// Locates the singular points between two points of a branch, and the branches that emanate there.
+  /// Eigenvalues that vanish at one point make one bifurcation.
   void meet(const Node& a, const Node& b) {
     const Index first = std::min(a.softer(), b.softer()), last = std::max(a.softer(), b.softer());
     for (Index shape = first; shape < last;) {
@@ -141,7 +141,7 @@ class Follower {
     return (a - b).norm() < constants.shortest_branch_step * step_;
   }
 
-  /// Of one shape both, of two the eight winds, of more each and its opposite.
+  /// Both directions of a single null vector, eight of two, of more each and its opposite.
   static std::vector<VectorXd> directions(const Node& at, Index first, Index count) {
     std::vector<VectorXd> all;
     const auto add = [&](const VectorXd& shape) {

@@ -11,17 +11,18 @@
 
 namespace dalembert {
 
-/// A scene at one value of a parameter, and how it turns there.
+/// A scene at one value of a parameter, and its rotation there.
 template <int D>
 struct Posed {
   Scene<D> scene;
   EquilibriumOptions<D> options{};
 };
 
-/// Over which values of the parameter equilibria are followed.
+/// The range of the parameter over which equilibria are followed.
 struct BranchOptions {
   double from = 0.0, to = 0.0;  ///< finite and different
-  /// Length of a step, of the lengths of scene and range: finer steps miss less. Between 1e-4 and 0.5.
+  /// The arclength of a step, in units of the scene's length and the range: finer steps miss less. Between
+  /// 1e-4 and 0.5.
   double step = 0.02;
 };
 
@@ -31,7 +32,7 @@ struct BranchPoint {
   double parameter;
   State state;
   /// The lowest eigenvalue of the stiffness K on the tangent space, over the masses (see normal_modes), free
-  /// motions at a state of rest among them: below 0 the scene gives way [1 / time^2].
+  /// motions at a state of rest included: below 0 the stiffness is not definite [1 / time^2].
   double softest;
 };
 
@@ -40,23 +41,23 @@ inline constexpr std::size_t no_bifurcation = std::numeric_limits<std::size_t>::
 /// Why a branch ends.
 enum class BranchEnd {
   range,       ///< the parameter would leave its range
-  closed,      ///< it has come back to where it began
+  closed,      ///< it has returned to where it began
   lost,        ///< no further point was found: less is known than was asked for
   most_points  ///< 5,000 were: `step` is too short for its length
 };
 
-/// Equilibria that hang together; the first branch begins at the scene's own equilibrium at `from`.
+/// Connected equilibria; the first branch begins at the scene's own equilibrium at `from`.
 template <class State>
 struct Branch {
   std::vector<BranchPoint<State>> points;
-  std::size_t origin = no_bifurcation;  ///< the bifurcation at which it leaves another, if it does
+  std::size_t origin = no_bifurcation;  ///< the bifurcation where it emanates, if it does
   BranchEnd end = BranchEnd::lost;
 };
 
 template <class State>
 struct Diagram {
   std::vector<Branch<State>> branches;
-  std::vector<BranchPoint<State>> bifurcations;  ///< where branches meet
+  std::vector<BranchPoint<State>> bifurcations;  ///< where branches intersect
   std::vector<BranchPoint<State>> folds;         ///< where a branch turns back
 };
 
@@ -97,17 +98,16 @@ template <int D>
 
 /// Follows the equilibria of a scene as a parameter changes, `build(parameter)` being the Posed<D> scene:
 /// along each branch by pseudo-arclength continuation, so that it may turn back (a fold); where an eigenvalue
-/// of the stiffness changes its sign, the place is found to round-off and the branches that leave there are
-/// followed too. (Keller, in Applications of Bifurcation Theory, 1977; Allgower, Georg, Numerical
-/// Continuation Methods, 1990.) Each branch says why it ends, see BranchEnd.
+/// of the stiffness changes its sign, the point is located to round-off and the branches that emanate there
+/// are followed too. (Keller, in Applications of Bifurcation Theory, 1977; Allgower, Georg, Numerical
+/// Continuation Methods, 1990.) Each branch states why it ends, see BranchEnd.
 ///
-/// Every value builds a scene anew, which must differ from the others in numbers only. What is returned is
-/// read with the handles of the scene that was built last: `build` may write them to where the caller finds
-/// them.
+/// Every value builds the scene anew; only numbers may differ. What is returned is read with the handles of
+/// the scene that was built last: `build` may store them for its caller.
 ///
 /// Up to 600 coordinates, without nonholonomic constraints. No scene is built outside of the range. Throws
-/// InvalidArgument for options that make no sense, InvalidScene for scenes that do not suit or whose first
-/// branch turns back at `from`, and what `equilibrium` throws there.
+/// InvalidArgument for invalid options, InvalidScene for scenes that are not suitable or whose first branch
+/// has a fold at `from`, and what `equilibrium` throws there.
 template <int D, class Build>
 [[nodiscard]] Diagram<Equilibrium<D>> follow_branches(const Build& build, const BranchOptions& options) {
   const auto pose = [&build](double parameter) {

@@ -24,7 +24,7 @@ Carrier::Carrier(const Layout& layout, const Turning<3>& turning)
   square_ = cross_ * cross_;
 }
 
-/// out = m (x - about) + to for every particle; what it has for rotors stays.
+/// out = m (x - about) + to for every particle; rotors are left as they are.
 void Carrier::transform(const Eigen::Matrix3d& m, const Eigen::Vector3d& about, std::span<const double> x,
                         std::span<double> out, const Eigen::Vector3d& to) const {
   const auto d = static_cast<Eigen::Index>(dimension_);

@@ -12,12 +12,13 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// A turning as it acts on the flat coordinates: with Omega its rate and p its centre every particle has
+/// A uniformly rotating frame on the flat coordinates: with Omega its rate and p its centre every particle at
+/// rest in it has
 ///
 ///   r' = Omega x (r - p),    or for all together   v = A (q - p),   v' = A v,
 ///
-/// A block-diagonal and skew, zero for rotors. In the plane rotors are angles about the same axis, and their
-/// v is Omega; in space they keep their angles.
+/// A is block-diagonal and skew, zero for rotors. In the plane rotors are angles about the same axis, and
+/// their v is Omega; in space they keep their angles.
 class Carrier {
  public:
   Carrier(const Layout& layout, const Turning<3>& turning);
@@ -28,7 +29,7 @@ class Carrier {
   void velocity(std::span<const double> q, std::span<double> v) const;
   /// out = A x.
   void apply(std::span<const double> x, std::span<double> out) const;
-  /// Where an angle of turning brings the positions q, and the vectors x.
+  /// Rotates the positions q, and vectors x, by an angle.
   void turn_positions(double angle, std::span<double> q) const;
   void turn_vectors(double angle, std::span<double> x) const;
 

@@ -62,7 +62,7 @@ Balance::State Corrector::state(const Here& here, const Node& node) const {
   return s;
 }
 
-/// Keeps what is read of a point, with the multipliers of dependent rows as small as they can be.
+/// Stores what is read of a point, with multipliers of least norm where rows are dependent.
 void Corrector::finish(const Here& here, const Balance::State& s, Node& node) const {
   node.state = {here.balance.record(s), here.turning};
   const FlatSample flat = node.state.state->sample(0);
@@ -81,7 +81,7 @@ Eigen::VectorXd Corrector::residual(double p, const Node& node, const ActiveRows
   return balance_of(state(here, node), rows);
 }
 
-/// By central differences, to one side at the ends of the range.
+/// By central differences, one-sided at the ends of the range.
 Eigen::VectorXd Corrector::slope_by_parameter(const Node& node, const ActiveRows& rows) const {
   const double h = constants.parameter_difference;
   const double progress = node.x[node.x.size() - 1], before = std::max(progress - h, 0.0),
@@ -95,7 +95,7 @@ double Corrector::push(const Node& node, Index shape) const {
   const Eigen::VectorXd slope = slope_by_parameter(node, here.balance.rows_at(s));
   const Eigen::VectorXd direction = node.shapes.col(shape);
   const auto by_parameter = slope.head(direction.size());
-  // Differences leave round-off of the forces that act where the mode moves.
+  // Difference quotients keep round-off of the forces that act where the mode moves.
   const Eigen::Map<const Eigen::VectorXd> acting(s.acting.data(), direction.size());
   const double least = acting.dot(direction.cwiseAbs());
   const double size = std::max(by_parameter.norm(), least);
@@ -125,8 +125,8 @@ Eigen::MatrixXd Corrector::jacobian(const Here& here, const Balance::State& s, c
 }
 
 std::optional<Eigen::VectorXd> Corrector::tangent(const Node& node) const {
-  // Differences over h err by h of the slope, and by round-off of the forces over h: both with a margin of
-  // some tens. Directions in which the matrix is round-off are free motions.
+  // Difference quotients err by h times the slope, and by round-off of the forces over h: both with a margin
+  // of some tens. Directions in which the matrix is round-off are free motions.
   constexpr double exact = 1e-4, rounding = 1e-8, no_stiffness = 1e-12;
   const Here here = at(parameter(node), node.x);
   const Balance::State s = state(here, node);
@@ -177,7 +177,7 @@ std::optional<Node> Corrector::correct(const Node& guess, const Eigen::VectorXd&
       newton_step(here, s, off, normal, node);
       double& progress = node.x[node.x.size() - 1];
       if (!node.x.allFinite()) return std::nullopt;
-      progress = std::clamp(progress, 0.0, 1.0);  // one that lies beyond is then never met
+      progress = std::clamp(progress, 0.0, 1.0);  // a point beyond is then never found
     }
   } catch (const EquationFault&) {
   } catch (const InconsistentStart&) {

@@ -18,20 +18,20 @@ struct Node {
   std::vector<double> lambda{};
   FlatEquilibrium state{};
   Eigen::VectorXd stiffness{};  ///< eigenvalues of K on the tangent space, increasing
-  Eigen::MatrixXd shapes{};     ///< theirs, in x without p, each of length 1
+  Eigen::MatrixXd shapes{};     ///< their eigenvectors, in x without p, of length 1
 
   [[nodiscard]] Eigen::Index softer() const {
     return (stiffness.array() < 0.0).count();
   }  ///< eigenvalues < 0
 };
 
-/// Newton's iteration for a point of a branch in the plane through `x` across `normal`:
+/// Newton's iteration for a point of a branch in the hyperplane through the guess across `normal`:
 ///
 ///   R1(q, lambda, p) = 0,   R2(q, lambda, p) = 0,   normal . (x - x_guess) = 0.                       (1)
 ///
-/// Derivatives by q and lambda are those of Balance, by p they are differences; corrections are the least
-/// that do, so that free motions are no harm. No scene is asked for outside of the range of p: a point there
-/// is none.
+/// Derivatives by q and lambda are those of Balance, by p difference quotients; corrections are of least
+/// norm, so that free motions do no harm. No scene is built outside of the range of p: there are no points
+/// there.
 class Corrector {
  public:
   /// Begins at the equilibrium of options.from. Throws like `find_equilibrium`.
@@ -41,11 +41,11 @@ class Corrector {
   /// Nothing if the iteration does not converge.
   [[nodiscard]] std::optional<Node> correct(const Node& guess, const Eigen::VectorXd& normal) const;
   [[nodiscard]] double parameter(const Node& node) const { return value(node.x[node.x.size() - 1]); }
-  /// The direction of the branch through a point towards options.to, of length 1; nothing at a fold. Of the
-  /// directions of free motions it has none.
+  /// The unit tangent of the branch at a point, towards options.to; none at a fold. It has no component along
+  /// free motions.
   [[nodiscard]] std::optional<Eigen::VectorXd> tangent(const Node& node) const;
-  /// The force along one of its shapes by which a change of p unbalances a state, over the forces that
-  /// balance: none at a bifurcation, some at a fold.
+  /// The part of the residual's derivative by p along an eigenvector of K, over that derivative. At a
+  /// singular point it is 0 at a bifurcation (the derivative is in the range of K), not 0 at a fold.
   [[nodiscard]] double push(const Node& node, Eigen::Index shape) const;
 
  private:

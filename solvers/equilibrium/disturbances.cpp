@@ -28,8 +28,8 @@ const std::array<std::array<double, 3>, 3> a{{
     {(16.0 - r6) / 36.0, (16.0 + r6) / 36.0, 1.0 / 9.0},
 }};
 
-/// Those of a sample. Of a spring whose force may not be read there, as positions tell it only roughly, they
-/// do: it curves nothing by more than its stiffness times their round-off.
+/// The multipliers of a sample. Where positions give a spring's force too roughly to be read it is good
+/// enough here: its error enters K by no more than its stiffness times their round-off.
 std::vector<double> multipliers(const System& system, const FlatSample& at) {
   std::vector<double> lambda(at.lambda.begin(), at.lambda.end());
   auto e = system.evaluation();
@@ -40,7 +40,7 @@ std::vector<double> multipliers(const System& system, const FlatSample& at) {
     if (C == 0.0) {
       std::ostringstream what;
       what << "The force of " << system.row_label(r) << " is not determined at t = " << at.time
-           << ", and so is none of what grows there";
+           << ", so neither is the growth of disturbances there";
       throw NoEquilibrium(what.str());
     }
     lambda[r] = -e.g[r] / C;

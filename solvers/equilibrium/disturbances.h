@@ -11,7 +11,8 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// The linear equations of disturbances x = (M^1/2 u, M^1/2 w) along a motion, see `floquet`, at one instant:
+/// The variational equations of disturbances x = (M^1/2 u, M^1/2 w) along a motion, see `floquet`, at one
+/// instant:
 ///
 ///   u' = w + G^T z,   w' = -K u - C w + W^T y,   G u = 0,   W w + E u = 0                            (1)
 ///
@@ -21,7 +22,7 @@ struct Disturbances {
 
   Disturbances(const System& system, const ActiveRows& rows, const FlatSample& at, double unit_of_time);
   [[nodiscard]] Eigen::Index coordinates() const { return K.rows(); }
-  /// An orthonormal basis of the x that obey the constraints.
+  /// An orthonormal basis of the x that satisfy the constraints.
   [[nodiscard]] Eigen::MatrixXd basis() const;
 };
 
@@ -29,7 +30,7 @@ struct Disturbances {
 [[nodiscard]] Eigen::MatrixXd radau_step(std::span<const Disturbances> nodes, double h,
                                          const Eigen::MatrixXd& x);
 
-/// Its nodes, of a step.
+/// Its nodes, as fractions of a step.
 [[nodiscard]] std::span<const double> radau_nodes();
 
 }  // namespace dalembert

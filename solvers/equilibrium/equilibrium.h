@@ -11,7 +11,7 @@
 
 namespace dalembert {
 
-/// No equilibrium was found from a guess, or what was found does not last; what() names the particle that
+/// No equilibrium was found from a guess, or what was found does not persist; what() names the particle that
 /// would move, or the constraint that does.
 class NoEquilibrium : public Error {
   using Error::Error;
@@ -20,11 +20,11 @@ class NoEquilibrium : public Error {
 /// Which equilibrium to look for.
 template <int D>
 struct EquilibriumOptions {
-  Turning<D> turning{};  ///< zero: rest; else everything turns with it, drives too
-  double time = 0.0;     ///< of the state, for scenes that turn or depend on time [time]
+  Turning<D> turning{};  ///< zero: rest; else everything rotates with it, drives too
+  double time = 0.0;     ///< of the state, for scenes that rotate or depend on time [time]
 };
 
-/// A state in which a scene stays, at rest or turning uniformly, and the forces of constraint there.
+/// A state in which a scene remains, at rest or rotating uniformly, and the forces of constraint there.
 template <int D>
 class Equilibrium {
  public:
@@ -35,7 +35,7 @@ class Equilibrium {
   /// long as a copy of the Equilibrium is.
   [[nodiscard]] Sample<D> sample() const& { return {*state_->layout, state_->sample(0)}; }
   void sample() const&& = delete;  // keep the Equilibrium first
-  /// How it turns; in the plane about an axis along z.
+  /// Its rotation; in the plane about an axis along z.
   [[nodiscard]] const Turning<3>& turning() const { return turning_; }
   [[nodiscard]] const Layout& layout() const& { return *state_->layout; }
   void layout() const&& = delete;
@@ -54,25 +54,25 @@ class Equilibrium {
 ///
 ///   F(t,q,v) + W^T lambda = M v',     g + C lambda = 0,     v = Omega x (r - p),  v' = Omega x v        (1)
 ///
-/// with Omega = 0 for rest, and else a relative equilibrium: the bead that a turning hoop holds up, a
-/// governor's working angle, a circular orbit. Omega is then that of the drives, or where nothing is driven
-/// the one that is wanted.
+/// with Omega = 0 for rest, else a relative equilibrium: the bead that a turning hoop holds up, a governor's
+/// working angle, a circular orbit. Omega is then that of the drives or, where nothing is driven, the one
+/// that is wanted.
 ///
-/// Newton's iteration on (1) for q and lambda, with the curvature of the constraints, -sum lambda g_qq, as it
-/// brings the residual down. From where it does not, the scene slides in steps of
+/// Newton's iteration on (1) for q and lambda, with the curvature of the constraints, -sum lambda g_qq, while
+/// it reduces the residual. From where it does not, the scene descends in steps of
 ///
 ///   (K + s M) dq = W^T dlambda + residual,     W dq = 0 (2)
 ///
-/// each along which forces do work: with s large down the gradient, with s falling to 0 into Newton's
-/// iteration (pseudo-transient continuation: Kelley, Keyes, SIAM J. Numer. Anal. 35, 1998); in such a case
-/// what is found is stable as a rule. Where there is a family of equilibria (free motions, nonholonomic
-/// constraints, along which a scene moves while it slides), one near the guess is found. Forces of
-/// constraints that repeat each other are the smallest, as in a run.
+/// along each of which the forces do work: with s large down the gradient, with s falling to 0 into Newton's
+/// iteration (pseudo-transient continuation: Kelley, Keyes, SIAM J. Numer. Anal. 35, 1998); what is found is
+/// then stable as a rule. Of a family of equilibria (free motions, nonholonomic constraints, along which a
+/// scene moves as it descends), one near the guess is found. Forces of redundant constraints are those of
+/// least norm, as in a run.
 ///
-/// Throws NoEquilibrium where nothing is found, where what is found does not last, because something moves or
-/// turns otherwise, and for forces that read multipliers: friction at rest takes any value up to a limit.
-/// InconsistentStart if the constraints cannot be met, InvalidArgument if `turning` or `time` is not finite
-/// or a plane's scene is to turn about another axis than its normal.
+/// Throws NoEquilibrium where nothing is found, where what is found does not persist, because something moves
+/// or rotates otherwise, and for forces that read multipliers: friction at rest takes any value up to a
+/// limit. InconsistentStart if the constraints cannot be satisfied, InvalidArgument if `turning` or `time` is
+/// not finite or a planar scene is to rotate about an axis other than its normal.
 template <int D>
 [[nodiscard]] Equilibrium<D> equilibrium(const Scene<D>& scene, const EquilibriumOptions<D>& options = {}) {
   return {find_equilibrium(scene.system(), scene.initial_positions(), options.time, options.turning),

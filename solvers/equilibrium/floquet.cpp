@@ -18,9 +18,9 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Of the motion that is disturbed, and of the map over a period.
+/// Of the periodic motion, and of the monodromy matrix.
 constexpr double tolerance = 1e-12, known = 1e-11;
-/// What a motion may be off after a period that is no error of its steps.
+/// A deviation after a period that is more than the error of the steps.
 constexpr double returned = 1e-6;
 constexpr int fewest_steps = 16, most_steps = 8192;
 
@@ -33,13 +33,13 @@ void require_period(const System& system, double period) {
   }
   if (const auto label = system.held_at_times(); !label.empty())
     throw InvalidScene("Floquet multipliers: " + label +
-                       " holds at times only; they are of scenes without such constraints");
+                       " holds only at times; they are defined for scenes without such constraints");
   if (system.frictional())
     throw InvalidScene("Floquet multipliers: " + system.force_of_friction(0) +
-                       " reads a multiplier; they are of scenes without such forces");
+                       " reads a multiplier; they are defined for scenes without such forces");
 }
 
-/// The nodes of so many steps of a period, and its ends.
+/// The nodes of this many steps of a period, and its ends.
 std::vector<double> node_times(double period, int steps) {
   std::vector<double> times{0.0};
   for (int k = 0; k < steps; ++k) {
@@ -68,7 +68,7 @@ void require_return(const Record& motion) {
     for (const double l : motion.sample(i).lambda) force = std::max(force, std::abs(l));
   }
   const double length = motion.statistics.length, time = motion.statistics.time;
-  // Of an angle 1 counts for the scene's length.
+  // An angle of 1 counts as the scene's length.
   std::vector<double> q(last.q.begin(), last.q.end()), v(last.v.begin(), last.v.end());
   for (const auto& rotor : motion.layout->rotors) {
     const auto i = static_cast<std::size_t>(rotor.coordinate);
@@ -80,21 +80,21 @@ void require_return(const Record& motion) {
   compare(first.lambda, last.lambda, force, "multipliers");
 }
 
-/// Throws unless forces and constraints answer a disturbance at the end of the period as at its start.
+/// Throws unless forces and constraints respond to a disturbance at the end of the period as at its start.
 void require_same_forces(const System& system, const Disturbances& first, const Disturbances& last,
                          double period) {
-  // In units of the period smaller ones than 1 do nothing within it.
+  // In units of the period what is smaller than 1 has no effect within it.
   const auto differ = [](const MatrixXd& a, const MatrixXd& b) {
     return (a - b).norm() > returned * std::max({a.norm(), b.norm(), 1.0});
   };
   if (!differ(first.K, last.K) && !differ(first.C, last.C) && !differ(first.W, last.W)) return;
   std::ostringstream what;
-  what << "Scene \"" << system.layout()->scene << "\": its forces or constraints are others after " << period
-       << ", so that is no period of theirs; give their whole period";
+  what << "Scene \"" << system.layout()->scene << "\": its forces or constraints differ after " << period
+       << ", so that is not their period; give their whole period";
   throw NoEquilibrium(what.str());
 }
 
-/// The map of disturbances over a period, in a basis of those that the constraints allow.
+/// The monodromy matrix, in a basis of the disturbances that the constraints allow.
 MatrixXd monodromy(const System& system, const Record& motion, double period) {
   const FlatSample start = motion.sample(0);
   auto e = system.evaluation();
@@ -118,7 +118,7 @@ MatrixXd monodromy(const System& system, const Record& motion, double period) {
 }  // namespace
 
 Stability Floquet::stability() const {
-  const double rounding = std::sqrt(known);  // a double multiplier is known to the root
+  const double rounding = std::sqrt(known);  // a double multiplier is known to the square root
   if (growth() > 1.0 + rounding) return Stability::unstable;
   return growth() < 1.0 - rounding ? Stability::stable : Stability::undecided;
 }
@@ -142,7 +142,7 @@ Floquet find_multipliers(const std::function<System()>& system, std::span<const 
     if (!settled && steps < most_steps) continue;
     if (!settled)
       throw NoEquilibrium("Floquet multipliers of scene \"" + motion->layout->scene +
-                          "\" do not settle: its motion is not smooth, or the period too long");
+                          "\" do not converge: its motion is not smooth, or the period too long");
     if (map.size() == 0) return {{}, steps};
     const Eigen::VectorXcd all = dense::eigenvalues(map);
     Floquet found{{all.data(), all.data() + all.size()}, steps};

@@ -10,16 +10,16 @@
 
 namespace dalembert {
 
-/// By what a small disturbance of a periodic motion is multiplied in every period.
+/// The factors by which small disturbances of a periodic motion are multiplied in every period.
 struct Floquet {
   std::vector<std::complex<double>> multipliers;  ///< by decreasing modulus
-  int steps = 0;                                  ///< of the equations of disturbances, in one period
+  int steps = 0;                                  ///< of the variational equations, in one period
 
   /// The modulus of the largest.
   [[nodiscard]] double growth() const { return multipliers.empty() ? 0.0 : std::abs(multipliers.front()); }
-  /// Unstable if one is larger than 1, stable if all are smaller; undecided where the largest is 1 to the
-  /// root of what it is known to, as in a motion without damping: linear terms let disturbances neither grow
-  /// nor decay.
+  /// Unstable if one exceeds 1, stable if all are smaller; undecided where the largest is 1 within the square
+  /// root of its accuracy, as in a motion without damping: linear terms let disturbances neither grow nor
+  /// decay.
   [[nodiscard]] Stability stability() const;
 };
 
@@ -28,14 +28,14 @@ struct Floquet {
                                        std::span<const double> v, double period);
 
 /// The multipliers of the periodic motion that begins at t = 0 with a scene's initial state: that of a driven
-/// scene such as a pendulum upright on a shaken pivot, or a natural vibration.
+/// scene such as an upright pendulum on a vibrating pivot, or a natural vibration.
 ///
 ///   M w' = (F + W^T lambda)_q u + F_v w + W^T y,   u' = w + M^-1 G^T z,   W w + psi_q u = 0,   G u = 0   (1)
 ///
-/// for disturbances u of q and w of v, along the motion as the explicit stepper finds it. (1) is the linear
-/// form of the stabilised index-2 equations, stepped by Radau IIA of order 5 (Hairer, Wanner, Solving ODEs
-/// II, VII.4) with equal steps, doubled until the map over a period, on the tangent space of the constraints,
-/// changes by less than 3e-10 of itself: it is then known to 1e-11.
+/// for disturbances u of q and w of v, along the motion as the explicit stepper finds it. (1) is the
+/// linearisation of the stabilised index-2 equations, integrated by Radau IIA of order 5 (Hairer, Wanner,
+/// Solving ODEs II, VII.4) with equal steps, doubled until the monodromy matrix, on the tangent space of the
+/// constraints, changes by less than 3e-10 of itself: it is then known to 1e-11.
 ///
 /// Throws NoEquilibrium if the motion does not return after `period`, InvalidArgument if the period is
 /// not finite and > 0, InvalidScene if a force reads multipliers; what `simulate` throws.

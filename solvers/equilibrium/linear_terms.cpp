@@ -30,14 +30,14 @@ void append_inertia(const System& system, const Carrier& carrier, LinearTerms& t
   }
 }
 
-/// The first entry of a row in this column: a row that has one coordinate of a particle has all.
+/// The first entry of a row in this column: a row with one coordinate of a particle has them all.
 std::size_t place_in_row(const System& system, std::size_t row, std::size_t column) {
   std::size_t k = system.row(row).front();
   while (system.w_columns()[k] != column) ++k;
   return k;
 }
 
-/// E = psi_q + W A, with psi_q in place already.
+/// E = psi_q + W A, with psi_q already in place.
 void add_carried(const System& system, const Carrier& carrier, LinearTerms& terms) {
   for (std::size_t r = system.holonomic_rows(); r < system.rows(); ++r) {
     for (const std::size_t k : system.row(r)) {

@@ -13,15 +13,15 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// The equations of small motions u, as seen from a frame that turns with the scene (A, see Carrier; at rest
-/// A = 0), about a state with multipliers lambda:
+/// The equations of small motions u in a rotating frame (A, see Carrier; at rest A = 0), about a state with
+/// multipliers lambda:
 ///
 ///   M u'' + C u' + K u = W^T y,       W u + c y = 0          (holonomic rows, c their compliance)   (1)
 ///                                     W u' + E u = 0         (nonholonomic rows)                    (2)
 ///   C = 2 M A - F_v,   K = -(F + W^T lambda)_q - F_v A + M A^2,   E = psi_q + W A                   (3)
 ///
-/// for there u stands for the change u' + A u of velocity and u'' + 2 A u' + A^2 u of acceleration. K holds
-/// the curvature of the constraints, -sum lambda g_qq, and the centrifugal forces.
+/// since u there stands for the change u' + A u of velocity and u'' + 2 A u' + A^2 u of acceleration. K
+/// contains the curvature of the constraints, -sum lambda g_qq, and the centrifugal forces.
 struct LinearTerms {
   using Entries = std::vector<Eigen::Triplet<double>>;
   Entries stiffness, damping;  ///< K and C; places may repeat, their entries add

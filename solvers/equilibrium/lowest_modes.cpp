@@ -95,7 +95,7 @@ struct Ritz {
   }
 };
 
-/// One run of Lanczos' method: so many of the lowest among what is not found yet, fewer if there are no more.
+/// One run of Lanczos' method: the wanted number of the lowest not found yet, fewer if there are no more.
 std::vector<Pair> lanczos(Inverse& T, std::span<const Pair> found, std::size_t wanted, unsigned seed) {
   constexpr std::size_t most_vectors = 400, between_looks = 5;
   std::vector<Vector> basis;
@@ -129,7 +129,7 @@ std::vector<Pair> lanczos(Inverse& T, std::span<const Pair> found, std::size_t w
   return pairs;
 }
 
-/// The lowest, by runs until one finds nothing that belongs among them.
+/// The lowest, by runs until one finds nothing lower.
 std::vector<Pair> lowest_pairs(Inverse& T, std::size_t wanted) {
   std::vector<Pair> found;
   const auto closeness = [&T](const Pair& p) { return std::abs(p.square + T.shift); };
@@ -154,8 +154,8 @@ double stiffest(const System& system, const LinearTerms& terms) {
   return largest;
 }
 
-/// Whether no omega^2 lies below -s (Finsler's lemma): for rho large enough K + s M + rho W^T W is positive
-/// definite then, and only then. An error of round-off of rho must stay below s, and so must 1/rho times K^2.
+/// Whether no omega^2 is below -s (Finsler's lemma): if and only if K + s M + rho W^T W is positive definite
+/// for rho large enough. Round-off of rho must stay below s, and so must 1/rho times K^2.
 bool nothing_below(const System& system, const LinearTerms& terms, double s, double largest) {
   const double rho = largest * largest / (0.1 * s);
   LinearTerms::Entries entries;
@@ -189,11 +189,11 @@ void require_conservative(const System& system, const LinearTerms& terms, std::s
   const bool damped = std::ranges::any_of(terms.damping, [](const auto& d) { return d.value() != 0.0; });
   const char* why = nullptr;
   if (wanted == 0) why = "all modes are too many; set the option lowest";
-  if (damped) why = "so many are looked through without damping and without turning only";
+  if (damped) why = "so many are analysed only without damping and without rotation";
   if (system.holonomic_rows() < system.rows())
-    why = "so many are looked through without nonholonomic constraints only";
+    why = "so many are analysed only without nonholonomic constraints";
   if (circulatory(terms, system.coordinates()).nonZeros() > 0)
-    why = "so many are looked through where all forces have a potential only";
+    why = "so many are analysed only where all forces have a potential";
   if (why == nullptr) return;
   throw InvalidScene("Normal modes of scene \"" + system.layout()->scene + "\" with " +
                      std::to_string(system.coordinates()) + " coordinates: " + why);
@@ -226,7 +226,7 @@ Modes lowest_modes(const System& system, const LinearTerms& terms, std::size_t w
   Modes found{{}, Stability::stable, "every vibration has positive energy"};
   if (!nothing_below(system, terms, s, largest)) {
     found.stability = Stability::undecided;
-    found.reason = "that no mode grows fast could not be proved";
+    found.reason = "it could not be proved that no mode grows fast";
   }
   const double zero = roundings_of_a_sum * std::numeric_limits<double>::epsilon() * largest;
   for (const Pair& pair : pairs) {

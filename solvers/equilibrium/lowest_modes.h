@@ -11,12 +11,11 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///   [ K + s M  -W^T ] [ u ]   [ M x ]
 ///   [ W         c   ] [ y ] = [  0  ],      u = T x,      T u = u/(omega^2 + s),                  (1)
 ///
-/// T symmetric in the metric of the masses. Its largest eigenvalues belong to the omega^2 closest to -s.
-/// Lanczos' method with full orthogonalisation (Parlett, The Symmetric Eigenvalue Problem, 13) from a vector
-/// of no special kind; modes of one frequency are found one by one, as what was found is kept out of the next
-/// run, until a run finds nothing as low. s, a ten millionth of the largest K/M, keeps (1) regular where
-/// there are free motions; that K + s M + rho W^T W has an L D L^T with D > 0 proves that nothing lies below
-/// -s.
+/// T is symmetric in the mass metric. Its largest eigenvalues belong to the omega^2 closest to -s. Lanczos'
+/// method with full orthogonalisation (Parlett, The Symmetric Eigenvalue Problem, 13) from a generic vector;
+/// modes of one frequency are found one by one, as converged ones are deflated from the next run, until a run
+/// finds nothing as low. s, a ten millionth of the largest K/M, keeps (1) regular where there are free
+/// motions; that K + s M + rho W^T W has an L D L^T with D > 0 proves that nothing is below -s.
 ///
 /// Throws InvalidScene if the scene is damped, has nonholonomic rows or forces without a potential (K must be
 /// symmetric), if no number of modes is wanted or fewer than wanted converge.

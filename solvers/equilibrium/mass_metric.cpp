@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// Where a coordinate stands among those that are looked at; -1: not among them.
+/// The place of a coordinate among those considered; -1: not among them.
 std::vector<Index> places(std::size_t all, std::span<const std::size_t> coordinates) {
   std::vector<Index> place(all, -1);
   for (std::size_t k = 0; k < coordinates.size(); ++k) place[coordinates[k]] = static_cast<Index>(k);

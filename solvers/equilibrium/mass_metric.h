@@ -11,7 +11,7 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// A number that is a sum of products counts as 0 below so many roundings of the largest of them.
+/// A sum of products counts as 0 below this many roundings of the largest of them.
 inline constexpr double roundings_of_a_sum = 1e3;
 
 /// Linear terms of some coordinates and rows as dense matrices in x = M^1/2 u:
@@ -28,9 +28,9 @@ struct MassMetric {
              std::span<const std::size_t> rows);
 };
 
-/// K - K^T, the circulatory forces, without what is round-off: entry by entry, so that the stiffest spring of
-/// a scene does not hide what is not symmetric elsewhere. Entries are known to roundings of themselves and of
-/// the stiffness of their two coordinates, off which they may have cancelled.
+/// K - K^T, the circulatory forces, without round-off: entry by entry, so that the stiffest spring of a scene
+/// does not hide an asymmetry elsewhere. Entries are known to round-off of themselves and of the stiffness of
+/// their two coordinates, off which they may have cancelled.
 [[nodiscard]] Eigen::SparseMatrix<double> circulatory(const LinearTerms& terms, std::size_t coordinates);
 
 }  // namespace dalembert

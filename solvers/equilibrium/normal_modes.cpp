@@ -14,7 +14,7 @@ namespace dalembert {
 
 namespace {
 
-/// Whether an equilibrium is found again a finite way along the mode, and not back where it began.
+/// Whether there is another equilibrium a finite distance along the mode, not back where it began.
 bool moves_freely(const Balance& balance, const FlatSample& at, const Mode& mode) {
   const double way = constants.free_way * balance.scales().length;
   Balance::State s = balance.start();
@@ -52,8 +52,8 @@ double stiffness_along(const Balance& balance, const Balance::State& s, std::spa
   return sum;
 }
 
-/// Whether the stiffness along a mode is more than what it changes by within the root of round-off, to which
-/// a position is known where the stiffness vanishes: of a bead at the turning point of a cubic it is not.
+/// Whether the stiffness along a mode exceeds its change within the square root of round-off, to which a
+/// position is known where the stiffness vanishes: for a bead at the turning point of a cubic it does not.
 bool is_known(const Balance& balance, const FlatSample& at, const Mode& mode) {
   const double way = std::sqrt(std::numeric_limits<double>::epsilon()) * balance.scales().length;
   std::vector<double> u;
@@ -71,7 +71,7 @@ bool is_known(const Balance& balance, const FlatSample& at, const Mode& mode) {
   return true;
 }
 
-/// What is not known is called 0, to be told by a finite motion.
+/// What is not known counts as 0, to be decided by a finite motion.
 void drop_unknown(const Balance& balance, const FlatSample& at, Modes& found) {
   bool dropped = false;
   for (Mode& mode : found.modes) {
@@ -83,8 +83,7 @@ void drop_unknown(const Balance& balance, const FlatSample& at, Modes& found) {
       std::ranges::any_of(found.modes, [](const Mode& m) { return m.eigenvalue.real() > 0.0; });
   if (!dropped || found.stability != Stability::unstable || grows) return;
   found.stability = Stability::undecided;
-  found.reason =
-      "the stiffness along a mode is no more than what it changes by within round-off of positions";
+  found.reason = "the stiffness along a mode does not exceed its change within the round-off of positions";
 }
 
 void leave_undecided(Modes& found, const char* why) {
@@ -93,7 +92,7 @@ void leave_undecided(Modes& found, const char* why) {
   found.reason = why;
 }
 
-/// What eigenvalues 0 are, and what they mean for the verdict.
+/// Classifies the eigenvalues 0, with what they mean for the verdict.
 void name_zeros(const Balance& balance, const FlatSample& at, Modes& found) {
   bool all_free = true;
   for (Mode& mode : found.modes) {
@@ -106,17 +105,17 @@ void name_zeros(const Balance& balance, const FlatSample& at, Modes& found) {
     all_free = all_free && mode.free;
   }
   if (!all_free)
-    leave_undecided(found, "a mode of eigenvalue 0 is no free motion: terms of higher order tell");
+    leave_undecided(found, "a mode of eigenvalue 0 is no free motion: terms of higher order decide");
 }
 
-/// Beside something very stiff round-off may leave nothing of the lowest modes of a large scene.
+/// Round-off beside something very stiff may leave nothing of the lowest modes of a large scene.
 void require_told_from_zero(const System& system, const Modes& found) {
   const bool told =
       std::ranges::all_of(found.modes, [](const Mode& m) { return m.eigenvalue != 0.0 || m.free; });
   if (told) return;
   throw InvalidScene(
       "Normal modes of scene \"" + system.layout()->scene +
-      "\": beside what is stiffest in it the lowest are not known from 0; leave out what is stiff "
+      "\": the lowest cannot be told from 0 beside what is stiffest in it; leave out what is stiff "
       "and does not act on them, or make it rigid");
 }
 
@@ -126,13 +125,13 @@ void require_smooth(const System& system, const Balance& balance, const FlatSamp
     return;
   throw InvalidScene(
       "Normal modes of scene \"" + system.layout()->scene +
-      "\": the equilibrium is a singular position, where constraints touch without repeating each "
-      "other and the ways they leave part; no linear equations tell the small motions");
+      "\": the equilibrium is a singular position, where the constraints are linearly dependent but not "
+      "redundant and leave several paths; linear equations do not describe the small motions");
 }
 
 [[noreturn]] void refuse_changed(const System& system, const std::string& why) {
-  throw InvalidArgument("This equilibrium is none of scene \"" + system.layout()->scene +
-                        "\" as it is now: " + why + "; the scene was changed since, so find it anew");
+  throw InvalidArgument("This equilibrium is not one of scene \"" + system.layout()->scene +
+                        "\" as it is now: " + why + "; the scene has been changed since, so find it anew");
 }
 
 void require_same_size(const System& system, const FlatSample& at) {
@@ -144,28 +143,29 @@ void require_same_size(const System& system, const FlatSample& at) {
                                std::to_string(system.rows()));
 }
 
-/// That forces balance there, constraints are met and nothing moves against them, as when it was found.
+/// Throws unless forces balance there, constraints are satisfied and nothing moves against them, as when it
+/// was found.
 void require_equilibrium(const Balance& balance, const FlatSample& at) {
-  constexpr double met = 1e-8;  // a hundred times what `equilibrium` asks for, and what a start may violate
+  constexpr double close = 1e-8;  // a hundred times what `equilibrium` asks for, and what a start may violate
   const System& system = balance.system();
   Balance::State s = balance.start();
   s.q.assign(at.q.begin(), at.q.end());
   s.lambda.assign(at.lambda.begin(), at.lambda.end());
   balance.evaluate(s);
   std::ostringstream why;
-  if (s.size > met) why << "forces or constraints are off by " << s.size << " of what acts";
+  if (s.size > close) why << "forces or constraints have a relative residual of " << s.size;
   auto e = system.evaluation();
   system.evaluate({balance.time(), at.q, at.v}, e);
   const Scales& scales = balance.scales();
   const double time = balance.carrier().turns() ? 1.0 / balance.carrier().rate() : scales.time;
   const Violation moving = velocity_violation(system, e, scales.lengths());
-  if (moving.size > met * scales.length / time + scales.rounding(s.q) / time)
+  if (moving.size > close * scales.length / time + scales.rounding(s.q) / time)
     why << system.row_label(moving.row) << " moves by " << moving.size;
   if (!why.str().empty()) refuse_changed(system, why.str());
 }
 
-/// What the forces M u + C u and, in nonholonomic rows, -E u do to what K + s M and the constraints hold.
-/// (Not the rows of W themselves: those of a sleeve on an axis need not turn, the axis does.)
+/// What K + s M and the constraints answer to the forces M u + C u and, in nonholonomic rows, -E u. (Not the
+/// rows of W themselves: those of a sleeve on an axis need not turn, the axis does.)
 std::vector<double> response(const System& system, const LinearTerms& terms, double s,
                              std::span<const double> u) {
   const ActiveRows rows = independent_rows(system, terms.w);
@@ -183,7 +183,7 @@ std::vector<double> response(const System& system, const LinearTerms& terms, dou
   return out;
 }
 
-/// That the equations of small motions are the same later, seen from the frame that turns with the scene.
+/// Throws unless the equations of small motions are the same later, in the rotating frame.
 void require_constant(const System& system, const Balance& balance, const FlatSample& at,
                       const LinearTerms& terms) {
   const Carrier& carrier = balance.carrier();
@@ -207,10 +207,10 @@ void require_constant(const System& system, const Balance& balance, const FlatSa
     size = std::max(size, std::abs(expected[i]));
   }
   if (difference <= 1e-8 * size) return;
-  throw InvalidScene("Normal modes of scene \"" + system.layout()->scene +
-                     "\": its forces or constraints change with time, as seen from what " +
-                     (carrier.turns() ? "turns" : "rests") +
-                     "; find the equilibrium for the turning of its drives, or ask for floquet multipliers");
+  throw InvalidScene(
+      "Normal modes of scene \"" + system.layout()->scene +
+      "\": its forces or constraints change with time in the " + (carrier.turns() ? "rotating" : "resting") +
+      " frame; find the equilibrium for the turning of its drives, or ask for floquet multipliers");
 }
 
 }  // namespace
@@ -241,7 +241,7 @@ Modes find_modes(const System& system, const FlatSample& at, const Turning<3>& t
   } else {
     found = lowest_modes(system, terms, options.lowest);
     if (!found.modes.empty() && found.modes.back().eigenvalue == 0.0)
-      leave_undecided(found, "all modes that were looked for have the eigenvalue 0: there may be more");
+      leave_undecided(found, "all modes that were asked for have the eigenvalue 0: there may be more");
   }
   const bool damped = std::ranges::any_of(terms.damping, [](const auto& d) { return d.value() != 0.0; });
   if (!damped && system.coordinates() <= most_dense) drop_unknown(balance, at, found);

@@ -8,11 +8,11 @@
 
 namespace dalembert {
 
-/// Whether a scene that is disturbed a little stays near its equilibrium; free motions apart.
+/// Whether a slightly disturbed scene stays near its equilibrium; free motions apart.
 enum class Stability {
   stable,    ///< every mode decays, or vibrates with positive energy
   unstable,  ///< some mode grows
-  undecided  ///< the linear terms do not tell
+  undecided  ///< the linear terms do not decide
 };
 [[nodiscard]] const char* name(Stability stability);
 
@@ -30,7 +30,7 @@ struct Modes {
 };
 
 struct ModesOptions {
-  /// How many modes are wanted, those of the lowest frequencies; 0: all, of up to 600 coordinates.
+  /// How many modes are wanted, those of the lowest frequencies; 0: all, for up to 600 coordinates.
   std::size_t lowest = 0;
 };
 
@@ -50,12 +50,12 @@ class NormalModes {
   [[nodiscard]] std::complex<double> eigenvalue(std::size_t k) const { return mode(k).eigenvalue; }
   [[nodiscard]] double frequency(std::size_t k) const { return mode(k).eigenvalue.imag(); }  ///< [rad/time]
   [[nodiscard]] double damping(std::size_t k) const { return -mode(k).eigenvalue.real(); }   ///< [1/time]
-  /// Whether the scene moves freely along this mode: there is an equilibrium all along it.
+  /// Whether the scene moves freely along this mode: there are equilibria all along it.
   [[nodiscard]] bool is_free(std::size_t k) const { return mode(k).free; }
 
-  /// What a particle or a point of a body does in a mode, in the frame that turns with the scene; a motion is
-  /// the real part of shape exp(eigenvalue t). The largest number of a mode's shape is 1; a driven point,
-  /// whose path disturbs nothing, has 0.
+  /// The motion of a particle or a point of a body in a mode, in the rotating frame, is the real part of
+  /// shape exp(eigenvalue t). The largest number of a mode's shape is 1; a driven point, whose path nothing
+  /// disturbs, has 0.
   template <Point P>
   [[nodiscard]] VecOf<std::complex<double>, P::dimension> shape(std::size_t k, const P& point) const {
     const std::vector<std::complex<double>>& all = mode(k).shape;
@@ -93,30 +93,30 @@ extern template class NormalModes<2>;
 extern template class NormalModes<3>;
 
 /// Frequencies, damping and shapes of the small motions u of a scene about its equilibrium, on the tangent
-/// space of the constraints and as seen from the frame that turns with it:
+/// space of the constraints and in the frame that rotates with it:
 ///
 ///   M u'' + (2 M A + D) u' + (H + D A + M A^2) u = W^T y,      W u = 0   (nonholonomic: of u', see below)
 ///   (1)
 ///
-/// with H = -(F + W^T lambda)_q, which holds the curvature of the constraints -sum lambda g_qq, D = -F_v, and
-/// A the turning, v = A (q - p). A compliant constraint is the spring that it is; a nonholonomic one holds
-/// psi_v (u' + A u) + psi_q u = 0. What a mode of eigenvalue 0 is, linear terms do not say: moved along it by
-/// a finite way and brought into balance again the scene shows whether it moves there freely.
+/// with H = -(F + W^T lambda)_q, which contains the curvature of the constraints -sum lambda g_qq, D = -F_v,
+/// and A the rotation, v = A (q - p). A compliant constraint is the spring that it is; a nonholonomic one
+/// gives psi_v (u' + A u) + psi_q u = 0. Linear terms do not tell what a mode of eigenvalue 0 is: moved along
+/// it by a finite distance and brought into balance again the scene shows whether it moves there freely.
 ///
-/// Verdict: unstable if an eigenvalue has a positive real part; stable if all others than those of free
-/// motions decay, or vibrate with an energy u'.M u'/2 + u.(H + M A^2).u/2 > 0, which is then a Lyapunov
-/// function; otherwise undecided: an eigenvalue 0 that is no free motion (a bifurcation), or a vibration of
-/// negative energy that only gyroscopic forces hold.
+/// Verdict: unstable if an eigenvalue has a positive real part; stable if all but those of free motions
+/// decay, or vibrate with an energy u'.M u'/2 + u.(H + M A^2).u/2 > 0, which is then a Lyapunov function;
+/// otherwise undecided: an eigenvalue 0 that is no free motion (a bifurcation), or a vibration of negative
+/// energy that is stabilised by gyroscopic forces only.
 ///
 /// Up to 600 coordinates by dense matrices: all modes. Beyond that the lowest, by Lanczos' method on the
 /// inverse of (1), with memory in proportion to the size of the scene, for scenes at rest, without damping,
 /// nonholonomic constraints and forces that have no potential.
 ///
-/// Parts of a scene that nothing couples are judged each by itself. A part holds the numbers of its K to
-/// round-off of the largest: within that an eigenvalue is undecided, or 0 and tried.
+/// Uncoupled parts of a scene are judged separately. The numbers of a part's K are known to round-off of the
+/// largest: within that an eigenvalue is undecided, or 0 and tried.
 ///
 /// Throws InvalidArgument if the equilibrium is not one of this scene as it is now, InvalidScene if `lowest`
-/// does not suit it or its equations change with time.
+/// is not suitable or its equations change with time.
 template <int D>
 [[nodiscard]] NormalModes<D> normal_modes(const Scene<D>& scene, const Equilibrium<D>& equilibrium,
                                           const ModesOptions& options = {}) {

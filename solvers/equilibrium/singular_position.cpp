@@ -14,7 +14,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// -sum lambda g_qq and all that does not depend on lambda, in the metric of the masses.
+/// -sum lambda g_qq and all that does not depend on lambda, in the mass metric.
 MatrixXd stiffness(const System& system, const Carrier& carrier, const Instant& at,
                    std::span<const double> lambda) {
   const LinearTerms terms = linear_terms(system, carrier, at, lambda);
@@ -50,7 +50,7 @@ bool is_singular_position(const System& system, const Carrier& carrier, const In
   const MatrixXd N = orthogonal_complement(W.transpose()), dependences = orthogonal_complement(W);
   std::vector<double> mu(system.rows(), 0.0);
   const MatrixXd without = stiffness(system, carrier, at, mu);
-  // Positions are known to rank_threshold at best, and so is what they leave of a sum that is 0.
+  // Positions are known to rank_threshold at best, and so is the residue of a sum that is 0.
   const double known = std::sqrt(rank_threshold);
   for (const auto dependence : dependences.colwise()) {
     for (Index k = 0; k < W.rows(); ++k) mu[rigid[static_cast<std::size_t>(k)]] = dependence[k] / length[k];

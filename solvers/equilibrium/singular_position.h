@@ -6,13 +6,12 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// Whether the constraints of a small scene leave no smooth set of positions around a state, so that there
-/// are no small motions that linear equations tell: a bead where a line touches a parabola, rods in line.
+/// Whether the constraints of a small scene leave no smooth manifold around a state, so that linear equations
+/// describe no small motions there: a bead where a line touches a parabola, rods in line.
 ///
-/// Rows that depend on each other, mu^T W = 0, may repeat each other, or touch. Along every motion u that W u
-/// = 0 allows the constraints ask for  u . (sum mu g_qq) u = 0  in second order: where they repeat each other
-/// that holds by itself. (Then the split of forces among them makes no difference to K either, elsewhere it
-/// does.)
+/// Linearly dependent rows, mu^T W = 0, may be redundant, or singular. Along every motion u with W u = 0 the
+/// constraints require u . (sum mu g_qq) u = 0 in second order: redundant ones satisfy that identically.
+/// (Then the distribution of forces among them does not change K either, elsewhere it does.)
 [[nodiscard]] bool is_singular_position(const System& system, const Carrier& carrier, const Instant& at);
 
 }  // namespace dalembert

@@ -30,7 +30,7 @@ struct Tangent {
   bool symmetric;  ///< K
 };
 
-/// N^T X N, with 0 for what is round-off of the terms it sums.
+/// N^T X N, with 0 for what is round-off of the summed terms.
 Matrix onto(const Matrix& N, const Matrix& X) {
   const Matrix Y = N.transpose() * X * N;
   const Matrix size = N.cwiseAbs().transpose() * X.cwiseAbs() * N.cwiseAbs();
@@ -55,7 +55,7 @@ Tangent tangent(const System& system, const LinearTerms& terms, std::vector<std:
             skew.isZero(0.0)};
   if (t.symmetric) t.K = ((t.K + t.K.transpose()) / 2).eval();
   for (Index k = 0; k < velocity_rows; ++k)
-    if (t.B.row(k).norm() < rank_threshold) t.B.row(k).setZero();  // what holonomic rows hold already
+    if (t.B.row(k).norm() < rank_threshold) t.B.row(k).setZero();  // dependent on holonomic rows
   return t;
 }
 
@@ -65,8 +65,8 @@ std::vector<std::size_t> up_to(std::size_t count) {
   return all;
 }
 
-/// Parts of a scene that nothing couples are scenes of their own: what is small in one does not vanish beside
-/// what is stiff in another.
+/// Uncoupled parts of a scene are scenes of their own: what is small in one is not lost beside what is stiff
+/// in another.
 std::vector<Tangent> tangents(const System& system, const LinearTerms& terms) {
   const Islands parts = islands(system);
   std::vector<std::vector<std::size_t>> coordinates(parts.count), rows(parts.count);
@@ -102,7 +102,7 @@ void refute(Modes& found, Stability stability, const std::string& reason) {
   found.reason = reason;
 }
 
-/// K z = omega^2 z. What lies within round-off of 0 is called 0, to be told by a finite motion.
+/// K z = omega^2 z. What is within round-off of 0 counts as 0, to be decided by a finite motion.
 void of_conservative(const Tangent& t, Modes& found) {
   const auto [square, shapes] = dense::symmetric_eigen(t.K);
   const double zero = round_off * (square.size() > 0 ? square.cwiseAbs().maxCoeff() : 0.0);
@@ -115,7 +115,7 @@ void of_conservative(const Tangent& t, Modes& found) {
   }
 }
 
-/// Makes 1 the unit in which K, or without stiffness C and E, are measured; gives Omega, so many to a unit.
+/// Scales time so that K, or without stiffness C and E, has norm 1; returns the frequency Omega of that unit.
 double scale_time(Tangent& t) {
   double Omega = std::sqrt(t.K.norm());
   if (Omega == 0.0) Omega = std::max(t.C.norm(), t.E.norm());
@@ -152,27 +152,27 @@ Matrix states_at_rest(const Tangent& t, const FirstOrder& f) {
   return dense::kernel(S, round_off);
 }
 
-/// Orthonormal bases of what independent columns span, and of the rest.
+/// Orthonormal bases of the span of independent columns, and of its complement.
 std::pair<Matrix, Matrix> split(const Matrix& columns) {
   Matrix rest = orthogonal_complement(columns, of_full_rank);
   return {orthogonal_complement(rest), std::move(rest)};
 }
 
-/// What is left of a matrix without its zero eigenvalues that are known: those of the states at rest, and
-/// of motions that go along them for ever, A (A x) = 0, one at most to each.
+/// A matrix deflated by its known zero eigenvalues: those of the states at rest, and of motions that go along
+/// them for ever, A (A x) = 0, one at most to each.
 struct Deflated {
   Matrix zeros, rest;  ///< orthonormal; span(zeros) is invariant
 
   Deflated(const Matrix& A, const Matrix& at_rest) {
     const auto [still, moving] = split(at_rest);
-    const Matrix again = moving.transpose() * A * moving;  // rows of whatever sizes
+    const Matrix again = moving.transpose() * A * moving;  // rows of any size
     const Matrix further = dense::kernel(again.rowwise().normalized(), round_off);
     const auto [steady, others] = split(further.leftCols(std::min(further.cols(), at_rest.cols())));
     zeros.resize(A.rows(), still.cols() + steady.cols());
     zeros << still, moving * steady;
     rest = moving * others;
   }
-  /// The eigenvector of A to one, y, of rest^T A rest.
+  /// The eigenvector of A from one, y, of rest^T A rest.
   [[nodiscard]] Eigen::VectorXcd lift(const Matrix& A, std::complex<double> s,
                                       const Eigen::VectorXcd& y) const {
     const Eigen::VectorXcd x = rest * y;
@@ -183,8 +183,9 @@ struct Deflated {
   }
 };
 
-/// Whether an energy conserved or dissipated tells stability: K symmetric, constraints that do no work, and C
-/// not pushing. Each coordinate is measured by its own damping, so that a strong damper hides no weak push.
+/// Whether an energy conserved or dissipated decides stability: K symmetric, constraints that do no work, and
+/// C positive semi-definite. Each coordinate is scaled by its own damping, so that a strong damper hides no
+/// weak negative one.
 bool has_energy(const Tangent& t) {
   if (!t.symmetric || t.E.norm() > round_off) return false;
   Matrix D = onto(Matrix::Identity(t.C.rows(), t.C.rows()), t.C);
@@ -199,14 +200,14 @@ bool has_energy(const Tangent& t) {
   return D.rows() == 0 || shares.minCoeff() >= -round_off;
 }
 
-/// Adds what an eigenvalue says that is known to an error.
+/// Draws the conclusion from an eigenvalue that is known to an error.
 void judge(Modes& found, std::complex<double> s, double error, bool carries_energy) {
   if (s.real() > error) {
     refute(found, Stability::unstable, grows(s));
   } else if (!(s.real() < -error) && !carries_energy) {
     std::ostringstream text;
-    text << "whether a mode of " << s.imag() << " rad/time grows as exp(" << s.real()
-         << " t) does not show, since that is known to " << error << ", nor has it an energy > 0";
+    text << "it cannot be told whether a mode of " << s.imag() << " rad/time grows as exp(" << s.real()
+         << " t), since that is known to " << error << ", and its energy is not > 0";
     refute(found, Stability::undecided, text.str());
   }
 }

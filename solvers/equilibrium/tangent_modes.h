@@ -8,11 +8,11 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// Coordinates of a small scene.
+/// The most coordinates of a small scene.
 inline constexpr std::size_t most_dense = 600;
 
-/// All modes of a small scene by dense matrices, of each part that nothing couples by itself. With an
-/// orthonormal basis N of the tangent space in the metric of the masses, u = M^-1/2 N z,
+/// All modes of a small scene by dense matrices, of each uncoupled part separately. With an orthonormal basis
+/// N of the tangent space in the mass metric, u = M^-1/2 N z,
 ///
 ///   z'' + C z' + K z = B^T y,    B z' + E z = 0     (nonholonomic rows)                            (1)
 ///
@@ -21,11 +21,11 @@ inline constexpr std::size_t most_dense = 600;
 ///
 ///   z' = P c - B^+ E z,    c' = P^T (C B^+ E - K) z - P^T C P c,                                       (2)
 ///
-/// in units of time in which |K| = 1. Its zero eigenvalues may be defective: those of the null space of
-/// [P^T K; E], and at most one further to each, are deflated before the others are looked for. Each of these
-/// is known to the matrix's round-off times its condition 1/|y^H x|, and decides only what exceeds that; an
-/// energy u'.M u'/2 + u.K u/2 > 0 decides where it does not grow: for K symmetric, C not pushing, E = 0.
-/// Marks no mode as free. Throws EquationFault.
+/// in units of time in which |K| = 1. Its zero eigenvalues may be defective: those of the null space of [P^T
+/// K; E], and at most one more for each, are deflated before the others are computed. Each of these is known
+/// to the matrix's round-off times its condition 1/|y^H x|, and decides only what exceeds that; where it does
+/// not grow an energy u'.M u'/2 + u.K u/2 > 0 decides: for K symmetric, C dissipative, E = 0. Marks no mode
+/// as free. Throws EquationFault.
 [[nodiscard]] Modes dense_modes(const System& system, const LinearTerms& terms);
 
 /// The symmetric part of K there: its eigenvalues, increasing, and their shapes u = M^-1/2 N z as columns.

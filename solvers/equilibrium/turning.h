@@ -4,7 +4,7 @@
 
 namespace dalembert {
 
-/// A uniform turning of a whole scene: about a fixed axis in space, about a fixed point in the plane. A rate
+/// A uniform rotation of a whole scene: about a fixed axis in space, about a fixed point in the plane. A rate
 /// of zero is rest. Particles are carried round; in the plane rotors turn as much, in space they keep their
 /// angles.
 template <int D>
