@@ -117,20 +117,20 @@ struct Constants {
   /// Newton's step is halved until the residual falls by this part of what a linear one would.
   double sufficient_decrease = 0.25;
   /// The longest step of descent, as a fraction of the scene's length.
-  double longest_slide = 0.1;
+  double longest_descent = 0.1;
   /// A continuation step is given up below this fraction of the one asked for.
   double shortest_branch_step = 1e-3;
   /// Cosine of the angle below which two branches that leave one bifurcation are distinct.
-  double alike = 0.98;
+  double same_branch = 0.98;
   /// The step of difference quotients by the parameter, as a fraction of its range.
   double parameter_difference = 1e-6;
   /// A singular point is a bifurcation if less than this part of the derivative of the forces by the
   /// parameter is outside the range of the stiffness, else a fold.
-  double free_of_push = 1e-5;
+  double range_defect = 1e-5;
   /// How far along a mode of eigenvalue 0 another equilibrium is sought, as a fraction of the scene's length.
-  double free_way = 0.01;
+  double free_displacement = 0.01;
   /// The lowest modes of many are those closest to minus this part of the largest stiffness over mass.
-  double below_all = 1e-7;
+  double shift_below_0 = 1e-7;
 };
 
 /// Those of the library; `dalembert-bench sensitivity` is linked with others instead.

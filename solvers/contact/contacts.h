@@ -112,8 +112,8 @@ class Contacts {
                                                   const std::vector<std::size_t>& fallen) const;
   [[nodiscard]] std::vector<std::size_t> numbers(const std::vector<std::size_t>& chosen) const;
   [[nodiscard]] std::shared_ptr<const System> only(const std::vector<std::size_t>& in_force) const;
-  void strike(const Coupling& coupling, const std::vector<std::size_t>& touching, double t,
-              Eigen::VectorXd& U, Change& change) const;
+  void solve_impact(const Coupling& coupling, const std::vector<std::size_t>& touching, double t,
+                    Eigen::VectorXd& U, Change& change) const;
   [[nodiscard]] std::optional<double> limit_of_impacts(const Change& change, const Instant& at);
   static void rest(const Coupling& coupling, const std::vector<std::size_t>& resting, double limit,
                    Change& change);

@@ -123,7 +123,7 @@ double DryFriction::watched(std::size_t function, const FlatSample& now) const {
 }
 
 /// Starts to slide, against the force that held it.
-void DryFriction::let_go(Rough& rough, const VectorXd& held_by) const {
+void DryFriction::start_sliding(Rough& rough, const VectorXd& held_by) const {
   rough.mode = Mode::slides;
   rough.from_rest = true;
   rough.direction = -held_by.normalized();

@@ -84,7 +84,7 @@ class DryFriction {
   [[nodiscard]] static Eigen::VectorXd part(const Rough& rough, std::span<const double> all);
   void find_slip(const Instant& at) const;
   [[nodiscard]] Eigen::VectorXd slip(const Rough& rough) const;
-  void let_go(Rough& rough, const Eigen::VectorXd& held_by) const;
+  void start_sliding(Rough& rough, const Eigen::VectorXd& held_by) const;
   [[nodiscard]] std::shared_ptr<const System> with_modes(const std::vector<std::size_t>& open) const;
   [[nodiscard]] Motion solve(const std::vector<std::size_t>& open, const Instant& at) const;
   [[nodiscard]] Eigen::VectorXd slip_acceleration(const Rough& rough, const Instant& at,
@@ -96,8 +96,8 @@ class DryFriction {
   void require_own_share(const Rough& rough, std::span<const char> unique, double t) const;
   [[nodiscard]] bool amend(const std::vector<std::size_t>& open, const Instant& at, const Motion& motion);
   [[nodiscard]] std::vector<double> modes() const;
-  [[nodiscard]] bool let_go_what_exceeds(const std::vector<std::size_t>& open, const Instant& at,
-                                         const Motion& motion);
+  [[nodiscard]] bool release_most_exceeded(const std::vector<std::size_t>& open, const Instant& at,
+                                           const Motion& motion);
   [[nodiscard]] bool turn(Rough& rough, const std::vector<std::size_t>& open, const Instant& at,
                           const Motion& motion);
   [[noreturn]] void refuse(double t) const;

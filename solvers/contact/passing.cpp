@@ -31,8 +31,8 @@ VectorXd units(const Eigen::MatrixXd& S) {
 }  // namespace
 
 /// Solves (1). U becomes U+.
-void Contacts::strike(const Coupling& coupling, const std::vector<std::size_t>& touching, double t,
-                      VectorXd& U, Change& change) const {
+void Contacts::solve_impact(const Coupling& coupling, const std::vector<std::size_t>& touching, double t,
+                            VectorXd& U, Change& change) const {
   const VectorXd before = U;
   VectorXd q = U;
   for (Index i = 0; i < U.size(); ++i)
@@ -141,7 +141,7 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
     if ((c.closed && !c.moved) || (known_roughly && std::abs(rate) <= still(c))) rate = 0.0;
   }
   if (U.minCoeff() < 0.0) {
-    strike(*coupling, touched, at.t, U, change);
+    solve_impact(*coupling, touched, at.t, U, change);
     if (const auto limit = limit_of_impacts(change, at)) {
       const double shortest = contacts_[change.what.front().contact].impacts.interval();
       for (std::size_t i = 0; i < contacts_.size(); ++i)

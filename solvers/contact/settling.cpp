@@ -88,7 +88,7 @@ void DryFriction::begin(Rough& rough, const std::vector<std::size_t>& open, std:
   if (before == Mode::sticks && u.norm() <= rough.rest) {
     if (!turned) return;
     require_own_share(rough, motion.unique, motion.time);
-    let_go(rough, part(rough, motion.lambda));
+    start_sliding(rough, part(rough, motion.lambda));
     return;
   }
   if (turned || (u.norm() <= rough.rest && !(before == Mode::slides && rough.from_rest))) {
@@ -111,8 +111,8 @@ void DryFriction::require_own_share(const Rough& rough, std::span<const char> un
 }
 
 /// Releases, of what sticks and would exceed its bound, what exceeds it most; whether there is any.
-bool DryFriction::let_go_what_exceeds(const std::vector<std::size_t>& open, const Instant& at,
-                                      const Motion& motion) {
+bool DryFriction::release_most_exceeded(const std::vector<std::size_t>& open, const Instant& at,
+                                        const Motion& motion) {
   Rough* most = nullptr;
   double by = 1.0 + round_off();
   for (Rough& r : all_) {
@@ -126,7 +126,7 @@ bool DryFriction::let_go_what_exceeds(const std::vector<std::size_t>& open, cons
   if (most == nullptr) return false;
   require_own_share(*most, motion.unique, at.t);
   if (!most->one_sided) most->sign = motion.lambda[most->pressing_row] < 0.0 ? -1.0 : 1.0;
-  let_go(*most, part(*most, motion.lambda));
+  start_sliding(*most, part(*most, motion.lambda));
   find_direction(*most, open, at);
   return true;
 }
@@ -150,7 +150,7 @@ bool DryFriction::amend(const std::vector<std::size_t>& open, const Instant& at,
     r.sign = -r.sign;
     return true;
   }
-  if (let_go_what_exceeds(open, at, motion)) return true;
+  if (release_most_exceeded(open, at, motion)) return true;
   for (Rough& r : all_) {
     if (r.mode != Mode::slides || !r.from_rest || slip(r).norm() > r.rest) continue;
     if (turn(r, open, at, motion)) return true;

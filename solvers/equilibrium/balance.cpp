@@ -13,7 +13,7 @@ namespace dalembert {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr int most_corrections = 60, most_halvings = 6, most_slides = 2000;
+constexpr int most_corrections = 60, most_halvings = 6, most_descents = 2000;
 
 void require_finite(double time, const Turning<3>& turning, int dimension) {
   if (!std::isfinite(time)) throw InvalidArgument("Option time of an equilibrium must be finite");
@@ -47,14 +47,14 @@ double largest(std::span<const double> x) {
 }  // namespace
 
 Balance::Balance(const System& system, std::span<const double> guess, double time, const Turning<3>& turning)
-    : system_(&system), time_(time), carrier_(*system.layout(), turning) {
+    : system_(&system), time_(time), frame_(*system.layout(), turning) {
   require_finite(time, turning, system.layout()->dimension);
   require_frictionless(system);
   require_bilateral(system);
   std::vector<double> v(guess.size());
-  carrier_.velocity(guess, v);
+  frame_.velocity(guess, v);
   // A duration for scenes without a length only; a radian of rotation, where there is one.
-  const double duration = carrier_.turns() ? 1.0 / carrier_.rate() : 1.0;
+  const double duration = frame_.rotates() ? 1.0 / frame_.rate() : 1.0;
   Start start =
       consistent_start(system, guess, v, {.t_end = time + duration, .t_start = time, .assemble = true});
   q0_ = std::move(start.q);
@@ -83,11 +83,11 @@ void Balance::share_by_particle(std::span<double> forces) const {
 /// A particle is in balance if the residual is small against the forces on itself: a stiff spring elsewhere
 /// holds nothing up.
 void Balance::evaluate(State& s) const {
-  carrier_.velocity(s.q, s.v);
+  frame_.velocity(s.q, s.v);
   auto e = system_->evaluation();
   system_->evaluate({time_, s.q, s.v}, e);
   std::vector<double> inertia(s.q.size()), acting(s.q.size());
-  carrier_.apply(s.v, inertia);
+  frame_.apply(s.v, inertia);
   s.force = std::move(e.force);
   for (std::size_t i = 0; i < s.q.size(); ++i) {
     inertia[i] *= system_->masses()[i];
@@ -136,8 +136,8 @@ ActiveRows Balance::rows_at(const State& s) const {
 /// counts as 0, made by a displacement of round-off.
 void Balance::measure_stiffness() {
   std::vector<double> v(q0_.size());
-  carrier_.velocity(q0_, v);
-  const LinearTerms terms = linear_terms(*system_, carrier_, {time_, q0_, v}, lambda0_);
+  frame_.velocity(q0_, v);
+  const LinearTerms terms = linear_terms(*system_, frame_, {time_, q0_, v}, lambda0_);
   double highest = 0.0;
   least_force_.assign(q0_.size(), 0.0);
   for (const auto& entry : terms.stiffness) {
@@ -181,7 +181,7 @@ void Balance::share_along_rows(std::span<const double> w) {
 /// A step (dq, dlambda) of (K + s M) dq - W^T dlambda = R1, W dq + C dlambda = -R2.
 bool Balance::step(const State& s, double shift, std::vector<double>& x) const {
   const ActiveRows rows = rows_at(s);
-  const LinearTerms terms = linear_terms(*system_, carrier_, {time_, s.q, s.v}, s.lambda);
+  const LinearTerms terms = linear_terms(*system_, frame_, {time_, s.q, s.v}, s.lambda);
   TangentMatrix matrix(*system_, rows, terms, shift);
   if (!matrix.regular()) return false;
   const std::size_t n = s.q.size();
@@ -224,22 +224,22 @@ bool Balance::solve(State& s) const {
   return s.size <= balanced;
 }
 
-bool Balance::land(State& s) const {
+bool Balance::project(State& s) const {
   Manifold manifold(*system_, rows_at(s), scales_.lengths());
   const double close = 1e-12 * scales_.length + scales_.rounding(s.q);
   if (manifold.project_positions(time_, s.q, s.v, close).size > 1e-8 * scales_.length + close) return false;
-  carrier_.velocity(s.q, s.v);
+  frame_.velocity(s.q, s.v);
   std::vector<double> v(s.v), a(s.q.size());
   if (!manifold.solve_motion(time_, s.q, v, a, s.lambda)) return false;
   evaluate(s);
   return true;
 }
 
-void Balance::slide(State& s) const {
-  const double longest = constants.longest_slide * scales_.length;
+void Balance::descend(State& s) const {
+  const double longest = constants.longest_descent * scales_.length;
   double shift = 1e6 * shift_;
   std::vector<double> x;
-  for (int i = 0; i < most_slides; ++i, shift *= 4.0) {
+  for (int i = 0; i < most_descents; ++i, shift *= 4.0) {
     if (!step(s, shift, x)) continue;
     double power = 0.0, length = 0.0;
     for (std::size_t k = 0; k < s.q.size(); ++k) {
@@ -250,7 +250,7 @@ void Balance::slide(State& s) const {
     State next = s;
     for (std::size_t k = 0; k < s.q.size(); ++k) next.q[k] += x[k];
     try {
-      if (!land(next)) continue;
+      if (!project(next)) continue;
     } catch (const EquationFault&) {
       continue;
     }
@@ -289,9 +289,9 @@ void Balance::refuse(const State& s, const std::string& why) const {
 
 /// Whether other multipliers balance a state: a bearing that does not turn with what it carries takes up the
 /// load with one row, then with another.
-bool Balance::held_otherwise(State& s) const {
+bool Balance::balanced_otherwise(State& s) const {
   const std::vector<double> q = s.q;
-  if (!land(s) || s.size > 1e-8) return false;
+  if (!project(s) || s.size > 1e-8) return false;
   for (std::size_t i = 0; i < q.size(); ++i) {
     if (std::abs(s.q[i] - q[i]) > 1e-8 * scales_.coordinate[i]) return false;
   }
@@ -301,28 +301,28 @@ bool Balance::held_otherwise(State& s) const {
 /// An equilibrium persists; a state that is at rest only for an instant does not. The instants tried are no
 /// likely fraction of a period.
 void Balance::require_lasting(const State& s) const {
-  const double t = carrier_.turns() ? 1.0 / carrier_.rate() : scales_.time;
+  const double t = frame_.rotates() ? 1.0 / frame_.rate() : scales_.time;
   const auto lengths = scales_.lengths();
-  const double speed = carrier_.turns() ? carrier_.rate() * scales_.length : scales_.speed();
+  const double speed = frame_.rotates() ? frame_.rate() * scales_.length : scales_.speed();
   for (const double later : {0.0, 0.7390851332151607 * t, 2.6180339887498949 * t}) {
     State at = s;
-    if (carrier_.turns()) carrier_.turn_positions(carrier_.rate() * later, at.q);
-    carrier_.velocity(at.q, at.v);
+    if (frame_.rotates()) frame_.rotate_positions(frame_.rate() * later, at.q);
+    frame_.velocity(at.q, at.v);
     auto e = system_->evaluation();
     system_->evaluate({time_ + later, at.q, at.v}, e);
     const Violation moving = velocity_violation(*system_, e, lengths);
     if (moving.size > 1e-8 * speed + scales_.rounding(s.q) / t) {
       std::ostringstream what;
       what << system_->row_label(moving.row) << " moves by " << moving.size << " at t = " << time_ + later
-           << (carrier_.turns() ? " relative to the rotating frame" : ", where the scene is to be at rest")
+           << (frame_.rotates() ? " relative to the rotating frame" : ", where the scene is to be at rest")
            << "; give the turning of its drive as an option, or a scene whose constraints do not move";
       throw NoEquilibrium(what.str());
     }
     Balance then = *this;
     then.time_ += later;
     then.evaluate(at);
-    if (at.size > 1e-8 && !then.held_otherwise(at))
-      then.refuse(at, carrier_.turns()
+    if (at.size > 1e-8 && !then.balanced_otherwise(at))
+      then.refuse(at, frame_.rotates()
                           ? "the forces or constraints do not turn with the scene"
                           : "the forces or constraints change with time, and so does the balance");
   }
@@ -341,7 +341,7 @@ std::shared_ptr<const Record> Balance::record(const State& found) const {
     unique.assign(manifold.unique().begin(), manifold.unique().end());
   }
   std::vector<double> a(s.q.size()), forces(system_->layout()->slot_coordinate.size());
-  carrier_.apply(s.v, a);
+  frame_.apply(s.v, a);
   system_->constraint_forces(e.w, s.lambda, forces);
   const double energy = system_->kinetic_energy(s.v) + system_->potential_energy({time_, s.q, s.v}) +
                         system_->elastic_energy(s.lambda);
@@ -359,7 +359,7 @@ std::shared_ptr<const Record> find_equilibrium(const System& system, std::span<c
     Balance::State s = start;
     if (!balance.solve(s)) {
       s = start;
-      balance.slide(s);
+      balance.descend(s);
     }
     balance.require_lasting(s);
     return balance.record(s);

@@ -43,18 +43,18 @@ class Balance {
   /// Newton's iteration from a state; false if it does not converge.
   [[nodiscard]] bool solve(State& s) const;
   /// Descends until Newton's iteration converges. Throws NoEquilibrium.
-  void slide(State& s) const;
+  void descend(State& s) const;
   /// Projects positions onto the constraint manifold, with the multipliers of the motion that begins there;
   /// false if that fails.
-  [[nodiscard]] bool land(State& s) const;
+  [[nodiscard]] bool project(State& s) const;
   /// The same, then solves from there.
-  [[nodiscard]] bool settle(State& s) const { return land(s) && solve(s); }
+  [[nodiscard]] bool project_and_solve(State& s) const { return project(s) && solve(s); }
   /// Throws NoEquilibrium unless the state persists.
   void require_lasting(const State& s) const;
   /// The state with its forces, those of dependent rows of least norm.
   [[nodiscard]] std::shared_ptr<const Record> record(const State& s) const;
 
-  [[nodiscard]] const Carrier& carrier() const { return carrier_; }
+  [[nodiscard]] const RotatingFrame& frame() const { return frame_; }
   [[nodiscard]] const Scales& scales() const { return scales_; }
   [[nodiscard]] const System& system() const { return *system_; }
   [[nodiscard]] double time() const { return time_; }
@@ -66,7 +66,7 @@ class Balance {
   [[nodiscard]] static double size(const State& s, std::span<const double> acting);
   [[nodiscard]] bool step(const State& s, double shift, std::vector<double>& x) const;
   [[nodiscard]] bool improve(State& s, const std::vector<double>& x) const;
-  [[nodiscard]] bool held_otherwise(State& s) const;
+  [[nodiscard]] bool balanced_otherwise(State& s) const;
   void measure_stiffness();
   void share_by_particle(std::span<double> forces) const;
   void share_along_rows(std::span<const double> w);
@@ -74,7 +74,7 @@ class Balance {
 
   const System* system_;
   double time_;
-  Carrier carrier_;
+  RotatingFrame frame_;
   std::vector<double> q0_, lambda0_;
   ActiveRows rows_;
   Scales scales_;

@@ -56,7 +56,7 @@ class Follower {
     const double softest = node.stiffness.size() > 0 ? node.stiffness[0] : INFINITY;
     return {corrector_.parameter(node), node.state, softest};
   }
-  static double& progress(Node& node) { return node.x[node.x.size() - 1]; }
+  static double& fraction(Node& node) { return node.x[node.x.size() - 1]; }
 
   void follow_branch(const Start start) {
     Branch<FlatEquilibrium> branch{{point(start.node)}, start.origin, BranchEnd::lost};
@@ -67,21 +67,21 @@ class Follower {
     while (step > constants.shortest_branch_step * step_) {
       Node guess = last;
       guess.x += step * along;
-      const double end = progress(guess), way = end - progress(last);
+      const double end = fraction(guess), way = end - fraction(last);
       const bool at_end = (end >= 1.0 && way > 0.0) || (end <= 0.0 && way < 0.0);
       VectorXd normal = along;
       if (at_end) {  // the last point is at the end of the range
         normal.setZero();
         normal[normal.size() - 1] = 1.0;
-        guess.x = last.x + (std::clamp(end, 0.0, 1.0) - progress(last)) / way * step * along;
-        progress(guess) = std::clamp(end, 0.0, 1.0);
+        guess.x = last.x + (std::clamp(end, 0.0, 1.0) - fraction(last)) / way * step * along;
+        fraction(guess) = std::clamp(end, 0.0, 1.0);
       }
       const auto next = corrector_.correct(guess, normal);
       if (!next || (next->x - last.x).norm() > 2.0 * step) {
         step *= 0.5;
         continue;
       }
-      if (next->softer() != last.softer()) meet(last, *next);
+      if (next->morse_index() != last.morse_index()) locate(last, *next);
       branch.points.push_back(point(*next));
       if (next->x != last.x) along = (next->x - last.x).normalized();
       const double distance = (next->x - start.node.x).norm();
@@ -114,8 +114,9 @@ class Follower {
 
   /// Locates the singular points between two points of a branch, and the branches that emanate there.
   /// Eigenvalues that vanish at one point make one bifurcation.
-  void meet(const Node& a, const Node& b) {
-    const Index first = std::min(a.softer(), b.softer()), last = std::max(a.softer(), b.softer());
+  void locate(const Node& a, const Node& b) {
+    const Index first = std::min(a.morse_index(), b.morse_index()),
+                last = std::max(a.morse_index(), b.morse_index());
     for (Index shape = first; shape < last;) {
       const auto found = crossing(a, b, shape);
       Index count = 1;
@@ -123,19 +124,19 @@ class Follower {
         const auto other = crossing(a, b, shape + count);
         if (!other || !same_place(other->x, found->x)) break;
       }
-      if (found) meet(*found, shape, count);
+      if (found) locate(*found, shape, count);
       shape += count;
     }
   }
-  void meet(const Node& found, Index first, Index count) {
-    if (corrector_.push(found, first) > constants.free_of_push) {
+  void locate(const Node& found, Index first, Index count) {
+    if (corrector_.range_defect(found, first) > constants.range_defect) {
       found_.folds.push_back(point(found));
       return;
     }
-    if (std::ranges::any_of(meetings_, [&](const VectorXd& x) { return same_place(x, found.x); })) return;
-    meetings_.push_back(found.x);
+    if (std::ranges::any_of(located_, [&](const VectorXd& x) { return same_place(x, found.x); })) return;
+    located_.push_back(found.x);
     found_.bifurcations.push_back(point(found));
-    for (const VectorXd& direction : directions(found, first, count)) leave(found, direction);
+    for (const VectorXd& direction : directions(found, first, count)) switch_branch(found, direction);
   }
   [[nodiscard]] bool same_place(const VectorXd& a, const VectorXd& b) const {
     return (a - b).norm() < constants.shortest_branch_step * step_;
@@ -159,7 +160,7 @@ class Follower {
     return all;
   }
 
-  void leave(const Node& from, const VectorXd& direction) {
+  void switch_branch(const Node& from, const VectorXd& direction) {
     std::optional<Node> next;
     for (double step = step_; !next && step > constants.shortest_branch_step * step_; step *= 0.5) {
       Node guess = from;
@@ -170,17 +171,18 @@ class Follower {
     if (!next) return;
     const VectorXd along = (next->x - from.x).normalized();
     const std::size_t origin = found_.bifurcations.size() - 1;
-    const bool again = std::ranges::any_of(
-        starts_, [&](const Start& s) { return s.origin == origin && s.along.dot(along) > constants.alike; });
-    if (again || progress_of(*next) < 0.0 || progress_of(*next) > 1.0) return;
+    const bool again = std::ranges::any_of(starts_, [&](const Start& s) {
+      return s.origin == origin && s.along.dot(along) > constants.same_branch;
+    });
+    if (again || fraction_of(*next) < 0.0 || fraction_of(*next) > 1.0) return;
     starts_.push_back({*next, along, origin});
   }
-  [[nodiscard]] static double progress_of(const Node& node) { return node.x[node.x.size() - 1]; }
+  [[nodiscard]] static double fraction_of(const Node& node) { return node.x[node.x.size() - 1]; }
 
   Corrector corrector_;
   double step_;
   std::vector<Start> starts_;
-  std::vector<VectorXd> meetings_;
+  std::vector<VectorXd> located_;
   FlatDiagram found_;
 };
 

@@ -68,7 +68,7 @@ void Corrector::finish(const Here& here, const Balance::State& s, Node& node) co
   const FlatSample flat = node.state.state->sample(0);
   node.lambda.assign(flat.lambda.begin(), flat.lambda.end());
   const LinearTerms terms =
-      linear_terms(*here.system, here.balance.carrier(), {flat.time, flat.q, flat.v}, flat.lambda);
+      linear_terms(*here.system, here.balance.frame(), {flat.time, flat.q, flat.v}, flat.lambda);
   auto [values, shapes] = tangent_stiffness(*here.system, terms);
   node.stiffness = std::move(values);
   for (Index i = 0; i < shapes.rows(); ++i) shapes.row(i) /= scale_[static_cast<std::size_t>(i)];
@@ -84,12 +84,12 @@ Eigen::VectorXd Corrector::residual(double p, const Node& node, const ActiveRows
 /// By central differences, one-sided at the ends of the range.
 Eigen::VectorXd Corrector::slope_by_parameter(const Node& node, const ActiveRows& rows) const {
   const double h = constants.parameter_difference;
-  const double progress = node.x[node.x.size() - 1], before = std::max(progress - h, 0.0),
-               after = std::min(progress + h, 1.0);
+  const double fraction = node.x[node.x.size() - 1], before = std::max(fraction - h, 0.0),
+               after = std::min(fraction + h, 1.0);
   return (residual(value(after), node, rows) - residual(value(before), node, rows)) / (after - before);
 }
 
-double Corrector::push(const Node& node, Index shape) const {
+double Corrector::range_defect(const Node& node, Index shape) const {
   const Here here = at(parameter(node), node.x);
   const Balance::State s = state(here, node);
   const Eigen::VectorXd slope = slope_by_parameter(node, here.balance.rows_at(s));
@@ -106,7 +106,7 @@ double Corrector::push(const Node& node, Index shape) const {
 Eigen::MatrixXd Corrector::jacobian(const Here& here, const Balance::State& s, const Node& node,
                                     const ActiveRows& rows) const {
   const LinearTerms terms =
-      linear_terms(*here.system, here.balance.carrier(), {here.balance.time(), s.q, s.v}, s.lambda);
+      linear_terms(*here.system, here.balance.frame(), {here.balance.time(), s.q, s.v}, s.lambda);
   const auto n = static_cast<Index>(s.q.size()), m = static_cast<Index>(rows.size());
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n + m, n + m + 1);
   for (const auto& k : terms.stiffness)
@@ -175,9 +175,9 @@ std::optional<Node> Corrector::correct(const Node& guess, const Eigen::VectorXd&
       }
       before = size;
       newton_step(here, s, off, normal, node);
-      double& progress = node.x[node.x.size() - 1];
+      double& fraction = node.x[node.x.size() - 1];
       if (!node.x.allFinite()) return std::nullopt;
-      progress = std::clamp(progress, 0.0, 1.0);  // a point beyond is then never found
+      fraction = std::clamp(fraction, 0.0, 1.0);  // a point beyond is then never found
     }
   } catch (const EquationFault&) {
   } catch (const InconsistentStart&) {

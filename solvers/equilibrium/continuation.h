@@ -20,9 +20,9 @@ struct Node {
   Eigen::VectorXd stiffness{};  ///< eigenvalues of K on the tangent space, increasing
   Eigen::MatrixXd shapes{};     ///< their eigenvectors, in x without p, of length 1
 
-  [[nodiscard]] Eigen::Index softer() const {
+  [[nodiscard]] Eigen::Index morse_index() const {
     return (stiffness.array() < 0.0).count();
-  }  ///< eigenvalues < 0
+  }  ///< the number of eigenvalues < 0
 };
 
 /// Newton's iteration for a point of a branch in the hyperplane through the guess across `normal`:
@@ -46,7 +46,7 @@ class Corrector {
   [[nodiscard]] std::optional<Eigen::VectorXd> tangent(const Node& node) const;
   /// The part of the residual's derivative by p along an eigenvector of K, over that derivative. At a
   /// singular point it is 0 at a bifurcation (the derivative is in the range of K), not 0 at a fold.
-  [[nodiscard]] double push(const Node& node, Eigen::Index shape) const;
+  [[nodiscard]] double range_defect(const Node& node, Eigen::Index shape) const;
 
  private:
   struct Here {
@@ -58,7 +58,7 @@ class Corrector {
   [[nodiscard]] Balance::State state(const Here& here, const Node& node) const;
   [[nodiscard]] Eigen::VectorXd residual(double p, const Node& node, const ActiveRows& rows) const;
   [[nodiscard]] Eigen::VectorXd slope_by_parameter(const Node& node, const ActiveRows& rows) const;
-  [[nodiscard]] double value(double progress) const { return from_ + range_ * progress; }
+  [[nodiscard]] double value(double fraction) const { return from_ + range_ * fraction; }
   [[nodiscard]] Eigen::MatrixXd jacobian(const Here& here, const Balance::State& s, const Node& node,
                                          const ActiveRows& rows) const;
   void newton_step(const Here& here, const Balance::State& s, double off, const Eigen::VectorXd& normal,

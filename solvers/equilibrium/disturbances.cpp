@@ -54,7 +54,7 @@ std::span<const double> radau_nodes() { return c; }
 
 Disturbances::Disturbances(const System& system, const ActiveRows& rows, const FlatSample& at,
                            double unit_of_time) {
-  const Carrier rest(*system.layout(), {});
+  const RotatingFrame rest(*system.layout(), {});
   const LinearTerms terms = linear_terms(system, rest, {at.time, at.q, at.v}, multipliers(system, at));
   std::vector<std::size_t> all(system.coordinates());
   std::iota(all.begin(), all.end(), std::size_t{0});

@@ -9,23 +9,23 @@ void append(LinearTerms::Entries& to, std::size_t row, std::size_t column, doubl
 }
 
 /// -F_v A, from an entry of F_v.
-void append_carried(const Carrier& carrier, const System::Entry& place, double slope,
-                    LinearTerms::Entries& K) {
-  const std::size_t first = carrier.first(place.column);
-  if (first == Carrier::none) return;
-  for (std::size_t k = 0; k < carrier.dimension(); ++k)
-    append(K, place.row, first + k, -slope * carrier.entry(place.column - first, k));
+void append_rotating(const RotatingFrame& frame, const System::Entry& place, double slope,
+                     LinearTerms::Entries& K) {
+  const std::size_t first = frame.first(place.column);
+  if (first == RotatingFrame::none) return;
+  for (std::size_t k = 0; k < frame.dimension(); ++k)
+    append(K, place.row, first + k, -slope * frame.entry(place.column - first, k));
 }
 
 /// 2 M A and M A^2.
-void append_inertia(const System& system, const Carrier& carrier, LinearTerms& terms) {
+void append_inertia(const System& system, const RotatingFrame& frame, LinearTerms& terms) {
   for (std::size_t i = 0; i < system.coordinates(); ++i) {
-    const std::size_t first = carrier.first(i);
-    if (first == Carrier::none) continue;
+    const std::size_t first = frame.first(i);
+    if (first == RotatingFrame::none) continue;
     const double m = system.masses()[i];
-    for (std::size_t k = 0; k < carrier.dimension(); ++k) {
-      append(terms.damping, i, first + k, 2.0 * m * carrier.entry(i - first, k));
-      append(terms.stiffness, i, first + k, m * carrier.square_entry(i - first, k));
+    for (std::size_t k = 0; k < frame.dimension(); ++k) {
+      append(terms.damping, i, first + k, 2.0 * m * frame.entry(i - first, k));
+      append(terms.stiffness, i, first + k, m * frame.square_entry(i - first, k));
     }
   }
 }
@@ -38,20 +38,20 @@ std::size_t place_in_row(const System& system, std::size_t row, std::size_t colu
 }
 
 /// E = psi_q + W A, with psi_q already in place.
-void add_carried(const System& system, const Carrier& carrier, LinearTerms& terms) {
+void add_rotating(const System& system, const RotatingFrame& frame, LinearTerms& terms) {
   for (std::size_t r = system.holonomic_rows(); r < system.rows(); ++r) {
     for (const std::size_t k : system.row(r)) {
-      const std::size_t i = system.w_columns()[k], first = carrier.first(i);
-      if (first == Carrier::none) continue;
-      for (std::size_t j = 0; j < carrier.dimension(); ++j)
-        terms.e[place_in_row(system, r, first + j)] += terms.w[k] * carrier.entry(i - first, j);
+      const std::size_t i = system.w_columns()[k], first = frame.first(i);
+      if (first == RotatingFrame::none) continue;
+      for (std::size_t j = 0; j < frame.dimension(); ++j)
+        terms.e[place_in_row(system, r, first + j)] += terms.w[k] * frame.entry(i - first, j);
     }
   }
 }
 
 }  // namespace
 
-LinearTerms linear_terms(const System& system, const Carrier& carrier, const Instant& at,
+LinearTerms linear_terms(const System& system, const RotatingFrame& frame, const Instant& at,
                          std::span<const double> lambda) {
   auto e = system.evaluation();
   system.evaluate(at, e);
@@ -65,11 +65,11 @@ LinearTerms linear_terms(const System& system, const Carrier& carrier, const Ins
   for (std::size_t k = 0; k < slopes.damping.size(); ++k) {
     const System::Entry place = system.damping_pattern()[k];
     append(terms.damping, place.row, place.column, -slopes.damping[k]);
-    if (carrier.turns()) append_carried(carrier, place, slopes.damping[k], terms.stiffness);
+    if (frame.rotates()) append_rotating(frame, place, slopes.damping[k], terms.stiffness);
   }
-  if (!carrier.turns()) return terms;
-  append_inertia(system, carrier, terms);
-  add_carried(system, carrier, terms);
+  if (!frame.rotates()) return terms;
+  append_inertia(system, frame, terms);
+  add_rotating(system, frame, terms);
   return terms;
 }
 

@@ -3,7 +3,7 @@
 #include <dalembert/core/analysis/rank.h>
 #include <dalembert/core/scene/system.h>
 #include <dalembert/solvers/base/hidden.h>
-#include <dalembert/solvers/equilibrium/carrier.h>
+#include <dalembert/solvers/equilibrium/rotating_frame.h>
 #include <dalembert/solvers/linear/klu.h>
 
 #include <Eigen/SparseCore>
@@ -13,8 +13,8 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// The equations of small motions u in a rotating frame (A, see Carrier; at rest A = 0), about a state with
-/// multipliers lambda:
+/// The equations of small motions u in a rotating frame (A, see RotatingFrame; at rest A = 0), about a state
+/// with multipliers lambda:
 ///
 ///   M u'' + C u' + K u = W^T y,       W u + c y = 0          (holonomic rows, c their compliance)   (1)
 ///                                     W u' + E u = 0         (nonholonomic rows)                    (2)
@@ -30,7 +30,7 @@ struct LinearTerms {
 };
 
 /// Throws EquationFault.
-[[nodiscard]] LinearTerms linear_terms(const System& system, const Carrier& carrier, const Instant& at,
+[[nodiscard]] LinearTerms linear_terms(const System& system, const RotatingFrame& frame, const Instant& at,
                                        std::span<const double> lambda);
 
 /// [ K + s M  -W^T ]

@@ -216,7 +216,7 @@ void require_all(const System& system, const LinearTerms& terms, std::size_t fou
 Modes lowest_modes(const System& system, const LinearTerms& terms, std::size_t wanted) {
   require_conservative(system, terms, wanted);
   const double largest = stiffest(system, terms);
-  const double s = largest > 0.0 ? constants.below_all * largest : 1.0;
+  const double s = largest > 0.0 ? constants.shift_below_0 * largest : 1.0;
   Inverse T(system, terms, s);
   auto pairs = lowest_pairs(T, wanted);
   require_all(system, terms, pairs.size(), wanted);

@@ -16,7 +16,7 @@ namespace {
 
 /// Whether there is another equilibrium a finite distance along the mode, not back where it began.
 bool moves_freely(const Balance& balance, const FlatSample& at, const Mode& mode) {
-  const double way = constants.free_way * balance.scales().length;
+  const double way = constants.free_displacement * balance.scales().length;
   Balance::State s = balance.start();
   std::ranges::copy(at.q, s.q.begin());
   std::vector<double> direction;
@@ -24,7 +24,7 @@ bool moves_freely(const Balance& balance, const FlatSample& at, const Mode& mode
     direction.push_back(mode.shape[i].real());
     s.q[i] += way * direction[i];
   }
-  if (!balance.settle(s)) return false;
+  if (!balance.project_and_solve(s)) return false;
   double along = 0.0, all = 0.0;
   for (std::size_t i = 0; i < at.q.size(); ++i) {
     const double m = balance.system().masses()[i];
@@ -37,7 +37,7 @@ bool moves_freely(const Balance& balance, const FlatSample& at, const Mode& mode
 /// u^T K u of a state, with the springs of compliant constraints.
 double stiffness_along(const Balance& balance, const Balance::State& s, std::span<const double> u) {
   const LinearTerms terms =
-      linear_terms(balance.system(), balance.carrier(), {balance.time(), s.q, s.v}, s.lambda);
+      linear_terms(balance.system(), balance.frame(), {balance.time(), s.q, s.v}, s.lambda);
   double sum = 0.0;
   for (const auto& k : terms.stiffness)
     sum += k.value() * u[static_cast<std::size_t>(k.row())] * u[static_cast<std::size_t>(k.col())];
@@ -66,7 +66,7 @@ bool is_known(const Balance& balance, const FlatSample& at, const Mode& mode) {
   for (const double side : {way, -way}) {
     Balance::State s = here;
     for (std::size_t i = 0; i < u.size(); ++i) s.q[i] += side * u[i];
-    if (balance.land(s) && std::abs(stiffness_along(balance, s, u) - own) > std::abs(own)) return false;
+    if (balance.project(s) && std::abs(stiffness_along(balance, s, u) - own) > std::abs(own)) return false;
   }
   return true;
 }
@@ -121,7 +121,7 @@ void require_told_from_zero(const System& system, const Modes& found) {
 
 void require_smooth(const System& system, const Balance& balance, const FlatSample& at) {
   if (system.coordinates() > most_dense ||
-      !is_singular_position(system, balance.carrier(), {at.time, at.q, at.v}))
+      !is_singular_position(system, balance.frame(), {at.time, at.q, at.v}))
     return;
   throw InvalidScene(
       "Normal modes of scene \"" + system.layout()->scene +
@@ -157,7 +157,7 @@ void require_equilibrium(const Balance& balance, const FlatSample& at) {
   auto e = system.evaluation();
   system.evaluate({balance.time(), at.q, at.v}, e);
   const Scales& scales = balance.scales();
-  const double time = balance.carrier().turns() ? 1.0 / balance.carrier().rate() : scales.time;
+  const double time = balance.frame().rotates() ? 1.0 / balance.frame().rate() : scales.time;
   const Violation moving = velocity_violation(system, e, scales.lengths());
   if (moving.size > close * scales.length / time + scales.rounding(s.q) / time)
     why << system.row_label(moving.row) << " moves by " << moving.size;
@@ -186,21 +186,20 @@ std::vector<double> response(const System& system, const LinearTerms& terms, dou
 /// Throws unless the equations of small motions are the same later, in the rotating frame.
 void require_constant(const System& system, const Balance& balance, const FlatSample& at,
                       const LinearTerms& terms) {
-  const Carrier& carrier = balance.carrier();
+  const RotatingFrame& frame = balance.frame();
   std::vector<double> u(at.q.size());
   for (std::size_t i = 0; i < u.size(); ++i) u[i] = std::sin(static_cast<double>(i + 1));
   const double s = balance.high_stiffness();
   auto expected = response(system, terms, s, u);
-  const double unit = carrier.turns() ? 1.0 / carrier.rate() : balance.scales().time;
-  const double later = 0.7390851332151607 * unit, angle = carrier.rate() * later;
+  const double unit = frame.rotates() ? 1.0 / frame.rate() : balance.scales().time;
+  const double later = 0.7390851332151607 * unit, angle = frame.rate() * later;
   std::vector<double> q(at.q.begin(), at.q.end()), v(q.size());
-  if (carrier.turns()) {
-    for (const std::span<double> x : {std::span(u), std::span(expected)}) carrier.turn_vectors(angle, x);
-    carrier.turn_positions(angle, q);
+  if (frame.rotates()) {
+    for (const std::span<double> x : {std::span(u), std::span(expected)}) frame.rotate_vectors(angle, x);
+    frame.rotate_positions(angle, q);
   }
-  carrier.velocity(q, v);
-  const auto found =
-      response(system, linear_terms(system, carrier, {at.time + later, q, v}, at.lambda), s, u);
+  frame.velocity(q, v);
+  const auto found = response(system, linear_terms(system, frame, {at.time + later, q, v}, at.lambda), s, u);
   double difference = 0.0, size = 0.0;
   for (std::size_t i = 0; i < u.size(); ++i) {
     difference = std::max(difference, std::abs(found[i] - expected[i]));
@@ -209,7 +208,7 @@ void require_constant(const System& system, const Balance& balance, const FlatSa
   if (difference <= 1e-8 * size) return;
   throw InvalidScene(
       "Normal modes of scene \"" + system.layout()->scene +
-      "\": its forces or constraints change with time in the " + (carrier.turns() ? "rotating" : "resting") +
+      "\": its forces or constraints change with time in the " + (frame.rotates() ? "rotating" : "resting") +
       " frame; find the equilibrium for the turning of its drives, or ask for floquet multipliers");
 }
 
@@ -233,7 +232,7 @@ Modes find_modes(const System& system, const FlatSample& at, const Turning<3>& t
   const Balance balance(system, at.q, at.time, turning);
   require_equilibrium(balance, at);
   require_smooth(system, balance, at);
-  const LinearTerms terms = linear_terms(system, balance.carrier(), {at.time, at.q, at.v}, at.lambda);
+  const LinearTerms terms = linear_terms(system, balance.frame(), {at.time, at.q, at.v}, at.lambda);
   require_constant(system, balance, at, terms);
   Modes found;
   if (system.coordinates() <= most_dense) {

@@ -15,9 +15,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 /// -sum lambda g_qq and all that does not depend on lambda, in the mass metric.
-MatrixXd stiffness(const System& system, const Carrier& carrier, const Instant& at,
+MatrixXd stiffness(const System& system, const RotatingFrame& frame, const Instant& at,
                    std::span<const double> lambda) {
-  const LinearTerms terms = linear_terms(system, carrier, at, lambda);
+  const LinearTerms terms = linear_terms(system, frame, at, lambda);
   const auto n = static_cast<Index>(system.coordinates());
   MatrixXd K = MatrixXd::Zero(n, n);
   for (const auto& k : terms.stiffness) {
@@ -30,7 +30,7 @@ MatrixXd stiffness(const System& system, const Carrier& carrier, const Instant& 
 
 }  // namespace
 
-bool is_singular_position(const System& system, const Carrier& carrier, const Instant& at) {
+bool is_singular_position(const System& system, const RotatingFrame& frame, const Instant& at) {
   auto e = system.evaluation();
   system.evaluate(at, e);
   if (independent_rows(system, e.w).size() == system.rows()) return false;
@@ -49,12 +49,12 @@ bool is_singular_position(const System& system, const Carrier& carrier, const In
   }
   const MatrixXd N = orthogonal_complement(W.transpose()), dependences = orthogonal_complement(W);
   std::vector<double> mu(system.rows(), 0.0);
-  const MatrixXd without = stiffness(system, carrier, at, mu);
+  const MatrixXd without = stiffness(system, frame, at, mu);
   // Positions are known to rank_threshold at best, and so is the residue of a sum that is 0.
   const double known = std::sqrt(rank_threshold);
   for (const auto dependence : dependences.colwise()) {
     for (Index k = 0; k < W.rows(); ++k) mu[rigid[static_cast<std::size_t>(k)]] = dependence[k] / length[k];
-    const MatrixXd K = stiffness(system, carrier, at, mu) - without;
+    const MatrixXd K = stiffness(system, frame, at, mu) - without;
     const MatrixXd left = N.transpose() * K * N;
     if (left.norm() > known * K.norm()) return true;
   }

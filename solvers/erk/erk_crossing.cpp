@@ -38,7 +38,7 @@ std::optional<Angle> least_of_parabola(const std::array<Angle, 3>& at) {
 /// Where constraints repeat each other, rows that come to depend on each other are replaced, and steps end in
 /// front of where that is due: nothing is singular before others are no better.
 ErkStepper::State::Crossing ErkStepper::State::cross() {
-  if (to.sine > worn) return Crossing::none;
+  if (to.sine > replace_below) return Crossing::none;
   const double left = steps > 0 ? time_to_singular(from.angle(), to.angle()) : not_ahead;
   if (left == not_ahead) {
     next_passage = not_ahead;
@@ -65,7 +65,7 @@ ErkStepper::State::Crossing ErkStepper::State::cross() {
 
 /// Whether a long step may have gone over a singular position that was not in sight where it began.
 bool ErkStepper::State::may_have_crossed() const {
-  if (to.sine > worn) return least.sine < 0.5 * worn;
+  if (to.sine > replace_below) return least.sine < 0.5 * replace_below;
   if (!(least.sine < constants.close_to_dependent && least.sine < 0.5 * to.sine)) return false;
   return !only_close || least_between_stages() < constants.clearly_there * to.sine;
 }

@@ -62,7 +62,7 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
   }
   passage.remember(to.t, start.a);
   to.sine = manifold.sine({to.t, to.q, halves(to.va).first});
-  if (start.rows.size() < s.rows_in_force()) worn = constants.worn * to.sine;
+  if (start.rows.size() < s.rows_in_force()) replace_below = constants.worn * to.sine;
   if (!system->compliant()) return;
   auto e = system->evaluation();
   system->evaluate({options.t_start, start.q, start.v}, e);

@@ -122,8 +122,8 @@ struct ErkStepper::State {
   Node best_passed;                    // a passage that was not taken yet
   double largest_passage_error = 0.0;  // of those taken
   int singular_positions = 0;
-  double worn = none_yet;  // sine below which other rows may take over; infinite if all are in use
-  std::string fault;       // of the last attempt that failed
+  double replace_below = none_yet;  // sine below which other rows may take over; infinite if all are in use
+  std::string fault;                // of the last attempt that failed
 
   Switches switches;
   std::optional<Sticking> sticking;     // if there are any

@@ -224,7 +224,7 @@ TEST(LowestModes, AreThoseOfTheDenseMatrix) {
     const FlatSample at = rest.sample().flat();
     const System system = scene.system();
     const LinearTerms terms =
-        linear_terms(system, Carrier(*system.layout(), {}), {at.time, at.q, at.v}, at.lambda);
+        linear_terms(system, RotatingFrame(*system.layout(), {}), {at.time, at.q, at.v}, at.lambda);
     const Modes dense = dense_modes(system, terms), sparse = lowest_modes(system, terms, 10);
     ASSERT_EQ(sparse.modes.size(), 10U);
     EXPECT_EQ(sparse.stability, Stability::stable);
@@ -276,14 +276,14 @@ TEST(LowestModes, AreRefusedWithDampingAndWithoutANumber) {
 
 /// The residual of motion in the turning frame at displacements u and rates w of it:
 /// F + W^T lambda - M (2 A w + A^2 (q + u - p)), and psi of the nonholonomic rows.
-Eigen::VectorXd residual(const System& system, const Carrier& carrier, const Instant& at,
+Eigen::VectorXd residual(const System& system, const RotatingFrame& frame, const Instant& at,
                          std::span<const double> lambda, const Eigen::VectorXd& u, const Eigen::VectorXd& w) {
   const std::size_t n = at.q.size();
   std::vector<double> q(n), v(n), twice(n), carried(n), inertia(n);
   for (std::size_t i = 0; i < n; ++i) q[i] = at.q[i] + u[static_cast<Eigen::Index>(i)];
-  carrier.velocity(q, v);
-  carrier.apply(v, inertia);
-  carrier.apply(std::span(w.data(), n), twice);
+  frame.velocity(q, v);
+  frame.apply(v, inertia);
+  frame.apply(std::span(w.data(), n), twice);
   for (std::size_t i = 0; i < n; ++i) v[i] += w[static_cast<Eigen::Index>(i)];
   auto e = system.evaluation();
   system.evaluate({at.t, q, v}, e);
@@ -313,13 +313,13 @@ TEST(LinearTerms, AreTheDerivativesOfTheResidual) {
   scene.add(Spring{Fixed<2>{}, b, 5.0, 0.7});
   scene.add(force_law(points(a), [](auto r, auto v) { return (-0.4 * r.x() * v).eval(); }));
   const System system = scene.system();
-  const Carrier carrier(*system.layout(), Turning<2>{.rate = 0.8, .centre = {0.2, -0.1}});
+  const RotatingFrame frame(*system.layout(), Turning<2>{.rate = 0.8, .centre = {0.2, -0.1}});
   const std::vector<double> q(scene.initial_positions().begin(), scene.initial_positions().end());
   std::vector<double> v(q.size());
-  carrier.velocity(q, v);
+  frame.velocity(q, v);
   const std::vector<double> lambda{0.7, -1.1, 0.4};
   const Instant at{0.3, q, v};
-  const LinearTerms terms = linear_terms(system, carrier, at, lambda);
+  const LinearTerms terms = linear_terms(system, frame, at, lambda);
 
   const auto n = static_cast<Eigen::Index>(q.size());
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n), C = K;
@@ -335,9 +335,9 @@ TEST(LinearTerms, AreTheDerivativesOfTheResidual) {
       by_position[n + 2] += terms.e[k];
       by_rate[n + 2] += terms.w[k];
     }
-    expect_slope(slope([&](double h) { return residual(system, carrier, at, lambda, h * unit, zero); }),
+    expect_slope(slope([&](double h) { return residual(system, frame, at, lambda, h * unit, zero); }),
                  by_position, "u" + std::to_string(i));
-    expect_slope(slope([&](double h) { return residual(system, carrier, at, lambda, zero, h * unit); }),
+    expect_slope(slope([&](double h) { return residual(system, frame, at, lambda, zero, h * unit); }),
                  by_rate, "u'" + std::to_string(i));
   }
 }

@@ -19,19 +19,19 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///
 /// A is block-diagonal and skew, zero for rotors. In the plane rotors are angles about the same axis, and
 /// their v is Omega; in space they keep their angles.
-class Carrier {
+class RotatingFrame {
  public:
-  Carrier(const Layout& layout, const Turning<3>& turning);
+  RotatingFrame(const Layout& layout, const Turning<3>& turning);
 
-  [[nodiscard]] bool turns() const { return rate_ > 0.0; }
+  [[nodiscard]] bool rotates() const { return rate_ > 0.0; }
   [[nodiscard]] double rate() const { return rate_; }
   /// v = A (q - p).
   void velocity(std::span<const double> q, std::span<double> v) const;
   /// out = A x.
   void apply(std::span<const double> x, std::span<double> out) const;
   /// Rotates the positions q, and vectors x, by an angle.
-  void turn_positions(double angle, std::span<double> q) const;
-  void turn_vectors(double angle, std::span<double> x) const;
+  void rotate_positions(double angle, std::span<double> q) const;
+  void rotate_vectors(double angle, std::span<double> x) const;
 
   /// Coordinates of a particle begin at `first(i)` for each i of them; `none` for a rotor.
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();

@@ -1,4 +1,4 @@
-#include "dalembert/solvers/equilibrium/carrier.h"
+#include "dalembert/solvers/equilibrium/rotating_frame.h"
 
 #include <Eigen/Geometry>
 
@@ -6,7 +6,7 @@
 
 namespace dalembert {
 
-Carrier::Carrier(const Layout& layout, const Turning<3>& turning)
+RotatingFrame::RotatingFrame(const Layout& layout, const Turning<3>& turning)
     : dimension_(static_cast<std::size_t>(layout.dimension)),
       first_(layout.particles.size() * dimension_ + layout.rotors.size(), none),
       rate_(turning.rate.norm()),
@@ -25,8 +25,9 @@ Carrier::Carrier(const Layout& layout, const Turning<3>& turning)
 }
 
 /// out = m (x - about) + to for every particle; rotors are left as they are.
-void Carrier::transform(const Eigen::Matrix3d& m, const Eigen::Vector3d& about, std::span<const double> x,
-                        std::span<double> out, const Eigen::Vector3d& to) const {
+void RotatingFrame::transform(const Eigen::Matrix3d& m, const Eigen::Vector3d& about,
+                              std::span<const double> x, std::span<double> out,
+                              const Eigen::Vector3d& to) const {
   const auto d = static_cast<Eigen::Index>(dimension_);
   for (const std::size_t first : particles_) {
     const Eigen::VectorXd r = Eigen::Map<const Eigen::VectorXd>(x.data() + first, d) - about.head(d);
@@ -34,26 +35,26 @@ void Carrier::transform(const Eigen::Matrix3d& m, const Eigen::Vector3d& about, 
   }
 }
 
-void Carrier::velocity(std::span<const double> q, std::span<double> v) const {
+void RotatingFrame::velocity(std::span<const double> q, std::span<double> v) const {
   std::ranges::fill(v, 0.0);
-  if (!turns()) return;
+  if (!rotates()) return;
   transform(cross_, centre_, q, v, Eigen::Vector3d::Zero());
   if (dimension_ == 2)
     for (const std::size_t rotor : rotors_) v[rotor] = rate_ * axis_.z();
 }
 
-void Carrier::apply(std::span<const double> x, std::span<double> out) const {
+void RotatingFrame::apply(std::span<const double> x, std::span<double> out) const {
   std::ranges::fill(out, 0.0);
-  if (turns()) transform(cross_, Eigen::Vector3d::Zero(), x, out, Eigen::Vector3d::Zero());
+  if (rotates()) transform(cross_, Eigen::Vector3d::Zero(), x, out, Eigen::Vector3d::Zero());
 }
 
-void Carrier::turn_positions(double angle, std::span<double> q) const {
+void RotatingFrame::rotate_positions(double angle, std::span<double> q) const {
   transform(Eigen::AngleAxisd(angle, axis_).toRotationMatrix(), centre_, q, q, centre_);
   if (dimension_ == 2)
     for (const std::size_t rotor : rotors_) q[rotor] += angle * axis_.z();
 }
 
-void Carrier::turn_vectors(double angle, std::span<double> x) const {
+void RotatingFrame::rotate_vectors(double angle, std::span<double> x) const {
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
   transform(Eigen::AngleAxisd(angle, axis_).toRotationMatrix(), zero, x, x, zero);
 }
