@@ -56,7 +56,7 @@ FlatSample EventLog::read(Stepping& stepping, double t) {
 }
 
 void EventLog::look(Stepping& stepping) {
-  if (transitions_ != nullptr && stepping.start().scales.of_path) {  // the scene's length grows with its way
+  if (transitions_ != nullptr && stepping.start().scales.of_path) {  // the scene's length grows with its path
     Scales scales = stepping.start().scales;
     const Statistics so_far = stepping.statistics();
     scales.take({.length = so_far.length,
@@ -104,7 +104,7 @@ void EventLog::list(const Occurrence& one, Stepping& stepping) {
   impulses_.resize(impulses_.size() + at.lambda.size());
 }
 
-/// By what two times may differ that are the same to round-off.
+/// The difference of two times that are the same to round-off.
 double EventLog::same_time(double t, const Stepping& stepping) {
   return round_off() * std::max(std::abs(t), stepping.start().scales.time);
 }
@@ -138,10 +138,9 @@ void EventLog::begin_anew(double t, Stepping& stepping) {
   if (const auto function = transitions_->driven()) change_ = {asked_for_ + *function, t};
 }
 
-/// Throws StepFailure where changes of one kind accumulate, as impacts do (see Accumulation): what comes
-/// after their limit they do not tell. (Contacts come to rest there by themselves.) A parabola that takes a
-/// time D rises by D^2/8 of its acceleration: so many roots of the tolerance keep that in sight of
-/// EventWatch.
+/// Throws StepFailure where changes of one kind accumulate, as impacts do (see Accumulation): they do not
+/// determine what follows their limit. (Contacts come to rest there by themselves.) A parabola of duration D
+/// rises by D^2/8 of its acceleration: this many roots of the tolerance keep that in sight of EventWatch.
 void EventLog::require_progress(const Stepping& stepping) {
   const double t = change_->time, time = stepping.start().scales.time;
   if (change_->event < asked_for_) {
@@ -197,7 +196,7 @@ Transitions::Change EventLog::change_scene(const FlatSample& at, Stepping& stepp
   return change;
 }
 
-/// Where contacts share a load in many ways, those are left out that would pull.
+/// Where the distribution of a load among contacts is not unique, those that would pull are opened.
 void EventLog::open_pulling(Transitions::Change& change, double t, Stepping& stepping) {
   FlatSample now = read(stepping, t);
   while (transitions_ != nullptr && transitions_->open_pulling(now, change.what)) {
@@ -217,8 +216,8 @@ void EventLog::list(const Transitions::Change& change, const FlatSample& before,
   }
 }
 
-/// In the order of time: where one contact comes to rest, at the limit of its impacts, others may be struck
-/// before that.
+/// In the order of time: where one contact comes to rest, at the limit of its impacts, others may have
+/// impacts before that.
 void EventLog::write(Record& record) const {
   std::vector<std::size_t> order(occurred_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

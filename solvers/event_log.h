@@ -11,8 +11,8 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// What happens in a run: the events that were asked for and the changes of constraints that hold at times
-/// only, found step by step, listed, and carried out.
+/// What happens in a run: the events that were asked for and the changes of constraints that hold only at
+/// times, found step by step, listed, and carried out.
 class EventLog {
  public:
   /// At the start of a run. `transitions`, with what happened to them there, may be null, else they must

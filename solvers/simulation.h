@@ -18,7 +18,7 @@ class Simulation : public Readings<D, Simulation<D>> {
   Simulation(const Scene<D>& scene, const Options& options)
       : integrator_(scene.system(), scene.initial_positions(), scene.initial_velocities(), options) {}
   /// From a sample of a run of this scene, or of a copy of it with other parameters, at the time of the
-  /// sample; the option t_start is that, or left out. Throws InvalidArgument also if the sample is of
+  /// sample; the option t_start is that, or left out. Throws InvalidArgument also if the sample belongs to
   /// something else.
   Simulation(const Scene<D>& scene, const Sample<D>& start, const Options& options)
       : integrator_((scene.require_state(start), scene.system()), start.flat().q, start.flat().v,

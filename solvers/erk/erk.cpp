@@ -13,8 +13,7 @@ ErkStepper::ErkStepper(const System& system, const Start& start, const Options& 
     : state_(std::make_unique<State>(system, start, options)) {}
 ErkStepper::~ErkStepper() = default;
 
-/// What round-off alone moves a state by when it is put onto the constraints, over the tolerance: velocities
-/// by eps/sin^2, see Passage.
+/// Round-off in the projection of a state, over the tolerance: velocities by eps/sin^2, see Passage.
 double ErkStepper::State::round_off_of_projection() const {
   const double eps = std::numeric_limits<double>::epsilon();
   return constants.roundings_of_projection * eps / (std::max(next.sine * next.sine, eps) * tolerance);
@@ -55,7 +54,7 @@ double ErkStepper::State::shorter(double step, double factor) const {
                     to.t};
 }
 
-/// The step to try: h, or an equal part of the way to where output is wanted or the run ends, unless
+/// The step to try: h, or an equal part of the way to the next output time or the end of the run, unless
 /// several outputs fall into one step.
 double ErkStepper::State::step_towards(double wanted) const {
   const double gap = std::min(wanted, t_end) - to.t;
@@ -63,7 +62,7 @@ double ErkStepper::State::step_towards(double wanted) const {
   return gap / std::max(1.0, std::ceil(gap / h - constants.stretch));
 }
 
-/// Takes `next` for the end of a step.
+/// Accepts `next` as the end of a step.
 void ErkStepper::State::accept(bool by_extrapolation) {
   usual = std::max(next.t - to.t, constants.forgetting * usual);
   covered = scales.way;
@@ -107,7 +106,7 @@ void ErkStepper::step(double wanted) {
     if (s.stop_short(step)) break;
     s.h = s.shorter(step, std::max(factor, constants.most_shrinking));
   }
-  // Round-off in the sum must not let the last part of the way fall short of its goal.
+  // Round-off in the sum must not leave the last part of the way short of its goal.
   const double goal = std::min(wanted, s.t_end);
   if (std::abs(s.next.t - goal) <= 1e-14 * std::max(std::abs(goal), s.scales.time)) s.next.t = goal;
   s.accept(false);
@@ -162,8 +161,8 @@ void ErkStepper::count(Statistics& statistics) const {
   statistics.stability_limited += s.stability_limited;
   if (2 * s.stability_limited > s.steps)
     statistics.advice =
-        "stability, not accuracy, held down most steps: looser tolerances will hardly be faster; "
-        "Stepper::ida has no such limit, but more steps of its own: try whether it is faster";
+        "stability, not accuracy, limited most steps: looser tolerances will hardly be faster; "
+        "Stepper::ida has no such limit, but takes more steps: try whether it is faster";
 }
 
 }  // namespace dalembert

@@ -7,9 +7,9 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// Steps the equations of motion by an explicit Runge-Kutta pair of orders 8 and 7 (verner87), with
-/// accelerations from the constraints differentiated twice, and puts each accepted step back onto
-/// the constraints:
+/// Integrates the equations of motion by an explicit Runge-Kutta pair of orders 8 and 7 (verner87), with
+/// accelerations from the constraints differentiated twice, and projects each accepted step onto the
+/// constraint manifold:
 ///
 ///   (1)  q' = v,  v' = a,  [ M  -W^T ] [ a      ]   [    F   ]
 ///                          [ W   0   ] [ lambda ] = [ -gamma ]
@@ -19,9 +19,9 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// drifts. No Jacobian, no nonlinear solve: for scenes that are not stiff a small part of the cost
 /// of IdaStepper.
 ///
-/// Steps are cut so that they end where output is wanted. Where several outputs fall into one step,
-/// half a step more gives its middle, and the polynomial of degree 8 through q, q', q'' at both
-/// ends and the middle serves for all of them; its error has the order 9 of the step's own.
+/// Steps are chosen to end at output times. Where several of these fall into one step, half a step more gives
+/// its middle, and the polynomial of degree 8 through q, q', q'' at both ends and the middle serves for all
+/// of them; its error is of order 9 like the step's own.
 ///
 /// Isolated singular positions are passed by extrapolation: see State::cross.
 ///
@@ -34,7 +34,7 @@ class ErkStepper final : public TimeStepper {
   ErkStepper(const System& system, const Start& start, const Options& options);
   ~ErkStepper() override;
 
-  /// The step may take the place of the last one and end earlier than that.
+  /// The step may replace the last one and end before it.
   void step(double wanted) override;
   [[nodiscard]] double time() const override;
   [[nodiscard]] const Scales& scales() const;

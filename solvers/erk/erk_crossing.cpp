@@ -13,7 +13,7 @@ namespace {
 
 constexpr double not_ahead = std::numeric_limits<double>::infinity();
 
-/// Where the parabola through the squares of three sines is least; none if it is not.
+/// Where the parabola through the squares of three sines has its minimum; none if it has none.
 std::optional<Angle> least_of_parabola(const std::array<Angle, 3>& at) {
   const auto square = [&](std::size_t i) { return at[i].sine * at[i].sine; };
   const double d01 = (square(1) - square(0)) / (at[1].t - at[0].t);
@@ -27,16 +27,16 @@ std::optional<Angle> least_of_parabola(const std::array<Angle, 3>& at) {
 
 }  // namespace
 
-/// Where constraints become dependent for an instant, sin ~ |t - t*|, the motion is smooth but the
-/// accelerations computed from a state that is off the constraints by e are wrong by e/sin^2, and no step
-/// with stages close to t* is accurate. So the position is passed on the polynomial through the last
-/// accelerations, see Passage, to the mirror image of the last node beyond t*, and back onto the constraints
-/// there. Steps towards t* go at most half of the way. The polynomial through one node less tells the error:
-/// at first that falls with each step, as the distance to a high power; if round-off makes it grow before it
-/// is within the tolerance, the best passage seen is taken.
+/// Where constraints become linearly dependent for an instant, sin ~ |t - t*|, the motion is smooth but the
+/// accelerations computed from a state off the manifold by e are wrong by e/sin^2, and no step with stages
+/// close to t* is accurate. So the position is passed on the polynomial through the last accelerations, see
+/// Passage, to the mirror image of the last node beyond t*, and projected there. Steps towards t* go at most
+/// half of the way. The polynomial through one node less estimates the error: at first that falls with each
+/// step, as a high power of the distance; if round-off makes it grow before it is within the tolerance, the
+/// best passage so far is taken.
 ///
-/// Where constraints repeat each other, rows that come to depend on each other are replaced, and steps end in
-/// front of where that is due: nothing is singular before others are no better.
+/// Where constraints are redundant, active rows that become dependent are replaced, and steps end before that
+/// is due: nothing is singular until other rows are no better.
 ErkStepper::State::Crossing ErkStepper::State::cross() {
   if (to.sine > replace_below) return Crossing::none;
   const double left = steps > 0 ? time_to_singular(from.angle(), to.angle()) : not_ahead;
@@ -63,7 +63,7 @@ ErkStepper::State::Crossing ErkStepper::State::cross() {
   return Crossing::ahead;
 }
 
-/// Whether a long step may have gone over a singular position that was not in sight where it began.
+/// Whether a long step may have crossed a singular position that was not in sight where it began.
 bool ErkStepper::State::may_have_crossed() const {
   if (to.sine > replace_below) return least.sine < 0.5 * replace_below;
   if (!(least.sine < constants.close_to_dependent && least.sine < 0.5 * to.sine)) return false;
@@ -88,7 +88,7 @@ void ErkStepper::State::extrapolate(std::size_t nodes, double t, Node& out) {
   out.t = t;
 }
 
-/// Improves the time at which the angle is least on the extrapolated motion. Returns its sine there.
+/// Refines the time at which the angle of the extrapolated motion is least. Returns its sine there.
 double ErkStepper::State::find_singular(double& t) {
   constexpr int attempts = 4;
   std::array<Angle, 3> at{from.angle(), to.angle(), {t, 0.0}};
@@ -108,8 +108,8 @@ double ErkStepper::State::find_singular(double& t) {
   return lowest.sine;
 }
 
-/// Whether `next`, which errs by `error` over the tolerance, or the best passage so far in its place, is to
-/// be taken. The constraints make of an error there one that is larger by 1/sin.
+/// Whether to accept `next`, with an error of `error` over the tolerance, or the best passage so far in its
+/// place. The constraints amplify an error there by 1/sin.
 bool ErkStepper::State::worth_taking(double error) {
   if (error < best_passage) {
     best_passage = error;

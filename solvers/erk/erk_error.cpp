@@ -6,13 +6,13 @@ namespace dalembert {
 
 namespace {
 
-/// Steps of h rho beyond this are held down by stability: |R(iy)| exceeds 1 by a thousandth at
+/// Steps of h rho beyond this are limited by stability: |R(iy)| exceeds 1 by a thousandth at
 /// y = 3.3, by a twentieth at 4.4, and |R(-x)| exceeds 1 at x = 5.9 (from the table of the pair).
 constexpr double stable = 3.3;
 
 }  // namespace
 
-/// What a unit of error in each position and velocity counts against the tolerance at a state.
+/// The weight of an error in each position and velocity against the tolerance at a state.
 void ErkStepper::State::weigh(const Node& at) {
   for (std::size_t i = 0; i < n; ++i) {
     weight[i] = 1.0 / scales.position_error(i, at.q[i], tolerance);
@@ -20,7 +20,7 @@ void ErkStepper::State::weigh(const Node& at) {
   }
 }
 
-/// Root mean square of `difference`, weighed.
+/// Weighted root mean square of `difference`.
 double ErkStepper::State::size() const {
   double sum = 0.0;
   for (std::size_t i = 0; i < difference.size(); ++i) {
@@ -38,8 +38,9 @@ double ErkStepper::State::error(double step) {
   return std::max(size(), error_of_springs(std::span(difference).first(n)));
 }
 
-/// A compliant constraint multiplies errors of position by its stiffness: its force w dq/C is to be as good,
-/// of the force that moves its masses by the scene's length in the scene's time; but for round-off.
+/// A compliant constraint multiplies errors of position by its stiffness: its force w dq/C is to be as
+/// accurate, relative to the force that moves its masses by the scene's length in the scene's time; up to
+/// round-off.
 double ErkStepper::State::error_of_springs(std::span<const double> dq) const {
   if (force_of_spring.empty()) return 0.0;
   const double rounding = scales.rounding(next.q);
@@ -57,7 +58,7 @@ double ErkStepper::State::error_of_springs(std::span<const double> dq) const {
   return most;
 }
 
-/// Puts `next` onto the constraints. The correction over the tolerance.
+/// Projects `next` onto the constraint manifold. Returns the correction over the tolerance.
 double ErkStepper::State::project() {
   const auto [dq, dv] = halves(difference);
   const auto [v, v_dot] = halves(next.va);
@@ -73,8 +74,8 @@ double ErkStepper::State::project() {
   return size();
 }
 
-/// What the derivatives of the last stage and those at the end of a step differ by, times the step, in
-/// parts of the scene's size.
+/// The difference of the derivatives of the last stage and of those at the end of a step, times the step, as
+/// a fraction of the scene's size.
 double ErkStepper::State::disagreement(double step) {
   for (std::size_t i = 0; i < difference.size(); ++i) difference[i] = step * (k[stages - 1][i] - next.va[i]);
   return tolerance * size();

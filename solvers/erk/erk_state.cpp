@@ -78,8 +78,8 @@ void ErkStepper::State::require(bool regular) {
   if (!regular) throw EquationFault("the constraints became dependent on each other");
 }
 
-/// Whether the angle between constraints changes by much in a step. An error e of a stage
-/// off the constraints is one of e/sin^2 in its accelerations; put onto them it is not felt.
+/// Whether the angle between constraints changes much in a step. An error e of a stage off the manifold is
+/// one of e/sin^2 in its accelerations; projected stages do not have it.
 bool ErkStepper::State::close_to_singular(double step) const {
   const double rate = steps > 0 ? std::abs(to.sine - from.sine) / (to.t - from.t) : 0.0;
   return to.sine < constants.close_to_dependent && step * rate > constants.changing_angle * to.sine;

@@ -74,7 +74,7 @@ struct ErkStepper::State {
   [[nodiscard]] double attempt(double step);
   void accept(bool by_extrapolation);
 
-  /// What became of the attempt to pass a singular position.
+  /// The outcome of an attempt to pass a singular position.
   enum class Crossing { none, ahead, passed };
   [[nodiscard]] Crossing cross();
   [[nodiscard]] bool may_have_crossed() const;

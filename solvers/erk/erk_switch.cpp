@@ -11,8 +11,8 @@ namespace dalembert {
 namespace {
 
 /// A jump of the acceleration within a step, seen by the stages behind it, changes the step's velocity by at
-/// most so many times step and jump: the largest |sum_{c_j > x} b_j - (1 - x)| of the pair, for x between its
-/// 9th and 10th stage.
+/// most this many times step and jump: the largest |sum_{c_j > x} b_j - (1 - x)| of the pair, for x between
+/// its 9th and 10th stage.
 constexpr double most_weight = 25.0;
 
 /// Stages that a step is made of. All must lie in front of a switch: in its search for the longest step the
@@ -60,7 +60,8 @@ bool ErkStepper::State::failed_behind_switch() {
   return !switches.same(to.side, next.side);
 }
 
-/// The most that a switch between two nodes, passed in one step, may do to the step, over the tolerance.
+/// The most that a switch between two nodes, crossed in one step, may contribute to its error, over the
+/// tolerance.
 double ErkStepper::State::effect_of_switch(const Node& a, const Node& b, double step) {
   const auto [dq, dv] = halves(difference);
   std::ranges::fill(dq, 0.0);
@@ -132,11 +133,11 @@ StepFailure ErkStepper::State::why_not_over(Node& before) {
   } while (ahead < usual && switches.same(before.side, next.side));
   const Violation jump = velocity_violation(*system, manifold.equations(), scales.lengths());
   if (jump.size > constants.most_correction * tolerance * scales.speed())
-    return {
-        system->row_label(jump.row) +
-            " changes its gradient by a jump here: the velocity before does not obey it behind. That is an "
-            "impact, which the equations do not describe; end the run here, or round it off",
-        before.t};
+    return {system->row_label(jump.row) +
+                " changes its gradient by a jump here: the velocity before does not satisfy it behind. That "
+                "is an "
+                "impact, which the equations do not describe; end the run here, or round it off",
+            before.t};
   const std::string what = switches.others(before.side, next.side);
   return {(what.empty() ? std::string("the motion") : what) +
               " switches here, and no step leads on: either both sides drive the motion back to the switch, "
@@ -146,7 +147,7 @@ StepFailure ErkStepper::State::why_not_over(Node& before) {
 }
 
 /// After a step over a switch, whether the motion behind it leads back to it at once, as it led to it from
-/// the other side (Filippov): then none of the two goes on.
+/// the other side (Filippov): then neither of the two goes on.
 bool ErkStepper::State::driven_back() {
   const double jump = effect_of_switch(from, to, 1.0);
   for (double ahead = 4.0 * (to.t - from.t); ahead < 1e-3 * usual; ahead *= 8.0) {

@@ -100,7 +100,7 @@ std::string IdaStepper::State::explain(int code) const {
 
 std::string IdaStepper::State::advice() const {
   return "stiff: " + system->force_of_stiffness(newton.fastest().stiffest) +
-         " makes vibrations much faster than the motion; if it is a spring, state it as a constraint with "
+         " causes vibrations much faster than the motion; if it is a spring, state it as a constraint with "
          "compliance 1/stiffness, as in compliant(Distance{a, b, length}, 1.0 / stiffness)";
 }
 
@@ -109,7 +109,7 @@ bool IdaStepper::State::has_stiff_force() const {
   return 2 * unresolved_steps > steps || newton.fastest().of_forces * scales.time > stiff_rate;
 }
 
-/// Whether round-off, which the constraints turn into 1/sine of it, is more than a step may err.
+/// Whether round-off, which the constraints amplify by 1/sine, exceeds the error allowed to a step.
 bool IdaStepper::State::asks_for_too_much() const {
   return constants.share_of_a_step * asked_for * scales.length * sine() <
          scales.rounding(instant(t, y.get()).q);

@@ -22,9 +22,9 @@ double rate_of(double correction, double first, int iteration) {
 }  // namespace
 
 /// IDA's Newton iteration, but for its test of divergence. Multipliers enter the equations linearly: their
-/// first correction makes up for the predictor and may be as small as chance will have it, their second, from
-/// the squares of those of q and v, does not depend on it. Growing from one to the next they tell nothing;
-/// the iteration diverges if the corrections of q and v grow.
+/// first correction makes up for the predictor and may be small by chance, their second, from the squares of
+/// those of q and v, does not depend on it. Their growth from one to the next proves nothing; the iteration
+/// diverges if the corrections of q and v grow.
 void IdaStepper::State::make_newton() {
   nonlinear.reset(check(SUNNonlinSol_Newton(y.get(), context.get())));
   check(IDASetNonlinearSolver(ida.get(), nonlinear.get()), "IDASetNonlinearSolver");

@@ -116,13 +116,13 @@ double IdaStepper::State::farthest(std::size_t row, std::span<const double> q) c
   return far;
 }
 
-/// Weighs by what is asked for, but never asks for more than double precision gives to Newton's corrections:
-/// with q good to eps |q|, the v of BDF's (v - q') is good to eps |q|/h, M v' and with it lambda to
-/// M eps |q|/h^2, mu to M eps |q|/h; of rows that make an angle with others, to 1/sin^2 times that. Newton's
-/// iteration stops at a part of the weights, so these hold some roundings.
+/// Weighs by what is asked for, but never asks for more than double precision gives Newton's corrections:
+/// with q accurate to eps |q|, the v of BDF's (v - q') is accurate to eps |q|/h, M v' and with it lambda to M
+/// eps |q|/h^2, mu to M eps |q|/h; of rows that make an angle with others, to 1/sin^2 times that. Newton's
+/// iteration stops at a part of the weights, so these contain some roundings.
 ///
-/// The multiplier of a compliant row is felt besides in psi + C lambda', as C lambda/h: in steps that
-/// follow the vibration of its spring it is that which limits its error.
+/// The multiplier of a compliant row also enters psi + C lambda', as C lambda/h: in steps that follow the
+/// vibration of its spring that is what limits its error.
 void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
   double h = 0.0;
   check(IDAGetCurrentStep(ida.get(), &h), "IDAGetCurrentStep");  // 0 before the first

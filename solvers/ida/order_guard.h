@@ -4,15 +4,15 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// Chooses the highest order that BDF may use where vibrations hold the step down.
+/// Chooses the highest order that BDF may use where vibrations limit the step.
 ///
 /// BDF of orders 3 to 5 is unstable close to the imaginary axis: a vibration of frequency rho that the
 /// tolerance would let pass unseen is amplified as long as h rho is between some tenths and 1.9 (order
 /// 3, at most by 1.05 a step), 4.7 (order 4), 9.4 (order 5, up to 1.4), and the step sticks at half of
 /// 1/rho. Order 2 damps it. Which order advances fastest is found by trial: a while at order 2 to
 /// damp what has built up, then order 3, whose natural step often lies beyond its own unstable range.
-/// The best is kept as long as it advances better than order 5 did, or until the vibration is slow enough
-/// to be followed or so fast that no order minds. Where the vibration is part of the motion order 5 wins,
+/// The best is kept as long as it advances better than order 5 did, or until the vibration is slow enough to
+/// be followed or so fast that every order is stable. Where the vibration is part of the motion order 5 wins,
 /// and the next trial comes later each time. (CVODE's stability limit detection has the same purpose; it
 /// needs the history inside BDF.)
 class OrderGuard {

@@ -38,7 +38,7 @@ class Comparison {
   void add(const FlatSample& sample, std::span<const double> q, std::span<const double> v,
            std::span<const double> Z);
   [[nodiscard]] CrossCheck result() const { return found_; }
-  /// Throws InvalidArgument unless the first sample agrees to what a start may be off.
+  /// Throws InvalidArgument unless the first sample agrees to the accuracy asked of a start.
   void require_same_start() const;
 
  private:
@@ -53,12 +53,12 @@ class Comparison {
 }  // namespace detail
 
 /// The motion and the forces of constraint from both formulations of a system (notes, mln5, mln8): `scene`
-/// with its constraints, `system` with its Lagrangian, and where the particles are for its coordinates. Both
-/// runs take the same options.
+/// with its constraints, `system` with its Lagrangian, and `embedding`, the positions of the particles as
+/// functions of its coordinates. Both runs take the same options.
 ///
-/// The two share steppers and nothing of the equations, so what they agree in is right but for an error of
-/// both statements. Throws InvalidArgument if they do not begin in the same state or the embedding leaves out
-/// a particle; else what `simulate` throws.
+/// The two share steppers but none of the equations, so what they agree in is right unless both are
+/// misstated. Throws InvalidArgument if they do not begin in the same state or the embedding leaves out a
+/// particle; else what `simulate` throws.
 template <int D, int N>
 [[nodiscard]] CrossCheck cross_check(const Scene<D>& scene, const LagrangianSystem<N>& system,
                                      const Embedding<D, N>& embedding, const Options& options) {

@@ -16,11 +16,11 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// F/m, as if there were no constraints.
 [[nodiscard]] std::vector<double> forced_acceleration(const System& system, const System::Evaluation& e);
 
-/// Sets the length of the scene: the box around its points; for a lone particle on a surface or curve
-/// the radius of curvature, unless it does not get so far. What is free or on something nearly flat has no
-/// length but that of its path, of which the first instant gives a guess. (On a compliant constraint that
-/// guess has to do: an explicit step would tell the vibration of the spring.) It does not lead through a
-/// contact.
+/// Sets the characteristic length of the scene: the box around its points; for a lone particle on a surface
+/// or curve the radius of curvature, unless it does not move that far. What is free or on something nearly
+/// flat has no length but that of its path, of which the first instant gives a guess. (On a compliant
+/// constraint that guess must do: an explicit step would show the vibration of the spring.) It does not lead
+/// through a contact.
 void set_length(const System& system, const Instant& at, const System::Evaluation& e, const Options& options,
                 double nearest_contact, Scales& scales);
 

@@ -22,11 +22,11 @@ std::vector<double> Scales::lengths() const {
   return lengths;
 }
 
-/// Relative to the way, errors are the same whatever the units and wherever t_end lies: a step from rest at
-/// constant acceleration a covers a h^2/2, and the first term of its error is smaller by a power of h over
-/// the time in which the acceleration changes. Round-off in forces of size m a moves it in a step by eps a
-/// h^2, in the positions themselves by eps |q|: that must not count against the tolerance, so no way is
-/// shorter than some of these over the tolerance.
+/// Relative to the distance covered, errors are the same whatever the units and wherever t_end is: a step
+/// from rest at constant acceleration a covers a h^2/2, and the first term of its error is smaller by a power
+/// of h over the time in which the acceleration changes. Round-off in forces of size m a moves it in a step
+/// by eps a h^2, in the positions themselves by eps |q|: that must not count against the tolerance, so the
+/// distance is at least some of these over the tolerance.
 Way Scales::further(std::span<const double> q, std::span<const double> v, double h, double tolerance) const {
   const double rounding = constants.roundings_of_path * std::numeric_limits<double>::epsilon();
   const double noise = std::max(rounding / tolerance * forced * h, least);

@@ -9,7 +9,7 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// How far a scene without a length of its own has come so far, and how fast it has been.
+/// How far a scene without a characteristic length has moved so far, and how fast it has been.
 struct Way {
   double length = 0.0;  ///< largest distance of a coordinate from its start
   double speed = 0.0;   ///< largest speed of one that is a length,
@@ -17,11 +17,11 @@ struct Way {
   double step = 0.0;    ///< the last one
 };
 
-/// The scene's own length and time, from which absolute tolerances and the first step follow, so
-/// that a scene runs alike in any units.
+/// The scene's characteristic length and time, from which absolute tolerances and the first step follow, so
+/// that a run is the same in any units.
 struct Scales {
-  /// Where nothing moves any length will do; of this one the square, its inverse and both over the smallest
-  /// tolerance are numbers.
+  /// Where nothing moves any length serves; the square of this one, its inverse and both over the smallest
+  /// tolerance are finite numbers.
   static constexpr double least = 1e-140;
 
   double length;
@@ -29,9 +29,9 @@ struct Scales {
   std::vector<double> coordinate;  ///< of each coordinate: `length`, or 1 for an angle
   std::vector<double> origin;      ///< the coordinates at the start
 
-  /// A lone particle far from anything has no length but that of its path: what it has covered so far. Its
-  /// start tells nothing: at the cusp of a cycloid it rests, and what moves it a little later has not begun
-  /// to turn it. So errors are relative to `way`, which only grows, and with it `length` and `time` do.
+  /// A lone particle far from anything has no length but that of its path so far. Its start tells nothing: at
+  /// the cusp of a cycloid it rests, and its first motion has not yet begun to bend. So errors are relative
+  /// to `way`, which only grows, and with it `length` and `time`.
   bool of_path = false;
   Way way{};
   std::vector<double> is_angle;  ///< of each coordinate: 1 or 0
@@ -51,11 +51,11 @@ struct Scales {
   [[nodiscard]] Way further(std::span<const double> q, std::span<const double> v, double h,
                             double tolerance) const;
   void take(const Way& next);
-  /// A rounding of the coordinate that is farthest from 0.
+  /// A rounding of the coordinate farthest from 0.
   [[nodiscard]] double largest_rounding(std::span<const double> q) const;
   /// How far from its constraints round-off alone may leave a state.
   [[nodiscard]] double rounding(std::span<const double> q) const;
-  /// Of each coordinate the length that a unit of it counts for: 1, or `length` for an angle.
+  /// Of each coordinate the length that corresponds to one unit of it: 1, or `length` for an angle.
   [[nodiscard]] std::vector<double> lengths() const;
 };
 

@@ -16,7 +16,7 @@ struct Springs {
   [[nodiscard]] std::array<std::vector<double>*, 3> parts() { return {&lambda, &rate, &second}; }
 
   std::vector<double> lambda, rate, second;  ///< lambda and its derivatives by time
-  /// c: in the state a change of lambda comes with c and c^2 times as much of its derivatives.
+  /// c: in the state a change of lambda brings c and c^2 times as much in its derivatives.
   double c = 0.0;
 };
 

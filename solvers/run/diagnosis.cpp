@@ -12,10 +12,10 @@ namespace dalembert {
 
 namespace {
 
-/// A body turns around within the scene's time by a force of about 1 in these units. Unequal masses or
-/// lengths can explain hundreds.
+/// A force of about 1 in these units turns a body around within the scene's time. Unequal masses or lengths
+/// can explain hundreds.
 constexpr double unexplained = 1e4;
-/// Times known no better than to this part of the scene's own are worth a word.
+/// Times known only to this fraction of the scene's own are worth a warning.
 constexpr double too_coarse = 1e-10;
 
 }  // namespace

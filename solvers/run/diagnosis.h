@@ -8,10 +8,10 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-// For the message of a run that stopped; empty if there is nothing to say.
+// For the message of a run that stopped; empty if there is nothing to report.
 
-/// The constraint whose force is far beyond all that the scene's masses, speed and time explain, and has
-/// grown since the start as much, with its multiplier and what it says of itself when singular.
+/// The constraint whose force far exceeds what the scene's masses, speed and time explain, and has grown as
+/// much since the start, with its multiplier and its hint on singularity.
 [[nodiscard]] std::string unbounded_multiplier(const System& system, const Scales& scales,
                                                std::span<const double> w, std::span<const double> lambda,
                                                std::span<const double> lambda_at_start);

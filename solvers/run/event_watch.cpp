@@ -43,8 +43,8 @@ struct Interpolant {
       if (k != j) sum += weight(k) * (values[k] - values[j]) / (nodes[j] - nodes[k]);
     return sum / weight(j);
   }
-  /// Where between a and b it is closest to 0, or beyond it, seen from the side of `side`; by golden
-  /// sections.
+  /// Where between a and b it is closest to 0, or beyond it, seen from the side of `side`; by golden-section
+  /// search.
   [[nodiscard]] double turn(double a, double b, int side) const {
     constexpr double section = 0.6180339887498949;
     const auto height = [&](double t) { return side * (*this)(t); };
@@ -76,7 +76,7 @@ EventWatch::EventWatch(std::vector<FlatEvent> events, const Layout& layout)
       throw InvalidArgument("Event \"" + event.name + "\" of scene \"" + layout.scene + "\" has no function");
     if (event.ends && event.change)
       throw InvalidArgument("Event \"" + event.name + "\" of scene \"" + layout.scene +
-                            "\" both ends the run and changes the scene; it does one of them");
+                            "\" both ends the run and changes the scene; it can do only one of them");
   }
 }
 
@@ -110,7 +110,7 @@ double EventWatch::value(std::size_t event, const FlatSample& at) {
   return value;
 }
 
-/// The nodes of the step, and where the interpolant turns towards 0 between two of one sign.
+/// The nodes of the step, and the points where the interpolant turns towards 0 between two of one sign.
 std::vector<EventWatch::Place> EventWatch::places(std::size_t event, const Read& read,
                                                   const std::vector<double>& values) {
   const Interpolant p{nodes_, values};
@@ -118,7 +118,7 @@ std::vector<EventWatch::Place> EventWatch::places(std::size_t event, const Read&
   for (std::size_t j = 1; j < nodes_.size(); ++j) {
     const double a = nodes_[j - 1], b = nodes_[j], f_a = values[j - 1], f_b = values[j];
     const int side = sign(f_b);
-    // What begins at 0 may have been on the other side meanwhile.
+    // What begins at 0 may have had the other sign meanwhile.
     const bool from_zero = j == 1 && side_[event] == 0;
     if (side != 0 && (from_zero || side == sign(f_a)) && side * p.slope(j - 1) < 0.0 &&
         side * p.slope(j) > 0.0) {

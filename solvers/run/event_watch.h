@@ -16,12 +16,12 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// polynomial, with recovered forces.
 ///
 /// Within a step a function is known at the nodes of a Chebyshev interpolant of the polynomial's degree.
-/// Where that turns towards 0 between two nodes of one sign, or first to the other side of the 0 that it
-/// began with, the function is asked there: so two roots within a step are found as well, if the interpolant
-/// resolves the function.
+/// Where that turns towards 0 between two nodes of one sign, or first crosses the 0 that it began with, the
+/// function itself is evaluated: so two roots within a step are found as well, if the interpolant resolves
+/// the function.
 class EventWatch {
  public:
-  /// What the last step says at a time inside it.
+  /// The polynomial of the last step at a time inside it.
   using Read = std::function<FlatSample(double t)>;
 
   /// Throws InvalidArgument for an event without function.
@@ -30,9 +30,9 @@ class EventWatch {
   /// What happened in a step that ended at `to`, in the order of time; steps follow each other. Throws
   /// StepFailure if a function throws or gives no number.
   [[nodiscard]] std::vector<Occurrence> look(const Read& read, double to, int degree);
-  /// From here on steps are those of a run that begins, or begins anew, at a sample; what the functions give
-  /// there is no crossing, and as long as it is 0 to round-off of the largest before it has no sign.
-  /// Those from number `positive` on come from above 0 where they are 0.
+  /// From here on steps are those of a run that begins, or begins anew, at a sample; the values of the
+  /// functions there are no crossing, and as long as one is 0 to round-off of its largest value so far it has
+  /// no sign. Those from number `positive` on come from above 0 where they are 0.
   void begin_anew(const FlatSample& start, std::size_t positive);
   [[nodiscard]] const FlatEvent& event(std::size_t number) const { return events_[number]; }
 

@@ -23,10 +23,10 @@ class KeptSteps final : public DenseOutput {
 
   /// From here on the steps are those of a run that begins, or begins anew, with `start` at time t.
   void begin(const Start& start, double t);
-  /// And those of another system; what the last step said beyond that time is no part of the run.
+  /// And those of another system; the polynomial of the last step beyond that time is no part of the run.
   void change(double t, std::shared_ptr<const System> system);
-  /// The last step, the so many-th of the run, and where it began; before the first, the start. Throws
-  /// EquationFault, and nothing has changed.
+  /// The last step, its number in the run, and where it began; before the first, the start. Throws
+  /// EquationFault, and then nothing has changed.
   void add(TimeStepper& stepper, double from, long number);
 
   void read(std::span<const double> times, Record& out) const override;
@@ -40,7 +40,7 @@ class KeptSteps final : public DenseOutput {
   };
   struct Step {
     double from, to;
-    double end;  // of what of it belongs to the run
+    double end;  // of the part that belongs to the run
     long number;
     int degree;
     std::size_t first;  // of its values

@@ -9,14 +9,14 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// The accelerations of the last steps, to go on with where those of the equations are lost to round-off:
+/// The accelerations of the last steps, for extrapolation where those of the equations are lost to round-off:
 ///
 ///   v(t) = v0 + int p,   q(t) = q0 + (t - t0) v0 + int int p,   p through a at the last nodes  (Adams)
 ///
-/// Close to a singular position at t*, sin ~ |t - t*|, positions are good to eps/sin, velocities to
+/// Close to a singular position at t*, sin ~ |t - t*|, positions are accurate to eps/sin, velocities to
 /// eps/sin^2, accelerations to eps/sin^3. Nodes whose distances from t* double, and a point as far beyond t*
-/// as the last one is before it, multiply the noise in a (t - t0) by about 20 whatever their number. A
-/// polynomial through q and v as well would have the higher order, but multiply the noise in q by 1e4.
+/// as the last one is before it, amplify the noise in a (t - t0) by about 20 whatever their number. A
+/// polynomial through q and v as well would be of higher order, but amplify the noise in q by 1e4.
 class Passage {
  public:
   static constexpr std::size_t most_nodes = 7;
@@ -25,7 +25,7 @@ class Passage {
 
   /// After each step, and before the first: the accelerations at t.
   void remember(double t, std::span<const double> a);
-  /// Accelerations that others do not continue.
+  /// Forgets accelerations that the next ones do not continue.
   void forget() { known_ = 0; }
 
   /// Chooses, from the last node back, those whose distances from `singular` grow by at least `spread`.

@@ -11,7 +11,7 @@ namespace dalembert {
 
 namespace {
 
-/// How close to where a friction turns it is asked for, of the way between the states given.
+/// How closely the reversal of a friction is located, as a fraction of the way between the states given.
 constexpr double next_to = 1e-9;
 
 /// to = the point at `part` of the way from a to b.
@@ -25,7 +25,7 @@ void between(const Motion& a, const Motion& b, double part, Motion& to) {
   }
 }
 
-/// to = where `from` leads in a short time with its accelerations.
+/// to = `from` extrapolated for a short time with its accelerations.
 void move(const Motion& from, double duration, Motion& to) {
   to.t = from.t + duration;
   to.q.resize(from.q.size());
@@ -40,7 +40,8 @@ void move(const Motion& from, double duration, Motion& to) {
 
 std::string Sticking::would_stick(std::size_t friction) const {
   return switches_.friction(friction) +
-         " would stick here: the sliding velocity is zero, and friction exceeds what drives it either way. A "
+         " would stick here: the sliding velocity is zero, and friction exceeds the driving force both ways. "
+         "A "
          "law that jumps there describes sliding only; smooth it, v / sqrt(v^2 + small^2) in place of the "
          "direction of v, or end the run here";
 }
@@ -122,7 +123,7 @@ void Sticking::watch(double t, std::span<const double> q, std::span<const double
   std::swap(last_, now_);
 }
 
-/// Whether sliding comes to zero so soon.
+/// Whether the sliding velocity vanishes so soon.
 void Sticking::look_ahead(Motion from, double duration) {
   if (!accelerate(from, near_)) return;
   move(from, duration, trial_);
@@ -130,7 +131,7 @@ void Sticking::look_ahead(Motion from, double duration) {
   if (switches_.turned(near_, far_)) require_sliding(from, trial_);
 }
 
-/// From in front of where a friction turns to behind it.
+/// From before the reversal of a friction to behind it.
 void Sticking::require_sliding(const Motion& before, Motion& behind) {
   find_slope(before, side_);
   find_slope(behind, far_);

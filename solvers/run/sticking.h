@@ -21,28 +21,28 @@ struct Motion {
 
 /// How a motion leaves a state.
 struct Departure {
-  std::optional<std::size_t> held_by{};  ///< the friction that lets nothing slide, if one does
+  std::optional<std::size_t> held_by{};  ///< the friction that prevents sliding, if one does
   bool from_rest = false;                ///< some friction has no direction yet
   std::vector<double> a{};               ///< the accelerations once it has
 };
 
 /// Finds whether sliding friction sticks.
 ///
-/// Where the sliding velocity comes to zero Coulomb's force turns by a jump. With e the direction of sliding
-/// before: if the acceleration points against e before the jump and along e behind it, the direction fields
-/// on both sides lead to it (Filippov) and neither sliding on nor back is a solution. At rest the same is
-/// asked of the direction in which the other forces drive. If it points against e on both sides sliding turns
-/// back.
+/// Where the sliding velocity vanishes Coulomb's force reverses by a jump. With e the direction of sliding
+/// before: if the acceleration points against e before the jump and along e behind it, both vector fields
+/// lead to the discontinuity (Filippov) and neither sliding on nor back is a solution. At rest the same is
+/// asked of the direction in which the other forces drive. If it points against e on both sides sliding
+/// reverses.
 class Sticking {
  public:
   Sticking(const System& system, const Start& start, double t_start, double tolerance);
 
   /// Of a state with the accelerations a; `side` is the one that the motion begins on.
   [[nodiscard]] Departure leave(const Instant& at, std::span<const double> a, Side& side);
-  /// Whether the friction that turns between two states does so by a jump, and not steeply: whether it is as
-  /// large next to where it turns as away from there.
+  /// Whether the friction that reverses between two states does so by a jump, and not steeply: whether it is
+  /// as large next to the reversal as away from it.
   [[nodiscard]] bool jumps(const Motion& before, const Motion& behind, std::size_t friction);
-  /// What is said of a friction that would stick.
+  /// The message about a friction that would stick.
   [[nodiscard]] std::string would_stick(std::size_t friction) const;
 
   /// For a motion known only at its steps: called before the first and after each. Throws StepFailure.

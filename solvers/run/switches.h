@@ -12,18 +12,19 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// On which side of each switch in the equations a state lies.
+/// On which side of each switching surface of the equations a state is.
 struct Side {
-  Branches::Outcomes branches;  ///< of the comparisons in each batch; empty if they cannot be told
+  Branches::Outcomes branches;  ///< of the comparisons in each batch; empty if they are not known
   std::vector<double> slope;    ///< dF_f/dlambda: Coulomb's is -mu times the direction of sliding
 };
 
-/// The switches of a scene: comparisons in its equations, and frictions that turn with the sliding.
+/// The switching surfaces of a scene: comparisons in its equations, and friction that reverses with the
+/// sliding.
 ///
-/// Between two states a switch was passed if a comparison changed its outcome, or if some friction's slope
-/// turned by more than a right angle: at zero sliding velocity a law changes its direction without comparing
-/// anything. What slides by Coulomb's law changes where a run finds that it does, not here. (A direction that
-/// turns so far within a step smoothly is no harm; the step is tried shorter.)
+/// Between two states one was crossed if a comparison changed its outcome, or if some friction's slope turned
+/// by more than a right angle: at zero sliding velocity a law changes its direction without comparing
+/// anything. Coulomb's constraints change where a run finds it, not here. (A direction that turns so far
+/// smoothly within a step does no harm; the step is tried shorter.)
 class Switches {
  public:
   /// Listens to the equations at a state: most scenes compare nothing and have no switches.
@@ -45,7 +46,7 @@ class Switches {
   [[nodiscard]] double steepness(const Side& a, std::size_t i) const { return std::sqrt(turn(a, a, i)); }
   /// Whether some friction has no slope: of Coulomb's, nothing slides.
   [[nodiscard]] bool rests(const Side& a) const;
-  /// Labels of what differs in other ways.
+  /// Labels of the others that differ.
   [[nodiscard]] std::string others(const Side& a, const Side& b) const;
 
  private:

@@ -9,7 +9,7 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// What takes a system from one time to the next: the same to a run whatever its method.
+/// Advances a system in time, by whatever method.
 class TimeStepper {
  public:
   virtual ~TimeStepper() = default;
@@ -22,9 +22,9 @@ class TimeStepper {
   [[nodiscard]] virtual double sine() const = 0;
   /// The state at a time inside the last step (or at the start, before the first). Throws EquationFault.
   virtual void interpolate(double t, std::span<double> q, std::span<double> v) = 0;
-  /// Of that as a polynomial in t, at most.
+  /// Its degree as a polynomial in t, at most.
   [[nodiscard]] virtual int degree() const = 0;
-  /// The multipliers of compliant rows at such a time. False if the positions say all.
+  /// The multipliers of compliant rows at such a time. False if the positions determine them.
   [[nodiscard]] virtual bool springs(double t, Springs& out) const = 0;
   /// Adds its counts.
   virtual void count(Statistics& statistics) const = 0;

@@ -215,7 +215,7 @@ TEST(Change, RefusesWhatCannotBe) {
   auto both = p.at_the_bottom([](Scene<2>&) {});
   both.ends = true;
   EXPECT_THAT([&] { (void)simulate(p.scene, options, {both}); },
-              ThrowsMessage<InvalidArgument>(HasSubstr("does one of them")));
+              ThrowsMessage<InvalidArgument>(HasSubstr("only one of them")));
   Scene<2> scene;
   const auto ball = scene.add_particle({.mass = 1.0});
   const auto floor = scene.add(unilateral(OnCurve{ball, Plane<2>{}}), "floor");
