@@ -9,19 +9,19 @@
 
 namespace dalembert {
 
-/// Coulomb's friction on a constraint that presses, as returned by `coulomb`. With the slip velocities u, one
-/// or two, the friction sigma, which is the multiplier of u = 0, and the force lambda that presses
+/// Coulomb friction on a constraint, as returned by `coulomb`. With the slip velocities u, one or two, the
+/// friction sigma, which is the multiplier of u = 0, and the normal force lambda of that constraint
 ///
 ///   sticks:  u = 0,   |sigma| <= mu_static |lambda|
 ///   slides:  sigma = -mu |lambda| u/|u|
 ///
-/// whatever sign lambda has. In space two slip velocities along directions at right angles make the cone
-/// round. A multiplier of this constraint is sigma in both cases, and its force W^T sigma, W = du/dv. Which
+/// whatever sign lambda has. In space two slip velocities along directions at right angles give a circular
+/// cone. A multiplier of this constraint is sigma in both cases, and its force W^T sigma, W = du/dv. Which
 /// case holds the run finds, and lists when it changes (Happened::sticks, Happened::slides).
 ///
-/// Where no motion agrees with the law (Painleve) the run stops and says so; so it does where an impact
-/// presses: the law does not tell the friction of an impact; and where several that hold the same reach their
-/// bounds with shares that the motion does not determine. Equilibria and small motions are not for it.
+/// Where no motion satisfies the law (Painleve) the run stops and says so; so it does at an impact, whose
+/// frictional impulse the law does not determine, and where several on the same slip reach their bounds with
+/// shares that the motion does not determine. Equilibria and small motions are not for it.
 template <class Slip>
 struct Coulomb {
   static constexpr std::string_view kind = "Coulomb";
@@ -47,7 +47,7 @@ struct Coulomb {
   }
 };
 
-/// Makes a constraint rough. What slides is stated like any constraint on velocities, a block on a belt that
+/// Makes a constraint rough. The slip is stated like any constraint on velocities, a block on a belt that
 /// moves at 1
 ///
 ///   auto belt = scene.add(OnCurve{block, Plane<2>{}});
@@ -55,11 +55,11 @@ struct Coulomb {
 ///
 /// or as one's own equation, `nonholonomic(points(block), [](auto r, auto v) { return v.x() - 1.0; })`; a
 /// wheel that may skid is coulomb(track, Rolling{...}, mu). The slip velocities must be those of the points
-/// that touch, and lambda the force there: of a constraint of the user's own whose gradient has not length 1
-/// divide mu by that length.
+/// in contact, and lambda the force there: for a constraint of the user's own whose gradient is not of unit
+/// length divide mu by that length.
 ///
 /// Scene::add throws InvalidScene unless 0 <= mu <= mu_static, and InvalidArgument if the constraint that
-/// presses is not one of the scene's.
+/// gives the normal force is not one of the scene's.
 template <class Slip>
 [[nodiscard]] Coulomb<Slip> coulomb(Constraint<1> pressing, Slip slip, double mu, double mu_static) {
   static_assert(NonholonomicConstraint<Slip>,

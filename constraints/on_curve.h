@@ -13,7 +13,8 @@ namespace dalembert {
 /// Z = lambda grad g, towards g > 0 for lambda > 0; lambda is the normal force divided by |grad g|.
 template <Point P, class Curve>
 struct OnCurve {
-  static_assert(P::dimension == 2, "OnCurve is planar; in space a curve is the meeting of two OnSurface");
+  static_assert(P::dimension == 2,
+                "OnCurve is planar; in space a curve is the intersection of two OnSurface");
   static_assert(detail::written_for_any_scalar<std::tuple<P>, Curve>());
   static constexpr std::string_view kind = "OnCurve";
   static constexpr std::string_view singular = "the curve has no normal there";

@@ -11,7 +11,7 @@ namespace dalembert {
 ///
 ///   scene.add(Prescribed{crank, [](auto t) { return vec(2.0 * t); }});
 ///
-/// A point that need not be a particle is better a Driven point: it adds no unknowns.
+/// A point that need not be a particle is better stated as a Driven point: it adds no unknowns.
 template <Point P, class Motion>
 struct Prescribed {
   static constexpr std::string_view kind = "Prescribed";

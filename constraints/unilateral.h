@@ -12,14 +12,14 @@ namespace dalembert {
 ///   g >= 0,   lambda >= 0,   g lambda = 0        (Allowed::negative: g <= 0, lambda <= 0)
 ///
 /// While it is closed, g = 0, it exerts a force like any other; where that would change its sign it opens.
-/// Where g comes back to 0 there is an impact: its impulse ends the speed of approach U-, or reverses it, U+
-/// = -restitution U-. Several at once obey Moreau's law, U+ >= -restitution U-, with an impulse only where
-/// that is an equation: of equal balls that touch in a row all but the first go off together. Impacts that
+/// Where g returns to 0 there is an impact: its impulse ends the speed of approach U-, or reverses it, U+ =
+/// -restitution U-. Several at once obey Moreau's law, U+ >= -restitution U-, with an impulse only where
+/// equality holds: of equal balls in contact in a row all but the first go off together. Impacts that
 /// accumulate end in rest, at their limit.
 ///
-/// A run lists what opens, is struck and comes to rest (Trajectory::events), with the states before and after
-/// and the impulses of all constraints. At the start contacts touch whose gap is below 1e-8 of the scene's
-/// length. Forces that read its multiplier, equilibria and small motions are not for one-sided constraints.
+/// A run lists openings, impacts and rests (Trajectory::events), with the states before and after and the
+/// impulses of all constraints. At the start contacts touch whose gap is below 1e-8 of the scene's length.
+/// Forces that read its multiplier, equilibria and small motions are not for one-sided constraints.
 ///
 /// Source: J. J. Moreau, Unilateral contact and dry friction in finite freedom dynamics (1988).
 template <class Bilateral>

@@ -17,8 +17,8 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a scene states makes no sense by itself: a negative mass, a name that is taken, no particle at all.
-/// Nothing was computed, and the scene is as it was.
+/// What a scene states makes no sense by itself: a negative mass, a name already taken, no particle at all.
+/// Nothing was computed, and the scene is unchanged.
 class InvalidScene : public Error {
   using Error::Error;
 };
@@ -30,7 +30,7 @@ class InvalidArgument : public Error {
 };
 
 /// The initial positions or velocities contradict the constraints, or the constraints cannot all be
-/// met, or one is singular there.
+/// satisfied, or one is singular there.
 class InconsistentStart : public Error {
   using Error::Error;
 };
@@ -42,8 +42,8 @@ class EquationFault : public Error {
 };
 
 /// A force of constraint was asked for at an instant at which the state does not determine it: the
-/// constraints are close to dependent, or one yields so little that positions do not tell how far. Motion can
-/// be read there; Sample::is_determined tells beforehand.
+/// constraints are close to linearly dependent, or one is so stiff that positions do not tell its deflection.
+/// Motion can be read there; Sample::is_determined tells beforehand.
 class UndeterminedForce : public Error {
   using Error::Error;
 };

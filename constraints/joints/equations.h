@@ -33,8 +33,8 @@ template <int D>
 inline constexpr std::size_t along = D == 2 ? 0 : 2;
 
 /// An angle that is a multiple of a full turn wherever the equation holds, less that: its equation needs no
-/// history of turns and has no cut, as a thread or a gear has none. Half a turn away it would hold of the
-/// next tooth; before that it throws, and the stepper takes a shorter step.
+/// history of turns and has no branch cut, as a thread or a gear has none. Half a turn away it would hold for
+/// the next tooth; before that it throws, and the stepper takes a shorter step.
 template <class S>
 [[nodiscard]] S out_of_mesh(const S& phase) {
   using std::atan2;

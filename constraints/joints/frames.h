@@ -15,7 +15,7 @@
 /// What all joints have in common: how two bodies carry the frame of a joint.
 namespace dalembert {
 
-/// What stands still, as a body of a joint: `Revolute{Ground<3>{}, door, point, axis}`.
+/// What is at rest, as a body of a joint: `Revolute{Ground<3>{}, door, point, axis}`.
 template <int D>
 struct Ground {
   static constexpr int dimension = D;
@@ -103,12 +103,12 @@ inline constexpr bool moves<Ground<D>> = false;
 }  // namespace detail
 
 /// The frames of a joint between two bodies, or a body and the ground. They are stated in space, where the
-/// bodies are when they are added; each body carries its own on from there, and the joint's equations say
-/// how the two may part. (Stated in either body's coordinates, the user would have to turn them.)
+/// bodies are when they are added; each body carries its own from there on, and the joint's equations say how
+/// the two may separate. (Stated in either body's coordinates, the user would have to rotate them.)
 ///
-/// The axes are vectors of length `length`, the size of a body of the joint, so that an equation between
-/// them has its force at that length: with unit vectors a torque would be weighed against forces by the
-/// choice of units wherever joints repeat each other (see detail::forces_at_points).
+/// The axes are vectors of length `length`, the size of a body of the joint, so that an equation between them
+/// has its force at that length: with unit vectors torques would be weighted against forces by the choice of
+/// units wherever joints are redundant (see detail::forces_at_points).
 template <class A, class B>
 struct JointFrames {
   static constexpr int dimension = A::dimension;

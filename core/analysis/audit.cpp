@@ -10,8 +10,7 @@ namespace dalembert {
 
 namespace {
 
-/// Unit columns: displacements that all rows of W allow, and that span all such. In the metric of the masses
-/// they are orthogonal.
+/// Unit columns: a basis of the displacements that all rows of W allow, orthogonal in the mass metric.
 Eigen::MatrixXd tangent_space(const System& system, std::span<const double> w) {
   Eigen::MatrixXd tangent = orthogonal_complement(rows_in_mass_metric(system, w));
   for (Eigen::Index i = 0; i < tangent.rows(); ++i)

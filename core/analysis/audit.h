@@ -9,7 +9,7 @@
 
 namespace dalembert {
 
-/// d'Alembert's principle checked at one instant (notes, mln7), and who puts in or takes out power.
+/// d'Alembert's principle checked at one instant (notes, mln7), and the power of each constraint and force.
 struct Audit {
   struct Power {
     std::string name;

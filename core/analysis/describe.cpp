@@ -72,7 +72,7 @@ std::string System::describe(double t, std::span<const double> q) const {
   auto e = evaluation();
   evaluate({t, q, at_rest}, e);
   const std::size_t rank =
-      independent_rows(*this, e.w).size() - compliant_rows();  // those take no freedom away
+      independent_rows(*this, e.w).size() - compliant_rows();  // those remove no degree of freedom
   out << "at t = " << t << ": " << rank << " of " << rows() - compliant_rows()
       << " constraint equations independent, " << coordinates() - rank << " degrees of freedom of velocity\n";
   for (const Integrability& set : integrability(*this, t, q)) {

@@ -88,8 +88,8 @@ Forms forms(const System& system, double t, std::span<const double> q) {
   return result;
 }
 
-/// Sets of rows that share coordinates, also through other rows; each sorted. Compliant rows take no freedom
-/// away, and are left out.
+/// Sets of rows that share coordinates, also through other rows; each sorted. Compliant rows remove no degree
+/// of freedom, and are left out.
 std::vector<std::vector<std::size_t>> connected_rows(const System& system) {
   const auto first_column = [&system](std::size_t r) { return system.w_columns()[system.row(r).front()]; };
   const auto rigid = [&system](std::size_t r) { return !(system.compliance()[r] > 0.0); };

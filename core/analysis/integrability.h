@@ -7,7 +7,7 @@
 
 namespace dalembert {
 
-/// What can be said of velocity constraints that share coordinates.
+/// What is known of velocity constraints that share coordinates.
 struct Integrability {
   std::vector<std::string> constraints;  ///< labels, one per equation of the set
   /// The whole set is integrable: together with the scene's holonomic constraints it is

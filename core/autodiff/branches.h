@@ -8,12 +8,12 @@
 
 namespace dalembert {
 
-/// Which way the equations of a scene went wherever they compare numbers: what a user writes with abs, max or
-/// `if (x > 0)` has a kink or a jump where one of its comparisons changes its outcome, and nowhere else. So a
+/// The outcome of every comparison in the equations of a scene: what a user writes with abs, max or `if (x >
+/// 0)` has a kink or a jump where one of its comparisons changes its outcome, and nowhere else. So a
 /// discontinuity is found where it is stated, however small it is and wherever between two stages it falls.
 ///
-/// Duals report their comparisons to the one that listens in this thread, if there is one. (A scalar type of
-/// its own would need no such thing, but every equation compiled once more.)
+/// Duals report their comparisons to the listener of this thread, if there is one. (A scalar type of its own
+/// would need no such thing, but would compile every equation once more.)
 class Branches {
  public:
   /// One number for all comparisons (less, equal, greater) of each batch.
@@ -25,7 +25,7 @@ class Branches {
   Branches& operator=(const Branches&) = delete;
   ~Branches() { listening = outer_; }
 
-  /// Of how many comparisons it has heard.
+  /// The number of comparisons that it has heard.
   [[nodiscard]] long count() const { return count_; }
 
   /// What is compared from here on belongs to this batch.
@@ -35,7 +35,7 @@ class Branches {
   static void compare(double a, double b) {
     if (listening != nullptr) listening->add(a < b ? 1U : a == b ? 2U : 3U);
   }
-  /// Of a function that is made of pieces, the one that was taken: like as many comparisons as it has jumps.
+  /// The piece of a piecewise function that was taken: like as many comparisons as it has jumps.
   static void choose(double piece) {
     if (listening != nullptr) listening->add(std::bit_cast<std::uint64_t>(piece));
   }

@@ -9,8 +9,8 @@
 namespace dalembert {
 
 /// For equations that are evaluated with plain numbers, too: without these a number finds no max and min, and
-/// of abs perhaps C's, which is one of int. What is not a number wins, or a fault of an equation would be
-/// lost in max(0.0, sqrt(x)).
+/// of abs perhaps C's, which is one of int. NaN wins, or a fault of an equation would be lost in max(0.0,
+/// sqrt(x)).
 [[nodiscard]] inline double abs(double a) { return std::abs(a); }
 [[nodiscard]] inline double max(double a, double b) { return a < b || std::isnan(b) ? b : a; }
 [[nodiscard]] inline double min(double a, double b) { return b < a || std::isnan(b) ? b : a; }

@@ -19,7 +19,7 @@ struct ElementFault {
   std::string what;
 };
 
-/// Calls `f(element, index)` for every element from `i` to before `end`; whatever goes wrong says in which.
+/// Calls `f(element, index)` for every element from `i` to before `end`; a failure reports the index.
 template <class Element, class F>
 void for_each_element(const std::vector<Element>& elements, std::size_t i, std::size_t end, const F& f) {
   try {
@@ -38,7 +38,7 @@ void for_each_element(const std::vector<Element>& elements, const F& f) {
   for_each_element(elements, 0, elements.size(), f);
 }
 
-/// The same for those that are not left out; none is if `left_out` is empty.
+/// The same without those that are left out; none is if `left_out` is empty.
 template <class Element, class F>
 void for_each_element(const std::vector<Element>& elements, std::span<const char> left_out, const F& f) {
   if (left_out.empty()) return for_each_element(elements, f);
@@ -77,7 +77,7 @@ class ConstraintBatch {
   /// The coordinates of each constraint in turn, `width` numbers each.
   [[nodiscard]] virtual std::span<const int> coordinates() const = 0;
 
-  /// What is left out writes nothing, here and below, and its equation is not called.
+  /// What is left out writes nothing, here and below, and its equation is not evaluated.
   virtual void evaluate(const Instant& at, const ConstraintValues& out) const = 0;
   /// Per constraint `rows x inputs` numbers U, one row after the other, out of its part of w: lambda has
   /// the size |U^T lambda|, that of the force at one of its points. See detail::forces_at_points.
@@ -91,8 +91,8 @@ class ConstraintBatch {
   /// d(W^T lambda)/dq.
   virtual void linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
                          std::span<double> stiffness) const = 0;
-  /// g and dg/dt of one-sided constraints, the slip velocities of those of Coulomb's law, left out or not: no
-  /// gradient is asked for.
+  /// g and dg/dt of one-sided constraints, the slip velocities of Coulomb's, left out or not: no gradient is
+  /// evaluated.
   virtual void gaps(const Instant& /*at*/, std::span<double> /*g*/, std::span<double> /*rate*/) const {}
 
   /// Whether an element takes part.

@@ -35,19 +35,19 @@ inline constexpr bool is_internal = [] {
   }
 }();
 
-/// A holonomic constraint that yields: `double compliance`, see Compliant.
+/// A compliant holonomic constraint: `double compliance`, see Compliant.
 template <class C>
 concept HasCompliance = requires(const C& c) {
   { c.compliance } -> std::convertible_to<double>;
 };
 
-/// A holonomic constraint that holds one way only: `Contact contact`, see Unilateral.
+/// A unilateral holonomic constraint: `Contact contact`, see Unilateral.
 template <class C>
 concept OneSided = requires(const C& c) {
   { c.contact } -> std::convertible_to<Contact>;
 };
 
-/// A constraint that nothing slides as long as friction can hold it: `Roughness roughness()`, see Coulomb.
+/// A no-slip constraint as far as friction can hold it: `Roughness roughness()`, see Coulomb.
 template <class C>
 concept Rough = requires(const C& c) {
   { c.roughness() } -> std::convertible_to<Roughness>;

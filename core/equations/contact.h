@@ -10,17 +10,17 @@ enum class Allowed { positive, negative };
 /// What a one-sided constraint adds to its equation.
 struct Contact {
   Allowed allowed = Allowed::positive;
-  /// Newton's: the part of the speed of approach with which an impact ends, 0 to 1.
+  /// Newton's coefficient: the speed of separation after an impact over that of approach, 0 to 1.
   double restitution = 0.0;
 
   /// g and lambda times this are >= 0.
   [[nodiscard]] double sign() const { return allowed == Allowed::positive ? 1.0 : -1.0; }
 };
 
-/// What Coulomb's law adds to the equation that nothing slides.
+/// What Coulomb's law adds to the no-slip equation.
 struct Roughness {
-  int pressed_by = -1;  ///< index of the constraint whose force presses
-  double mu = 0.0;      ///< of sliding
+  int pressed_by = -1;  ///< index of the constraint that gives the normal force
+  double mu = 0.0;      ///< coefficient of sliding friction
   double mu_static = 0.0;
 };
 

@@ -117,7 +117,7 @@ class NonholonomicBatch final : public ConstraintBatch {
     const double curvature = a.hessian.template bottomRightCorner<inputs, inputs>().cwiseAbs().maxCoeff();
     const double slope = a.gradient.template tail<inputs>().cwiseAbs().maxCoeff();
     detail::require_finite(curvature * speed <= 1e-9 * slope, i,
-                           "is not linear in the velocities, as d'Alembert's principle needs");
+                           "is not linear in the velocities, as d'Alembert's principle requires");
   }
 
   Elements<C> elements_;

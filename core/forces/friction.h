@@ -77,15 +77,14 @@ struct FrictionFromLaw {
 /// several points return std::tuple{f_a, f_b}. The force is an applied one, F in M q'' = F + W^T lambda: it
 /// is no part of the constraint's force, and its power is listed by `audit`.
 ///
-/// The law is called with multipliers near those of the motion: with the ones that it would have without
-/// friction at first, later with the last ones, and with what Newton's iteration makes of them, which may for
-/// a moment lie on the other side of 0. It must have a value and a derivative where lambda itself lies, none
-/// at 0.
+/// The law is called with multipliers near those of the motion: with those of the motion without friction at
+/// first, later with the last ones, and with the iterates of Newton's method, which may lie on the other side
+/// of 0 for a moment. It needs a value and a derivative where lambda itself is, none at 0.
 ///
-/// It describes sliding. Nothing sticks: where the sliding velocity comes to zero and friction exceeds what
-/// drives it either way, or holds what is at rest, the run stops and says so; smooth the law,
-/// v / sqrt(v^2 + small^2), or end the run there. Where friction is the weaker, sliding turns back. Nor does
-/// a constraint let go where lambda changes sign.
+/// It describes sliding, not sticking: where the sliding velocity vanishes and friction exceeds the driving
+/// force both ways, or holds what is at rest, the run stops and says so; smooth the law, v / sqrt(v^2 +
+/// small^2), or end the run there. Where friction is weaker, sliding reverses. Nor does a constraint open
+/// where lambda changes sign.
 ///
 /// Friction that changes, through other constraints, the very multiplier that it reads has a limit
 /// beyond which no or no unique acceleration exists (Painleve); reaching it is an error that names the

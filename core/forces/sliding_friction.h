@@ -12,7 +12,7 @@ namespace dalembert {
 /// A constraint of Coulomb's law that slides.
 struct Sliding {
   std::size_t element;            ///< among those of its type
-  int pressed_by;                 ///< the scene's number of the constraint whose force presses
+  int pressed_by;                 ///< the scene's number of the constraint that gives the normal force
   double strength;                ///< mu, with the sign of lambda
   std::vector<double> direction;  ///< of one slip velocity: +-1, which holds; of two: where sliding begins
   double slow = 0.0;              ///< below about this speed two slip velocities have that direction
@@ -22,8 +22,8 @@ struct Sliding {
 ///
 ///   sigma = -mu |lambda| d,   F = W^T sigma,   d = (u + s d0)/|u + s d0|     (one u: d = d0 = +-1)       (1)
 ///
-/// where d0 is the direction and s the slowness of `Sliding`: beside u, s is below what velocities are known
-/// to, so that d is that of sliding, and has a value where sliding begins.
+/// where d0 is the direction and s the slowness of `Sliding`: s is below the accuracy of velocities, so that
+/// d is the direction of sliding, and defined where sliding begins.
 ///
 /// The work space is its own: not for two threads at once.
 class SlidingFriction final : public MultiplierForceBatch {

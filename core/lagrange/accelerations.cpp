@@ -15,8 +15,8 @@ namespace dalembert::detail {
 
 namespace {
 
-/// Entries of M are known to some roundings each, and elimination adds one for each row: a pivot below so
-/// many for each row is none. (A larger number refuses what is within as many roundings of singular, where
+/// Entries of M are known to some roundings each, and elimination adds one for each row: a pivot below this
+/// many for each row is 0. (A larger number rejects what is as many roundings from singular, where
 /// accelerations have no digits.)
 constexpr double elimination = 16.0 * std::numeric_limits<double>::epsilon();
 
@@ -120,16 +120,15 @@ const Eigen::IOFormat in_a_row(6, Eigen::DontAlignCols, ", ", ", ");
 std::string no_inertia(const SmallVector& q, const SmallVector& direction) {
   std::ostringstream what;
   what << "gives no acceleration: d^2L/dv^2 is singular at q = (" << q.transpose().format(in_a_row)
-       << "), nothing moving along ("
-       << (direction / direction.cwiseAbs().maxCoeff()).transpose().format(in_a_row)
-       << ") has inertia; give it one, constrain it, or choose other coordinates";
+       << "), motion along (" << (direction / direction.cwiseAbs().maxCoeff()).transpose().format(in_a_row)
+       << ") has no inertia; give it some, constrain it, or choose other coordinates";
   return what.str();
 }
 
 std::string inertia_lost(const SmallVector& q) {
   std::ostringstream what;
   what << "gives no motion to q = (" << q.transpose().format(in_a_row)
-       << "): on the way there d^2L/dv^2 is singular and accelerations have no bound; end the run before, or "
+       << "): on the way there d^2L/dv^2 is singular and accelerations are unbounded; end the run before, or "
           "choose other coordinates";
   return what.str();
 }

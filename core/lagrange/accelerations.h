@@ -8,14 +8,14 @@
 
 namespace dalembert::detail {
 
-/// Coordinates of a Lagrangian, and equations of constraint on them, are so many at most: their derivatives
-/// fill square matrices, and so nothing is allocated for them.
+/// The most coordinates of a Lagrangian, and equations of constraint on them: their derivatives fill square
+/// matrices, and so nothing is allocated for them.
 inline constexpr int most_coordinates = 32;
 using SmallMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_coordinates, most_coordinates>;
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_coordinates, 1>;
 
-/// The accelerations a that obey
+/// The accelerations a that satisfy
 ///
 ///   M a = f + A^T lambda,   A a + gamma = 0,                                                            (1)
 ///
@@ -25,7 +25,7 @@ using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_coordinates
 /// entries near 1, rows of A have unit length.
 struct Accelerations {
   SmallVector a;
-  /// Empty, or a direction that the constraints allow and that has no inertia: (1) does not tell a.
+  /// Empty, or a direction that the constraints allow and that has no inertia: (1) does not determine a.
   SmallVector without_inertia{};
   /// Of the determinant of Z^T M Z: along a motion it changes only where that is singular.
   int sign = 1;
@@ -33,8 +33,8 @@ struct Accelerations {
 [[nodiscard]] Accelerations accelerations(const SmallMatrix& M, const SmallVector& f, const SmallMatrix& A,
                                           const SmallVector& gamma);
 
-/// The multipliers in A^T lambda = r: of rows that depend on each other those with the smallest forces, and
-/// the smallest sine of an angle among the independent ones: 1/sine is what an error of A is multiplied by.
+/// The multipliers in A^T lambda = r: of dependent rows those with the smallest forces, and the smallest sine
+/// of an angle among the independent ones: 1/sine is the factor by which an error of A is amplified.
 struct SolvedMultipliers {
   SmallVector lambda;
   double sine;
@@ -51,8 +51,8 @@ struct Rows {
 };
 [[nodiscard]] Rows rows_of(const System& constraints, const Instant& at);
 
-/// That no acceleration follows at q, as nothing along the direction has inertia; and that the motion can
-/// have come to q only through such a place.
+/// The faults that no acceleration follows at q, as motion along the direction has no inertia, and that the
+/// motion can have reached q only through such a place.
 [[nodiscard]] std::string no_inertia(const SmallVector& q, const SmallVector& direction);
 [[nodiscard]] std::string inertia_lost(const SmallVector& q);
 

@@ -19,7 +19,7 @@ void require_all_placed(const Layout& layout, std::span<const double> q) {
 void require_frictionless(const System& system) {
   if (!system.frictional()) return;
   throw InvalidArgument(system.force_of_friction(0) +
-                        " reads a multiplier: from the motion alone it is not told from the force of "
+                        " reads a multiplier: the motion alone does not tell it from the force of "
                         "constraint; compare a scene without it");
 }
 

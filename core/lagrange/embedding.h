@@ -127,7 +127,7 @@ class EmbeddedMotion {
   [[nodiscard]] std::span<const double> velocities(std::size_t i) const& { return number(1, i); }
   [[nodiscard]] std::span<const double> constraint_forces(std::size_t i) const& { return number(3, i); }
 
-  /// Throws InvalidArgument if the scene has forces that read multipliers: (1) does not tell them.
+  /// Throws InvalidArgument if the scene has forces that read multipliers: (1) does not determine them.
   template <int N>
   EmbeddedMotion(const Scene<D>& scene, const Embedding<D, N>& embedding, const LagrangianMotion<N>& motion);
 

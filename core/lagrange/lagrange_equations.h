@@ -29,9 +29,9 @@ using GeneralizedForce = std::function<Vec<N>(double t, const Vec<N>& q, const V
 ///   L_vv u'' = f + A^T lambda,   A u'' + gamma = 0,    f = L_u - L_vu v - L_vt + Q                       (1)
 ///      1 u'' = F,                F = u'' out of (1)                                                      (2)
 ///
-/// (2) obeys the constraints by itself: they are among those of the scene so that the motion stays on them,
-/// and exert nothing there. So both steppers, projection and dense output serve a Lagrangian as they serve a
-/// scene, whatever the size of L_vv, and the multipliers are solved for where they are read.
+/// (2) satisfies the constraints by itself: they are among those of the scene so that the motion stays on
+/// them, and exert no force there. So both steppers, projection and dense output serve a Lagrangian as they
+/// serve a scene, whatever the size of L_vv, and the multipliers are solved for where they are read.
 template <int N>
 struct LagrangeEquations {
   static constexpr std::string_view kind = "Lagrangian";

@@ -49,10 +49,9 @@ class LagrangianMotion {
   /// h = p q' - L, conserved if neither L nor constraints depend on time and no forces Q act.
   [[nodiscard]] double energy_function(std::size_t i) const { return terms(i).energy(velocity(i)); }
 
-  /// lambda, and the generalized force A^T lambda of a constraint on the coordinates. Where constraints
-  /// repeat each other they are the smallest that give the motion. Throws UndeterminedForce where they come
-  /// so close to dependent that the error of the state leaves a force open by more than the root of the
-  /// tolerance.
+  /// lambda, and the generalized force A^T lambda of a constraint on the coordinates. Where constraints are
+  /// redundant they are the smallest that give the motion. Throws UndeterminedForce where they are so close
+  /// to dependent that the error of the state changes a force by more than the root of the tolerance.
   template <int Rows>
   [[nodiscard]] Multiplier<Rows> multiplier(Constraint<Rows> constraint, std::size_t i) const {
     const Eigen::Index first = first_row(constraint);

@@ -39,8 +39,8 @@ struct CoordinateState {
 /// lambda.
 ///
 /// Where L_vv is singular along what the constraints leave free, (1) gives no acceleration. A start there is
-/// refused and told along what (InconsistentStart); a Lagrangian without velocities is one such. At such a
-/// place on the way accelerations grow without bound, and the run stops there (IntegrationFailure).
+/// rejected with that direction (InconsistentStart); a Lagrangian without velocities is one such. On the way
+/// to such a place accelerations grow without bound, and the run stops there (IntegrationFailure).
 template <int N>
 class LagrangianSystem {
   static_assert(N > 0 && N <= detail::most_coordinates, "a Lagrangian has 1 to 32 coordinates");
@@ -86,13 +86,13 @@ class LagrangianSystem {
   [[nodiscard]] bool constrained() const { return rows_ > 0; }
   [[nodiscard]] bool forced() const { return !forces_.empty(); }
 
-  /// The coordinates that L does not depend on (ignorable ones): their momenta change only by what forces Q
-  /// and constraints add. What L does with a coordinate shows where that is no number; what it does only at
-  /// times far from 0 does not.
+  /// The coordinates that L does not depend on (ignorable ones): their momenta change only by forces Q and
+  /// constraints. L is evaluated with such a coordinate NaN; a dependence only at times far from 0 is not
+  /// found.
   [[nodiscard]] std::vector<int> cyclic() const;
 
   /// Its equations, and the scene of rotors that moves by them from a time on, angles q/scale. For
-  /// `simulate`: its constraints exert nothing (see LagrangeEquations), and what else is added to it acts on
+  /// `simulate`: its constraints exert nothing (see LagrangeEquations), and anything else added to it acts on
   /// rotors of unit inertia.
   [[nodiscard]] LagrangeEquations<N> equations() const;
   [[nodiscard]] Scene<2> rotor_scene(double t_start) const;

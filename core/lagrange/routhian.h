@@ -73,9 +73,8 @@ std::pair<LagrangeTerms<N>, double> Routhian<N>::solve(double t, const Vec<N - 1
     if (!std::isfinite(step)) break;
     rate += step;
   }
-  throw EquationFault("the momentum " + detail::text(momentum_) +
-                      " of the cyclic coordinate is that of no rate at t = " + detail::text(t) +
-                      "; do without the reduction");
+  throw EquationFault("no rate of the cyclic coordinate has the momentum " + detail::text(momentum_) +
+                      " at t = " + detail::text(t) + "; do without the reduction");
 }
 
 template <int N>

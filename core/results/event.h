@@ -13,7 +13,7 @@ template <int D>
 class Scene;
 class System;
 
-/// Which way a function goes through 0.
+/// The direction in which a function crosses 0.
 enum class Crossing { either, rising, falling };
 
 /// Something that happens where a function of the state is 0: a normal force vanishes, a string is straight,
@@ -31,8 +31,8 @@ struct Event {
   bool ends = false;  ///< the run ends there, with a last sample at that time
   /// Changes the scene there; empty if it does not. The scene has the state of that instant as its initial
   /// one: `replace` states parameters anew, and with particles masses and velocities; `release` and `impose`
-  /// take constraints out of force and back. The run goes on with that, from velocities put onto the
-  /// constraints; what that takes is an impulse of theirs. A constraint comes into force only where it holds.
+  /// take constraints out of force and back. The run goes on with that, from velocities projected onto the
+  /// constraints by their impulses. A constraint comes into force only where it is satisfied.
   std::function<void(Scene<D>& scene)> change{};
 };
 
@@ -50,8 +50,8 @@ struct FlatEvent {
   std::function<Changed(const FlatSample&)> change{};
 };
 
-/// What a run lists: an event that was asked for; that a one-sided constraint opened, was struck, or came to
-/// rest after impacts without number; that one of Coulomb's law sticks from there on, or slides.
+/// What a run lists: an event that was asked for; that a one-sided constraint opened, had an impact, or came
+/// to rest after infinitely many; that one of Coulomb's law sticks from there on, or slides.
 enum class Happened { event, opened, struck, rested, sticks, slides };
 
 /// That something happened in a run, and when.

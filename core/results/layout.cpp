@@ -17,7 +17,7 @@ void Layout::refuse(std::uint64_t other) const {
   throw InvalidArgument("This handle is not one of scene \"" + scene + "\": " +
                         (other == id && id != 0 ? "it was added after the run was made"
                                                 : "it belongs to another scene or to none") +
-                        "; use the handles that this scene returned, or before it was copied its original");
+                        "; use the handles that this scene returned, or its original before the copy");
 }
 
 }  // namespace dalembert

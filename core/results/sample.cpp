@@ -73,8 +73,8 @@ template <int D>
 void Sample<D>::refuse(const Layout::Constraint& constraint) const {
   throw UndeterminedForce(
       "The force of " + constraint.label() + " is not determined" + at_time(flat_.time) +
-      ": an error of the state as small as round-off changes it, for the constraints are so "
-      "close to dependent there, or it yields so little that positions do not tell how far; "
+      ": the constraints are so close to linearly dependent there that round-off in the state "
+      "changes it, or it is so stiff that positions do not tell its deflection; "
       "read it at another time, a stiff spring with Stepper::ida, or ask is_determined before");
 }
 

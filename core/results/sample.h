@@ -98,9 +98,9 @@ class Sample {
     return determined(info(constraint));
   }
 
-  /// Whether the motion determines this constraint's multipliers. Where constraints repeat each
-  /// other it may not: then the forces of those that were stated are the least squares of all that
-  /// give the motion, and only their sum has a physical meaning.
+  /// Whether the motion determines this constraint's multipliers. Where constraints are redundant it may not:
+  /// then the forces of those that were stated are the least-squares ones of all that give the motion, and
+  /// only their sum has a physical meaning.
   template <int Rows>
   [[nodiscard]] bool is_unique(Constraint<Rows> constraint) const {
     for (int component = 0; component < Rows; ++component) {
@@ -164,15 +164,15 @@ class Sample {
     return force_on_ground(info(constraint));
   }
   /// Its moment about a point of space [force length]. Throws InvalidArgument if the constraint turns a
-  /// rotor: how the axis of that one lies in space no scene knows.
+  /// rotor: a scene does not know where the axis of a rotor is in space.
   template <int Rows>
   [[nodiscard]] MomentOf<D> ground_moment(Constraint<Rows> constraint, const Vec<D>& about) const {
     return moment_on_ground(info(constraint), about);
   }
 
   /// What an applied force (gravity, a spring, a drag, friction) exerts on a particle, or on a body: the
-  /// resultant; zero if it does not act on it [force]. Its equation is evaluated here, not in the run: what a
-  /// law needs it captures by value, or it would be another one now. Throws EquationFault if it goes wrong.
+  /// resultant; zero if it does not act on it [force]. Its equation is evaluated here, not in the run: a law
+  /// must capture by value what it needs. Throws EquationFault if that fails.
   [[nodiscard]] Vec<D> force(Force force, Particle<D> particle) const;
   template <MadeOfParticles<D> Body>
   [[nodiscard]] Vec<D> force(Force applied, const Body& body) const {

@@ -9,18 +9,18 @@ struct Statistics {
   int degrees_of_freedom = 0;   ///< of velocity: coordinates less independent rigid constraint equations
   int redundant_equations = 0;  ///< constraint equations that follow from others, and were left out
   int singular_positions = 0;   ///< isolated ones, at which the run was taken across and restarted
-  /// What the steps were held to: the tolerance, or more where double precision does not give that: by the
-  /// mean over time of round-off in the velocities, and by the passages of singular positions.
+  /// The accuracy of the steps: the tolerance, or more where double precision does not give that: by the mean
+  /// over time of round-off in the velocities, and by the passages of singular positions.
   double accuracy = 0.0;
   long steps = 0;                 ///< accepted steps
   long evaluations = 0;           ///< of the equations of motion
   long factorisations = 0;        ///< of a KKT matrix
   long error_test_failures = 0;   ///< steps repeated because their error was too large
   long convergence_failures = 0;  ///< steps repeated because Newton's iteration did not converge
-  /// Steps of the explicit stepper held down by stability, not accuracy (counted by samples). If
-  /// these are most of the steps, Stepper::ida may be faster: where nothing fast needs to be followed.
+  /// Steps of the explicit stepper limited by stability, not accuracy (counted by samples). If these are most
+  /// of the steps, Stepper::ida may be faster: where nothing fast needs to be followed.
   long stability_limited = 0;
-  std::string advice;              ///< what held up the run, if that is known, and what to do about it
+  std::string advice;              ///< what slowed the run, if that is known, and what to do about it
   std::string linear_algebra;      ///< what factors the matrices: LDL the Schur complement, KLU the whole
   double length = 0.0;             ///< the scene's, to which tolerances were relative [length]
   double time = 0.0;               ///< the scene's, in which it moves by that length [time]

@@ -117,7 +117,7 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   [[nodiscard]] std::size_t size() const { return record_->times.size(); }
   [[nodiscard]] std::span<const double> times() const& { return record_->times; }
   [[nodiscard]] Sample<D> sample(std::size_t i) const&;
-  /// The same run at other times, in any order, from its start to the end of its last step: no less exact
+  /// The same run at other times, in any order, from its start to the end of its last step: no less accurate
   /// than at its samples. Needs the option `dense`. (Many times at once cost less than one after the other.)
   ///
   ///   const auto run = simulate(scene, {.t_end = 10.0, .dense = true});
@@ -133,10 +133,10 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   /// InvalidArgument if there are not so many.
   [[nodiscard]] std::span<const Occurrence> events() const& { return record_->events; }
   [[nodiscard]] Sample<D> event_sample(std::size_t k) const&;
-  /// The state that the run goes on with: with other velocities where a contact was struck.
+  /// The state that the run goes on with: with other velocities after an impact.
   [[nodiscard]] Sample<D> sample_after(std::size_t k) const&;
   /// The impulse of a constraint at the k-th such instant, like a multiplier [force time]: it is not 0 for
-  /// what was struck, and what holds against that.
+  /// contacts in impact, and for constraints that react to that.
   template <int Rows>
   [[nodiscard]] Multiplier<Rows> impulse(Constraint<Rows> constraint, std::size_t k) const {
     const std::size_t first = of(constraint) - 3 * record_->coordinates;

@@ -35,7 +35,7 @@ struct RotorState {
   double angular_velocity = 0.0;  ///< [rad / time]
 };
 
-/// What the user says: particles, forces, and constraints, each as its equation. D is 2 or 3.
+/// What the user states: particles, forces, and constraints, each as its equation. D is 2 or 3.
 ///
 /// Everything is checked as it is added; the initial state against the constraints when a run
 /// starts. Names are optional, must differ, and appear in errors and output.
@@ -115,9 +115,9 @@ class Scene {
   void replace(Particle<D> particle, const ParticleState<D>& state);
   void replace(Rotor rotor, const RotorState& state);
 
-  /// Takes a constraint out of force, and puts it back: while it is released it exerts none, and its equation
-  /// need not hold. Throws InvalidArgument for a handle of another scene, and for what holds at times by
-  /// itself (`unilateral`, `coulomb`).
+  /// Takes a constraint out of force, and puts it back: while released it exerts no force, and its equation
+  /// need not be satisfied. Throws InvalidArgument for a handle of another scene, and for constraints that
+  /// hold only at times (`unilateral`, `coulomb`).
   template <int Rows>
   void release(Constraint<Rows> constraint) {
     layout_.require(constraint);
@@ -129,7 +129,7 @@ class Scene {
     set_released(constraint.index, false);
   }
 
-  /// Takes the state of a sample for the initial one. Throws as `require_state`.
+  /// Takes the state of a sample as the initial one. Throws as `require_state`.
   void start_from(const Sample<D>& sample);
 
   /// Handles by name. Throws InvalidArgument if nothing of the kind has it.
@@ -143,7 +143,7 @@ class Scene {
     return {index, layout_.constraints[static_cast<std::size_t>(index)].scene};
   }
 
-  /// Everything else is a mistake, which the compiler tells.
+  /// Everything else is a mistake, which the compiler reports.
   template <class E>
   void add(E /*element*/, const std::string& /*name*/ = {}) {
     static_assert(HasPoints<E>, "a scene adds constraints, forces and its own UniformGravity<D>");

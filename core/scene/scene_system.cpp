@@ -17,7 +17,7 @@ void Scene<D>::require_state(const Sample<D>& sample) const {
     return;
   throw InvalidArgument(
       "Scene \"" + layout_.scene + "\" cannot start from a sample of scene \"" + its.scene +
-      "\": its particles and rotors are others; take a sample of a run of this scene or of a copy");
+      "\": its particles and rotors differ; take a sample of a run of this scene or of a copy");
 }
 
 template <int D>
@@ -31,7 +31,7 @@ template <int D>
 void Scene<D>::set_released(int constraint, bool released) {
   Layout::Constraint& its = layout_.constraints[static_cast<std::size_t>(constraint)];
   if (its.holds.contact || its.holds.roughness)
-    throw InvalidArgument(its.label() + " holds at times by itself: it cannot be released or imposed");
+    throw InvalidArgument(its.label() + " holds only at times: it cannot be released or imposed");
   its.holds.released = released;
 }
 
@@ -49,7 +49,7 @@ System Scene<D>::system() const {
     }
   }
   for (const auto& p : layout_.particles) box.extend(Eigen::Map<const Vec<D>>(q_.data() + p.coordinate));
-  // A path that has no value at the start is refused there, by the constraint that needs it.
+  // A path that has no value at the start is rejected there, by the constraint that needs it.
   const auto extent = [box, paths = std::move(paths)](double t) {
     auto with_paths = box;
     for (const auto& path : paths) {

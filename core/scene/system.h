@@ -38,7 +38,7 @@ struct SystemParts {
 /// Rows of holonomic constraints come first, with psi = dg/dt; rows of nonholonomic ones follow,
 /// with psi = a(t,q,v). At acceleration level W v' + gamma = 0 with gamma = psi_q v + psi_t.
 /// The force of constraint on coordinate i is Z_i = (W^T lambda)_i. A compliant holonomic constraint
-/// obeys g + C lambda = 0 in place of g = 0: a spring whose force is its multiplier. Forces that read
+/// satisfies g + C lambda = 0 in place of g = 0: a spring whose force is its multiplier. Forces that read
 /// multipliers, F_f(t,q,v,lambda), join F in (1); what is called friction here is any of them.
 class System {
  public:
@@ -109,12 +109,12 @@ class System {
   /// Places of the entries of Linearisation; places may repeat, their entries add.
   [[nodiscard]] std::span<const Entry> stiffness_pattern() const { return stiffness_pattern_; }
   [[nodiscard]] std::span<const Entry> damping_pattern() const { return damping_pattern_; }
-  /// The first entries of the stiffness are those of constraints; so many.
+  /// The number of entries of the stiffness that are those of constraints; they come first.
   [[nodiscard]] std::size_t stiffness_of_constraints() const { return stiffness_of_constraints_; }
   /// Places of dF_f/dlambda: a coordinate and a row. Empty if no force reads a multiplier.
   [[nodiscard]] std::span<const Entry> friction_pattern() const { return friction_pattern_; }
   [[nodiscard]] bool frictional() const { return !friction_pattern_.empty(); }
-  /// So many of them are those of forces that the scene states; the rest is of what slides.
+  /// The number of them that are of forces that the scene states; the rest is of what slides.
   [[nodiscard]] std::size_t stated_friction_entries() const { return stated_friction_entries_; }
 
   /// One-sided constraints, those of Coulomb's law, and both, by their numbers in the layout.
@@ -129,10 +129,10 @@ class System {
   /// other rows. Throws like `evaluate`.
   void gaps(const Instant& at, std::span<double> g, std::span<double> psi) const;
   /// The same system without some constraints, by their numbers in the layout: they exert no force, and their
-  /// rows say 0 = 0.
+  /// rows read 0 = 0.
   [[nodiscard]] System without(std::span<const std::size_t> constraints) const;
   /// The same system with constraints of Coulomb's law, by their numbers in the layout, that slide: their
-  /// rows say 0 = 0, and they exert what SlidingFriction says, by its `Sliding` of the same names.
+  /// rows read 0 = 0, and they exert the force of SlidingFriction, by its `Sliding` of the same names.
   struct Slide {
     std::size_t constraint;
     double strength;
@@ -158,9 +158,9 @@ class System {
   void bias(const Instant& at, std::span<double> gamma) const;
   /// Derivatives for the multipliers lambda (m numbers). Throws like `evaluate`.
   void linearise(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
-  /// What of it the constraints say: the first `stiffness_of_constraints` entries, and psi_q.
+  /// The part of it from the constraints: the first `stiffness_of_constraints` entries, and psi_q.
   void linearise_constraints(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
-  /// And what the forces say: all the rest.
+  /// And the part from the forces: all the rest.
   void linearise_forces(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
 
   /// Adds F_f for the multipliers lambda to F. Throws like `evaluate`.
@@ -197,7 +197,7 @@ class System {
   [[nodiscard]] std::string label_of_batch(std::size_t batch) const;
   /// The label of the constraint that row r belongs to.
   [[nodiscard]] std::string row_label(std::size_t row) const;
-  /// What a constraint of this row says when it is singular; may be empty.
+  /// The hint of the constraint of this row when it is singular; may be empty.
   [[nodiscard]] std::string_view singular_hint(std::size_t row) const;
 
   /// What the scene consists of, its degrees of freedom, and what was left out because nothing in

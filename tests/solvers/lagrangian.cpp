@@ -351,7 +351,7 @@ TEST(LagrangianSystems, SayWhereAndAlongWhatNoAccelerationFollows) {
   const LagrangianSystem<1> still({.position = Vec<1>(1.0)},
                                   [](const auto& q, const auto& /*v*/) { return q[0] * q[0]; });
   EXPECT_THAT([&] { (void)simulate(still, {.t_end = 1.0}); },
-              ThrowsMessage<InconsistentStart>(HasSubstr("has inertia")));
+              ThrowsMessage<InconsistentStart>(HasSubstr("has no inertia")));
   const LagrangianSystem<1> undefined(
       {.position = Vec<1>(-1.0)}, [](const auto& q, const auto& v) { return 0.5 * v[0] * v[0] - log(q[0]); });
   EXPECT_THAT([&] { (void)simulate(undefined, {.t_end = 1.0}); },

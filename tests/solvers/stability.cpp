@@ -135,7 +135,7 @@ TEST(Stability, OfManyIsRefusedForForcesWithoutAPotential) {
       EXPECT_EQ(modes_of(scene, {.lowest = 3}).stability(), Stability::unstable);
     } else {
       EXPECT_THAT([&] { (void)modes_of(scene, {.lowest = 3}); },
-                  ThrowsMessage<InvalidScene>(HasSubstr("potential only")));
+                  ThrowsMessage<InvalidScene>(HasSubstr("all forces have a potential")));
     }
   }
 }
