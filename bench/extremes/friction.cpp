@@ -7,7 +7,7 @@ namespace dalembert::extremes {
 namespace {
 
 /// At the edge of the cone. A run errs by some tens of its tolerance (models/event_times.h).
-constexpr double tolerance = 1e-8, met = 100.0 * tolerance, g = 9.81;
+constexpr double tolerance = 1e-8, error_bound = 100.0 * tolerance, g = 9.81;
 /// A bound is told to so much of the forces on either side (DryFriction).
 constexpr double told = 1e4 * epsilon;
 
@@ -57,7 +57,7 @@ Case tangent() {
           .limit =
               [](const Run& run) {
                 const double e = run.parameter, least = told / held;
-                if (e <= least) return met;
+                if (e <= least) return error_bound;
                 return std::sqrt(e) - std::sqrt(e - least) + 10.0 * least;  // and of the root itself
               }};
 }
@@ -91,7 +91,7 @@ Case slope() {
                 }
                 return Result{.error = error, .statistics = run.statistics()};
               },
-          .limit = [](const Run&) { return met; }};
+          .limit = [](const Run&) { return error_bound; }};
 }
 
 /// A pull that grows at the rate r, from below: it goes at mu_static N/r, however slow; what F is told to is

@@ -95,7 +95,7 @@ Case assembled() {
           .limit = [](const Run&) { return few_roundings; }};
 }
 
-/// Two rods hold one bob, the second longer by d: they agree but for rounding, or cannot be met together.
+/// Two rods hold one bob, the second longer by d: they agree but for rounding, or contradict each other.
 Case redundant(const char* name, bool assemble) {
   return {
       .name = name,

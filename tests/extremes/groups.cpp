@@ -28,7 +28,7 @@ TEST(Extremes, LongRunsAndLargeScenesAreRight) { expect_right(length()); }
 TEST(Extremes, FreeParticlesHaveTheLengthOfTheirPath) { expect_right(paths()); }
 TEST(Extremes, UnitsAndTheOriginOfTimeAreOfNoAccount) { expect_right(units()); }
 TEST(Extremes, StartsAreAssembledOrRefusedByName) { expect_right(starts()); }
-TEST(Extremes, WhatRepeatsItselfIsAsGoodAsWhatDoesNot) { expect_right(redundancy()); }
+TEST(Extremes, RedundantConstraintsAreAsAccurateAsIndependentOnes) { expect_right(redundancy()); }
 TEST(Extremes, AtRoundOffAndAtSingularPositionsForcesAreRightOrNotRead) { expect_right(at_round_off()); }
 TEST(Extremes, KinksJumpsAndSticking) { expect_right(discontinuities()); }
 TEST(Extremes, FrictionHoldsUpToTheEdgeOfItsCone) { expect_right(sticking()); }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double tolerance = 1e-8;
 /// A run errs by some tens of its tolerance.
-constexpr double met = 100.0 * tolerance;
+constexpr double bound = 100.0 * tolerance;
 
 class ChainOnRoughTable : public testing::TestWithParam<Stepper> {};
 INSTANTIATE_TEST_SUITE_P(Steppers, ChainOnRoughTable, both_steppers, stepper_name);
@@ -38,13 +38,13 @@ TEST_P(ChainOnRoughTable, DoesNotStartWhereCoulombsFrictionHoldsIt) {
     for (std::size_t k = 0; k < rough.size(); ++k) {
       const double friction = result.multiplier(rough[k], 2);
       const double pressing = result.multiplier(chain.guides[chain.guides.size() - rough.size() + k], 2);
-      EXPECT_LE(std::abs(friction), mu * std::abs(pressing) + met * system.mass * system.gravity) << mu;
+      EXPECT_LE(std::abs(friction), mu * std::abs(pressing) + bound * system.mass * system.gravity) << mu;
       pulled -= friction;
       if (!result.is_unique(rough[k], 2)) ++shared;
     }
     EXPECT_GT(shared, 1U) << mu;
     for (const auto& bead : chain.beads) {
-      EXPECT_LE((result.position(bead, 2) - result.position(bead, 0)).norm(), met * system.length) << mu;
+      EXPECT_LE((result.position(bead, 2) - result.position(bead, 0)).norm(), bound * system.length) << mu;
     }
     const double weight = system.mass * system.gravity;
     EXPECT_NEAR(pulled, weight * system.hanging / system.length,

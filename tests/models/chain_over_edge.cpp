@@ -19,7 +19,7 @@ using testing::ThrowsMessage;
 
 constexpr double tolerance = 1e-8;
 /// A run errs by some tens of its tolerance, and so do its times.
-constexpr double met = 100.0 * tolerance;
+constexpr double bound = 100.0 * tolerance;
 
 Trajectory<2> run(const ChainOverEdge& system, const GuidedChain& chain, const Options& options,
                   std::vector<Event<2>> others = {}) {
@@ -74,7 +74,7 @@ TEST_P(ChainsOfManyLinks, LeavesAtTheTimeOfTheContinuumWithOrderFiveQuartersOfTh
     const ChainOverEdge system{.links = links};
     const double error = late(system, GetParam()), derived = system.time_of_links() / system.time() - 1.0;
     // Of the next order: the chords' is (link/radius)^2 of it, at most a hundredth, and R over A.
-    EXPECT_NEAR(error, derived, (0.01 + 4.0 / links) * derived + met) << links;
+    EXPECT_NEAR(error, derived, (0.01 + 4.0 / links) * derived + bound) << links;
     if (links >= 100) {
       EXPECT_NEAR(std::log2(before / error), 1.25, 0.06) << links;
     }
@@ -149,7 +149,7 @@ TEST_P(ChainOverEdgeBy, LeavesWhenTheEnergyOfItsLinksSays) {
     const AtDepth now = at_depth(system, system.hanging + q * q);
     time += q * step * std::sqrt(now.inertia / (2.0 * system.gravity * (now.fallen - start)));
   }
-  EXPECT_NEAR((late(system, GetParam()) + 1.0) * system.time(), time, met * time);
+  EXPECT_NEAR((late(system, GetParam()) + 1.0) * system.time(), time, bound * time);
 }
 
 /// The tension at the edge: that on the wall, which is linear in the depth, continued to s = 0. (In the bend
@@ -225,10 +225,10 @@ TEST_P(ChainOverEdgeBy, KeepsItsEnergyOrLosesTheWorkOfFriction) {
             result.sample(i).force(chain.friction[k], chain.beads[k]).dot(result.velocity(chain.beads[k], i));
     }
     const double gained = result.sample(result.size() - 1).energy() - result.sample(0).energy();
-    EXPECT_NEAR(gained, work, mu == 0.0 ? met * turned_over : 1e-4 * turned_over) << mu;
+    EXPECT_NEAR(gained, work, mu == 0.0 ? bound * turned_over : 1e-4 * turned_over) << mu;
     // The bend takes 0.08 mu tau/N^(5/4) over a way of A/2, tau being a third of the weight at most.
     EXPECT_NEAR(-gained, system.energy_lost(),
-                met * turned_over + 0.02 * mu * turned_over * std::pow(system.links, -1.25));
+                bound * turned_over + 0.02 * mu * turned_over * std::pow(system.links, -1.25));
   }
 }
 

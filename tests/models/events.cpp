@@ -18,7 +18,7 @@ namespace {
 
 constexpr double tolerance = 1e-10;
 /// Of positions, velocities and impulses relative to the system's own, as of times (event_times.h).
-constexpr double met = 100.0 * tolerance;
+constexpr double bound = 100.0 * tolerance;
 /// What solving for an impulse, with a few constraints, leaves of round-off: some tens of operations.
 constexpr double solved = 100.0 * std::numeric_limits<double>::epsilon();
 
@@ -57,15 +57,15 @@ TEST_P(ModelsWithEvents, LeaveTheSphereForAParabola) {
   const double lands = model.leaving_time() + model.falling_time();
   const auto run = simulate(built.scene, options(1.2 * lands));
   ASSERT_EQ(run.events().size(), 2U);
-  EXPECT_NEAR(run.event_sample(0).position(built.particle).y(), std::cos(model.leaving_angle()), met);
+  EXPECT_NEAR(run.event_sample(0).position(built.particle).y(), std::cos(model.leaving_angle()), bound);
   const Vec<2> v = model.landing_velocity();
-  EXPECT_LE((run.event_sample(1).position(built.particle) - model.landing_place()).norm(), met * v.norm());
-  EXPECT_LE((run.event_sample(1).velocity(built.particle) - v).norm(), met * v.norm());
-  EXPECT_NEAR(run.impulse(built.floor, 1), -model.mass * v.y(), met * v.norm());
+  EXPECT_LE((run.event_sample(1).position(built.particle) - model.landing_place()).norm(), bound * v.norm());
+  EXPECT_LE((run.event_sample(1).velocity(built.particle) - v).norm(), bound * v.norm());
+  EXPECT_NEAR(run.impulse(built.floor, 1), -model.mass * v.y(), bound * v.norm());
   EXPECT_EQ(run.impulse(built.sphere, 1), 0.0);
   // It goes on along the floor, which carries it.
-  EXPECT_NEAR(run.velocity(built.particle, 1).x(), v.x(), met * v.norm());
-  EXPECT_NEAR(run.multiplier(built.floor, 1), model.mass * model.gravity, met * model.gravity);
+  EXPECT_NEAR(run.velocity(built.particle, 1).x(), v.x(), bound * v.norm());
+  EXPECT_NEAR(run.multiplier(built.floor, 1), model.mass * model.gravity, bound * model.gravity);
   EXPECT_EQ(run.multiplier(built.sphere, 1), 0.0);
   EXPECT_TRUE(run.is_unique(built.sphere, 1));
 }
@@ -75,10 +75,10 @@ TEST_P(ModelsWithEvents, CatchTheBobOnAStringThatTakesOneComponent) {
   const auto built = model.scene();
   const auto run = simulate(built.scene, options(1.1 * model.catch_time()));
   ASSERT_GE(run.events().size(), 2U);
-  EXPECT_NEAR(run.event_sample(0).position(built.bob).y(), std::sin(model.slack_angle()), met);
+  EXPECT_NEAR(run.event_sample(0).position(built.bob).y(), std::sin(model.slack_angle()), bound);
   const auto before = run.event_sample(1), after = run.sample_after(1);
   const Vec<2> r = model.catch_place(), v = model.catch_velocity();
-  const double scale = met * model.speed, along = v.dot(r) / model.length;
+  const double scale = bound * model.speed, along = v.dot(r) / model.length;
   EXPECT_LE((before.position(built.bob) - r).norm(), scale);
   EXPECT_LE((before.velocity(built.bob) - v).norm(), scale);
   EXPECT_LE((after.velocity(built.bob) - (v - along * r / model.length)).norm(), scale);
@@ -90,7 +90,7 @@ TEST_P(ModelsWithEvents, GiveThePendulumsRodItsPartOfTheImpulse) {
   const BouncingPendulum model;
   const auto built = model.scene();
   const auto run = simulate(built.scene, options(1.1 * model.rest_time()));
-  const double scale = met * model.mass * model.length * model.impact_rate(0);
+  const double scale = bound * model.mass * model.length * model.impact_rate(0);
   for (int k = 0; k < 5; ++k) {
     const std::size_t i = struck(run, built.wall, k);
     const double across = model.mass * model.length * (1.0 + model.restitution) * model.impact_rate(k);
@@ -98,8 +98,8 @@ TEST_P(ModelsWithEvents, GiveThePendulumsRodItsPartOfTheImpulse) {
     EXPECT_NEAR(std::abs(run.impulse(built.rod, i)), across * std::tan(model.wall), scale) << k;
   }
   const double weight = model.mass * model.gravity;
-  EXPECT_NEAR(run.multiplier(built.wall, 1), weight * std::tan(model.wall), met * weight);
-  EXPECT_NEAR(-run.multiplier(built.rod, 1), weight / std::cos(model.wall), met * weight);
+  EXPECT_NEAR(run.multiplier(built.wall, 1), weight * std::tan(model.wall), bound * weight);
+  EXPECT_NEAR(-run.multiplier(built.rod, 1), weight / std::cos(model.wall), bound * weight);
 }
 
 TEST_P(ModelsWithEvents, KeepTheEnergyOfAnElasticPendulum) {
@@ -107,7 +107,7 @@ TEST_P(ModelsWithEvents, KeepTheEnergyOfAnElasticPendulum) {
   const auto built = model.scene();
   const auto run = simulate(built.scene, options(1.1 * model.impact_time(9)));
   const double energy = model.mass * model.gravity * model.length;
-  EXPECT_NEAR(run.energy(1), run.energy(0), met * energy);
+  EXPECT_NEAR(run.energy(1), run.energy(0), bound * energy);
 }
 
 TEST_P(ModelsWithEvents, LayTheLadderDownWithImpulsesAtBothEnds) {
@@ -120,11 +120,11 @@ TEST_P(ModelsWithEvents, LayTheLadderDownWithImpulsesAtBothEnds) {
     const double cosine = -along.y() / model.length, sine = along.x() / model.length;
     const bool held = run.times()[i] < model.leaving_time();
     const double wall = 0.75 * m * g * sine * (3.0 * cosine - 2.0 * std::cos(model.angle));
-    EXPECT_NEAR(run.multiplier(built.wall, i), held ? wall : 0.0, met * m * g) << i;
+    EXPECT_NEAR(run.multiplier(built.wall, i), held ? wall : 0.0, bound * m * g) << i;
     EXPECT_GE(run.multiplier(built.floor, i), 0.0) << i;
   }
   const std::size_t down = struck(run, built.lies_down);
-  const double U = model.length * model.rate_after_leaving(lying), scale = met * m * U;
+  const double U = model.length * model.rate_after_leaving(lying), scale = bound * m * U;
   EXPECT_NEAR(run.impulse(built.lies_down, down), m * U / 3.0, scale);
   EXPECT_NEAR(run.impulse(built.floor, down), m * U / 6.0, scale);
   EXPECT_NEAR(run.event_sample(down).velocity(built.ladder.centre()).y(), -U / 2.0, scale);
@@ -169,14 +169,15 @@ TEST_P(ModelsWithEvents, ShareTheCradlesSpeedByMoreausLaw) {
       const auto run = simulate(built.scene, options(1.1 * model.impact_time(0)));
       const double V = model.frequency() * model.amplitude;
       const auto after = run.sample_after(struck(run, built.contacts[0]));
-      EXPECT_NEAR(after.velocity(built.balls[0]).x(), (1.0 - (N - 1) * e) * V / N, met * V) << N << ' ' << e;
+      EXPECT_NEAR(after.velocity(built.balls[0]).x(), (1.0 - (N - 1) * e) * V / N, bound * V)
+          << N << ' ' << e;
       for (std::size_t i = 1; i < built.balls.size(); ++i)
-        EXPECT_NEAR(after.velocity(built.balls[i]).x(), (1.0 + e) * V / N, met * V) << N << ' ' << e;
+        EXPECT_NEAR(after.velocity(built.balls[i]).x(), (1.0 + e) * V / N, bound * V) << N << ' ' << e;
       // The others go on together, pressed against each other.
       const double force = model.mass * model.gravity;
       for (int j = 1; j < N - 1; ++j)
         EXPECT_NEAR(run.multiplier(built.contacts[static_cast<std::size_t>(j)], 1), model.pressing_force(j),
-                    met * force)
+                    bound * force)
             << N << ' ' << e;
     }
   }
@@ -188,11 +189,11 @@ TEST_P(ModelsWithEvents, UndoTheCradlesFirstImpactByTheSecond) {
   const auto run = simulate(built.scene, options(1.1 * model.impact_time(1)));
   const double V = model.frequency() * model.amplitude;
   const auto after = run.sample_after(struck(run, built.contacts[0], 1));
-  EXPECT_NEAR(after.velocity(built.balls[0]).x(), -V, met * V);
+  EXPECT_NEAR(after.velocity(built.balls[0]).x(), -V, bound * V);
   for (std::size_t i = 1; i < built.balls.size(); ++i)
-    EXPECT_NEAR(after.velocity(built.balls[i]).x(), 0.0, met * V);
+    EXPECT_NEAR(after.velocity(built.balls[i]).x(), 0.0, bound * V);
   const double energy = model.mass * V * V / 2.0;
-  EXPECT_NEAR(run.energy(1), run.energy(0), met * energy);
+  EXPECT_NEAR(run.energy(1), run.energy(0), bound * energy);
 }
 
 TEST_P(ModelsWithEvents, HandTheSpeedThroughACradleWithGaps) {
@@ -205,9 +206,9 @@ TEST_P(ModelsWithEvents, HandTheSpeedThroughACradleWithGaps) {
     const auto after = run.sample_after(struck(run, built.contacts[i - 1]));
     const double gaps = std::sqrt(k) * model.gap;
     EXPECT_NEAR(after.velocity(built.balls[i]).x(),
-                model.frequency() * std::sqrt(model.amplitude * model.amplitude - gaps * gaps), met * V)
+                model.frequency() * std::sqrt(model.amplitude * model.amplitude - gaps * gaps), bound * V)
         << k;
-    EXPECT_NEAR(after.velocity(built.balls[i - 1]).x(), 0.0, met * V) << k;
+    EXPECT_NEAR(after.velocity(built.balls[i - 1]).x(), 0.0, bound * V) << k;
   }
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double tolerance = 1e-10;
 /// As of times (event_times.h), of what is relative to the system's own positions, velocities and forces.
-constexpr double met = 100.0 * tolerance;
+constexpr double bound = 100.0 * tolerance;
 
 class ModelsWithFriction : public testing::TestWithParam<Stepper> {
  protected:
@@ -43,12 +43,13 @@ TEST_P(ModelsWithFriction, TheBlockIsWhereTheBeltAndTheSpringTakeIt) {
   ASSERT_EQ(run.events().size(), 6U);
   for (std::size_t i = 1; i < 6; ++i) {
     const double place = run.events()[i].what == Happened::slides ? X + d : X - d;
-    EXPECT_NEAR(run.event_sample(i).position(built.block).x(), place, met * X) << i;
-    EXPECT_NEAR(run.event_sample(i).velocity(built.block).x(), model.belt, met * model.frequency() * X) << i;
+    EXPECT_NEAR(run.event_sample(i).position(built.block).x(), place, bound * X) << i;
+    EXPECT_NEAR(run.event_sample(i).velocity(built.block).x(), model.belt, bound * model.frequency() * X)
+        << i;
   }
   const auto goes = run.event_sample(5), gone = run.sample_after(5);
-  EXPECT_NEAR(goes.multiplier(built.rough), model.sticking * weight, met * weight);
-  EXPECT_NEAR(gone.multiplier(built.rough), model.friction * weight, met * weight);
+  EXPECT_NEAR(goes.multiplier(built.rough), model.sticking * weight, bound * weight);
+  EXPECT_NEAR(gone.multiplier(built.rough), model.friction * weight, bound * weight);
 }
 
 TEST_P(ModelsWithFriction, TheConeIsNeverExceeded) {
@@ -60,7 +61,7 @@ TEST_P(ModelsWithFriction, TheConeIsNeverExceeded) {
         if (its.time > run.times()[i]) break;
         sticks = its.what == Happened::sticks;
       }
-      EXPECT_LE(friction, (sticks ? mu_static : mu) * most * (1.0 + met)) << run.times()[i];
+      EXPECT_LE(friction, (sticks ? mu_static : mu) * most * (1.0 + bound)) << run.times()[i];
     }
   };
   const BlockOnBelt belt;
@@ -100,9 +101,9 @@ TEST_P(ModelsWithFriction, TheBeltGivesWhatBecomesHeat) {
     on_block += force * run.velocity(built.block, i).x();
   }
   const double heat = model.heat_of_period();
-  EXPECT_NEAR(by_belt, heat, met * heat);
-  EXPECT_NEAR(on_block, 0.0, met * heat);
-  EXPECT_NEAR(run.event_sample(1).energy(), run.event_sample(3).energy(), met * heat);
+  EXPECT_NEAR(by_belt, heat, bound * heat);
+  EXPECT_NEAR(on_block, 0.0, bound * heat);
+  EXPECT_NEAR(run.event_sample(1).energy(), run.event_sample(3).energy(), bound * heat);
 }
 
 TEST_P(ModelsWithFriction, TheBeadTurnsAndRestsWhereTheClosedFormSays) {
@@ -115,14 +116,14 @@ TEST_P(ModelsWithFriction, TheBeadTurnsAndRestsWhereTheClosedFormSays) {
     ASSERT_EQ(run.events().size(), turns.size());
     for (std::size_t k = 0; k < turns.size(); ++k) {
       const Vec<2> r = run.event_sample(k).position(built.bead);
-      EXPECT_NEAR(std::atan2(r.x(), -r.y()), turns[k].angle, met) << k;
+      EXPECT_NEAR(std::atan2(r.x(), -r.y()), turns[k].angle, bound) << k;
     }
     const double rests = turns.back().angle;
     const Vec<2> r = run.position(built.bead, 1);
     EXPECT_LE(std::abs(std::tan(rests)), model.sticking);
-    EXPECT_NEAR(std::atan2(r.x(), -r.y()), rests, met);
+    EXPECT_NEAR(std::atan2(r.x(), -r.y()), rests, bound);
     EXPECT_NEAR(std::abs(run.multiplier(built.rough, 1)),
-                model.mass * model.gravity * std::abs(std::sin(rests)), met * model.mass * model.gravity);
+                model.mass * model.gravity * std::abs(std::sin(rests)), bound * model.mass * model.gravity);
   }
 }
 
@@ -137,7 +138,7 @@ TEST_P(ModelsWithFriction, WhatTheBeadAndThePuckLoseIsTheWorkOfFriction) {
            swing.velocity(on_hoop.bead, i).norm();
   });
   const double height = hoop.mass * hoop.gravity * hoop.radius;
-  EXPECT_NEAR(swing.energy(400) - swing.energy(0), rubbed, met * height);
+  EXPECT_NEAR(swing.energy(400) - swing.energy(0), rubbed, bound * height);
 
   const PuckOnRoughTable table;
   const auto on_table = table.scene();
@@ -146,7 +147,7 @@ TEST_P(ModelsWithFriction, WhatTheBeadAndThePuckLoseIsTheWorkOfFriction) {
     return slide.constraint_force(on_table.rough, on_table.puck, i).dot(slide.velocity(on_table.puck, i));
   });
   const double energy = 0.5 * table.mass * table.speed * table.speed;
-  EXPECT_NEAR(slide.energy(400) - slide.energy(0), work, met * energy);
+  EXPECT_NEAR(slide.energy(400) - slide.energy(0), work, bound * energy);
 }
 
 TEST_P(ModelsWithFriction, ThePuckTurnsIntoThePull) {
@@ -158,8 +159,8 @@ TEST_P(ModelsWithFriction, ThePuckTurnsIntoThePull) {
     const Vec<3> u = run.velocity(built.puck, i);
     if (u.norm() < 0.01 * model.speed) continue;  // psi errs by the speed's error over it
     const double psi = std::atan2(u.y(), u.x());
-    EXPECT_NEAR(u.norm(), model.speed_along(psi), 100.0 * met * model.speed) << i;
-    EXPECT_NEAR(run.multiplier(built.rough, i).norm(), model.friction * weight, met * weight) << i;
+    EXPECT_NEAR(u.norm(), model.speed_along(psi), 100.0 * bound * model.speed) << i;
+    EXPECT_NEAR(run.multiplier(built.rough, i).norm(), model.friction * weight, bound * weight) << i;
   }
 }
 

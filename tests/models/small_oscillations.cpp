@@ -67,7 +67,7 @@ double period(const Scene<D>& scene, double expected,
 }
 
 /// The period of the one vibration about the equilibrium near a scene's start. The closed form of its
-/// frequency is met to the rounding of terms of size 1 to 100 over a few rows.
+/// frequency agrees to the rounding of terms of size 1 to 100 over a few rows.
 template <int D>
 double mode_period(const Scene<D>& scene, double closed_form, const Turning<D>& turning = {}) {
   const auto modes = normal_modes(scene, equilibrium(scene, {.turning = turning}));

@@ -20,8 +20,8 @@ TEST_P(ContactsAtRoundOff, OnBothSidesPushOnTheSideThatIsPressed) {
   const auto ceiling = scene.add(unilateral(holonomic(points(ball), [](auto r) { return -r.y(); })));
   const auto run = simulate(scene, options(1.0));
   for (std::size_t i = 0; i < run.size(); ++i) {
-    EXPECT_NEAR(run.multiplier(floor, i), g, met);
-    EXPECT_NEAR(run.multiplier(ceiling, i), 0.0, met);
+    EXPECT_NEAR(run.multiplier(floor, i), g, bound);
+    EXPECT_NEAR(run.multiplier(ceiling, i), 0.0, bound);
   }
 }
 
@@ -42,11 +42,11 @@ TEST_P(ContactsAtRoundOff, OpenWhereTheirForceVanishesAmongImpacts) {
     for (const Occurrence& it : run.events()) {
       if (it.what != Happened::opened) continue;
       ++opened;
-      EXPECT_NEAR(it.time, 1.0, met) << height;
+      EXPECT_NEAR(it.time, 1.0, bound) << height;
     }
     EXPECT_EQ(opened, 1U) << height;
     EXPECT_EQ(run.multiplier(floor, 10), 0.0);
-    EXPECT_NEAR(run.position(block, 10).y(), 1.0 / 6.0, met);
+    EXPECT_NEAR(run.position(block, 10).y(), 1.0 / 6.0, bound);
   }
 }
 
@@ -66,10 +66,10 @@ TEST_P(ContactsAtRoundOff, OfASlotWithoutPlayStopWhatIsThrownAcross) {
   for (std::size_t i = 0; i < run.size(); ++i) {
     const double t = run.times()[i];
     // What is left of the speed across is known no better than the velocities at the start, to 1e-8.
-    EXPECT_NEAR((run.position(ball, i) - Vec<2>(0.6, -0.5)).dot(n), 0.0, met) << t;
-    EXPECT_NEAR(run.velocity(ball, i).dot(along), 2.8 - 1.8 * t, met * 4.0) << t;
+    EXPECT_NEAR((run.position(ball, i) - Vec<2>(0.6, -0.5)).dot(n), 0.0, bound) << t;
+    EXPECT_NEAR(run.velocity(ball, i).dot(along), 2.8 - 1.8 * t, bound * 4.0) << t;
     if (i == 0) continue;  // its forces are those of the first impact
-    EXPECT_NEAR(run.multiplier(right, i), 2.4, met) << t;
+    EXPECT_NEAR(run.multiplier(right, i), 2.4, bound) << t;
     EXPECT_EQ(run.multiplier(left, i), 0.0) << t;
   }
 }

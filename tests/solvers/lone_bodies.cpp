@@ -21,7 +21,7 @@ TEST_P(LoneBodies, BounceInTheScaleOfTheirHeight) {
   scene.add(unilateral(OnCurve{ball, Plane<2>{}}, {.restitution = 1.0}));
   const double fall = std::sqrt(2.0 / g);
   const auto run = simulate(scene, options(2.0 * impacts * fall));
-  EXPECT_LE(run.statistics().length, 1.0 + met);
+  EXPECT_LE(run.statistics().length, 1.0 + bound);
   ASSERT_EQ(run.events().size(), std::size_t{impacts});
   // A flight errs by the tolerance in height and in speed: in energy, of g 1 m, by 3 of them at most.
   for (std::size_t i = 0; i < run.size(); ++i)
@@ -58,7 +58,8 @@ TEST_P(LoneBodies, StickWhereTheyStartFarFromTheOrigin) {
       EXPECT_TRUE(run.events().empty());
       // Round-off of the plane's equation, some of |r|.
       EXPECT_LE((run.position(block, 10) - r).norm(), 1e-14 * std::abs(at)) << slope << ' ' << at;
-      EXPECT_NEAR(std::abs(run.multiplier(rough, 10)), g * std::abs(slope) / std::hypot(1.0, slope), met * g);
+      EXPECT_NEAR(std::abs(run.multiplier(rough, 10)), g * std::abs(slope) / std::hypot(1.0, slope),
+                  bound * g);
     }
   }
 }
@@ -77,7 +78,7 @@ TEST_P(LoneBodies, MayEndTheirRunWhereTheyTurn) {
       scene.add(potential(points(block), [](auto r) { return 0.5 * r.x() * r.x(); }));
       const auto run = simulate(scene, options(turn * std::numbers::pi * (1.0 + off)));
       const double due = (turn % 2 == 0 ? 1.0 : -1.0) * (1.0 - 2.0 * f * turn);
-      EXPECT_NEAR(run.position(block, 10).x(), due, met) << turn << ' ' << off;
+      EXPECT_NEAR(run.position(block, 10).x(), due, bound) << turn << ' ' << off;
     }
   }
 }
@@ -95,7 +96,7 @@ TEST_P(LoneBodies, SlideOnASphereInItsScales) {
   const auto run = simulate(scene, options(0.6));
   ASSERT_EQ(run.events().size(), 1U);
   // v^2 = g cos where v^2 = v0^2 + 2 g (cos 0.5 - cos).
-  EXPECT_NEAR(run.event_sample(0).position(puck).y(), (0.16 + 2.0 * g * std::cos(angle)) / (3.0 * g), met);
+  EXPECT_NEAR(run.event_sample(0).position(puck).y(), (0.16 + 2.0 * g * std::cos(angle)) / (3.0 * g), bound);
 }
 
 }  // namespace

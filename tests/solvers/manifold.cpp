@@ -51,7 +51,7 @@ class ManifoldTest : public testing::Test {
 /// solution with 9 unknowns of size 100 at most.
 constexpr double round_off = 9.0 * 16.0 * epsilon * 100.0;
 
-TEST_F(ManifoldTest, ProjectionMeetsEveryHolonomicConstraint) {
+TEST_F(ManifoldTest, ProjectionSatisfiesEveryHolonomicConstraint) {
   Manifold manifold(system, rows, system.coordinate_scales(1.0));
   const Violation left = project(manifold);
   // A residual of round-off: a norm of numbers of size 2, in about ten operations.
@@ -72,7 +72,7 @@ TEST_F(ManifoldTest, ProjectionIgnoresNonholonomicRows) {
 }
 
 // v - v0 = M^-1 W^T y and W v + psi(v = 0) = 0: the least change of v weighed by mass.
-TEST_F(ManifoldTest, VelocitiesChangeByTheLeastImpulseThatMeetsTheConstraints) {
+TEST_F(ManifoldTest, VelocitiesChangeByTheLeastImpulseThatSatisfiesTheConstraints) {
   Manifold manifold(system, rows, system.coordinate_scales(1.0));
   (void)project(manifold);
   const Eigen::VectorXd v0 = state.v;

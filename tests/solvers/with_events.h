@@ -10,7 +10,7 @@ namespace dalembert {
 
 inline constexpr double g = 9.81, tolerance = 1e-10;
 /// A run of a few seconds errs by some tens of its tolerance, and so do the times at which it gets anywhere.
-inline constexpr double met = 100.0 * tolerance;
+inline constexpr double bound = 100.0 * tolerance;
 
 class WithEvents : public testing::TestWithParam<Stepper> {
  protected:
