@@ -10,9 +10,9 @@ struct Diagrams {
 };
 
 /// Writes what bench/diagrams.gp draws: hoop.csv and governor.csv, the branches of equilibria over the rate
-/// of turning (columns branch, rate, angle_deg, softest); kapitza.csv, the growth of a pendulum upright on a
-/// shaken pivot in a period over amplitude and gravity; kapitza-boundary.csv, where it is exactly 1. Throws
-/// Error if a file cannot be written.
+/// of rotation (columns branch, rate, angle_deg, softest); kapitza.csv, the growth of a pendulum upright on a
+/// vibrating pivot in a period over amplitude and gravity; kapitza-boundary.csv, where it is exactly 1.
+/// Throws Error if a file cannot be written.
 void diagrams(const Diagrams& options);
 
 }  // namespace dalembert::bench

@@ -16,8 +16,8 @@ namespace dalembert::bench {
 
 namespace {
 
-/// The ten lowest of a chain of so many beads that hangs at rest, against the rope's, which the chain's are
-/// but for a factor: with j the zeros of the Bessel function J_0, n = 4 N + 2 and L the length
+/// The ten lowest modes of a hanging chain of N beads at rest, against the rope's, which the chain's are up
+/// to a factor: with j the zeros of the Bessel function J_0, n = 4 N + 2 and L the length
 ///
 ///   omega^2 = (g/L) N x,   x = (j^2/n)(1 + (j^2 - 2)/(3 n^2) + ...)        (Tricomi; Szego, 6.31)
 ///   omega = (j/2) sqrt(g/L) / sqrt(1 + 1/(2 N)) (1 + (j^2 - 2)/(6 n^2) + ...).

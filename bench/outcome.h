@@ -19,7 +19,7 @@ struct Outcome {
 /// The outcome that an error is.
 [[nodiscard]] Outcome refused_by(const Error& error);
 
-/// What `run` came to. On the terminal, `what` was run is told with a refusal's reason.
+/// What `run` came to. `what` was run is shown on the terminal with the reason of a refusal.
 [[nodiscard]] Outcome outcome_of(const std::string& what, const std::function<void()>& run);
 
 /// Tells a reader at the terminal why `what` was refused.

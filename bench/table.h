@@ -17,7 +17,7 @@ struct Table {
   void write_csv(std::ostream& out) const;
 };
 
-/// A number in scientific notation with so many significant digits; "nan" if there is none.
+/// A number in scientific notation with this many significant digits; "nan" if there is none.
 [[nodiscard]] std::string scientific(double value, int digits = 4);
 /// A number as short as it can be without loss, by itself (10, 0.5) or as a power of ten (1e-03).
 [[nodiscard]] std::string shortest(double value);

@@ -11,7 +11,7 @@ struct BeadOnCurve {
   Constraint<1> curve;  ///< g has unit gradient, so the multiplier is the force of the curve on the bead
 };
 
-/// Which way a derivation counts the force of the curve positive: the way g grows, or against it.
+/// The sign of the force of the curve in a derivation: positive the way g grows, or against it.
 enum class Counted { along_gradient, against_gradient };
 
 /// Observes the position of the bead and the force of the curve on it.

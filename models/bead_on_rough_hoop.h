@@ -15,7 +15,7 @@ namespace dalembert::models {
 ///   dy/dtheta = -2 G sin theta - M (y + G cos theta),   M = 2 mu s,                                  (1)
 ///   y = A cos theta + B sin theta + C e^(-M theta),   A = G (2 - M^2)/(1 + M^2),  B = -3 M G/(1 + M^2).
 ///
-/// From a known y at a the other is, without a difference of large numbers where y is small,
+/// From a known y at a the other follows, without a difference of large numbers where y is small,
 ///
 ///   y - y(a) = 2 sin(e/2) (B cos(a + e/2) - A sin(a + e/2)) + (y(a) - A cos a - B sin a) (e^(-M e) - 1),
 ///   e = theta - a.                                                                                   (2)

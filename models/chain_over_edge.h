@@ -90,8 +90,8 @@ struct ChainOverEdge {
   ///   s = e = -mu L/(1 + mu)                                                                         (6)
   ///
   /// instead of the corner. So are B and the place where the chain leaves: its pull there is that of the
-  /// notes. But (1) has friction turn round while the end crosses L/(1 + mu), which costs mu g (L/(1 +
-  /// mu))^3/(6 A v^3) of time, (R log N)^3.
+  /// notes. But in (1) friction reverses while the end crosses L/(1 + mu), which costs mu g (L/(1 + mu))^3/(6
+  /// A v^3) of time, (R log N)^3.
   [[nodiscard]] double smooth() const;
   [[nodiscard]] double origin() const { return -friction * smooth() / (1.0 + friction); }  ///< e
   /// What friction takes while the rough part that is covered shrinks from A - B - L/(1 + mu) to 0: mu rho g

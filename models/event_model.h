@@ -11,7 +11,7 @@ namespace dalembert::models {
 /// When something happened in a run, and when it must.
 struct Timed {
   std::string event;  ///< "leaves the wall", "impact 3", ...
-  double time;        ///< not a number if the run did not list it
+  double time;        ///< NaN if the run did not list it
   double reference;   ///< by the hand derivation
   double limit;       ///< of the difference, as a part of the reference
 };

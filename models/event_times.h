@@ -10,7 +10,7 @@ namespace dalembert::models {
 /// A run of a few seconds errs by some tens of its tolerance, and so do the times at which it gets anywhere.
 [[nodiscard]] constexpr double time_limit(double tolerance) { return 100.0 * tolerance; }
 
-/// When something happened to a constraint for the k-th time, k from 0; not a number if it did not.
+/// When something happened to a constraint for the k-th time, k from 0; NaN if it did not.
 template <int D, int Rows>
 [[nodiscard]] double time_of(const Trajectory<D>& run, Constraint<Rows> constraint, Happened what,
                              int k = 0) {

@@ -14,7 +14,7 @@ namespace dalembert::models {
 /// What is compared between a run and a hand derivation at one time.
 template <int D>
 struct Observation {
-  std::vector<Vec<D>> positions;  ///< of the points that the derivation speaks of
+  std::vector<Vec<D>> positions;  ///< of the points in the derivation
   std::vector<double> forces;  ///< of constraint, in the derivation's own terms (a tension, a normal force)
 };
 
@@ -26,7 +26,7 @@ template <int D>
 struct Observed {
   Scene<D> scene;
   std::function<Observation<D>(const Sample<D>&)> observe;
-  /// What the motion conserves, as an energy: the energy itself, or if something is turned at a constant rate
+  /// What the motion conserves, as an energy: the energy itself, or if something rotates at a constant rate
   /// Omega about an axis the Jacobi integral, energy - Omega times the angular momentum about it. Empty if
   /// there is no such thing.
   std::function<double(const Sample<D>&)> conserved = [](const Sample<D>& sample) { return sample.energy(); };

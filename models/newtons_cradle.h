@@ -9,28 +9,28 @@ namespace dalembert::models {
 /// N equal balls in a row, each on a thread so long that it is a spring to its own place, m g/l: all swing at
 /// omega^2 = g/l. The first is let go at -A, and the others are in their places.
 ///
-/// In touch: all balls that are in their places are there again after pi/omega, whatever their speeds, and
-/// so all impacts happen there, at (k + 1/2) pi/omega, k from 0. The first balls' contact is struck, and
-/// impulses P >= 0 of the others keep them closed, U+ = 0, as nothing parts them (Moreau's law): the others
-/// go on as one of mass N - 1. At the first impact, with V = omega A,
+/// In contact: all balls that are in their places are there again after pi/omega, whatever their speeds, and
+/// so all impacts happen there, at (k + 1/2) pi/omega, k from 0. The first balls' contact has an impact, and
+/// impulses P >= 0 of the others keep them closed, U+ = 0, as nothing separates them (Moreau's law): the
+/// others go on as one of mass N - 1. At the first impact, with V = omega A,
 ///
 ///   v_1 = (1 - (N - 1) e) V/N,   v_2 = ... = v_N = (1 + e) V/N;                                          (1)
 ///
 /// their difference is -e V from V and momentum is kept. That holds each time, so that with e = 1 the second
 /// impact undoes the first: the first ball takes all, and the motion has the period 2 pi/omega.
 ///
-/// Where balls touch and nothing presses them together their forces are 0, and which of them are closed is a
-/// matter of round-off. So the threads of the balls behind the first are nearer to each other than the balls,
-/// by a part p of a diameter d each, about the same middle. That presses these together, the j-th of the N -
-/// 1 on the next with
+/// Where balls touch and nothing presses them together their forces are 0, and which of them are closed is
+/// decided by round-off. So the threads of the balls behind the first are nearer to each other than the
+/// balls, by a part p of a diameter d each, about the same middle. That presses these together, the j-th of
+/// the N - 1 on the next with
 ///
 ///   F_j = m omega^2 p d j (N - 1 - j)/2,                                                                 (4)
 ///
 /// as long as they move together, and changes nothing else: their middle swings as before.
 ///
-/// With gaps delta they meet one after the other, far as classical as they are elastic: two equal balls
-/// exchange their velocities. The first meets the second at delta, where it stops, and that goes off at V_1;
-/// it meets the third at delta, and so on, V_k being the speed that the k-th impact hands on:
+/// With gaps delta they collide one after the other, elastically as in textbooks: two equal balls exchange
+/// their velocities. The first hits the second at delta, where it stops, and that goes off at V_1;
+/// it hits the third at delta, and so on, V_k being the speed that the k-th impact passes on:
 ///
 ///   t_1 = (pi/2 + asin(delta/A))/omega,   V_k^2 = omega^2 (A^2 - k delta^2),
 ///   t_(k+1) - t_k = asin(omega delta/V_k)/omega,   k = 1 ... N - 2. (2)

@@ -4,7 +4,7 @@
 
 namespace dalembert::models {
 
-/// A puck slides over a rough table and is pulled along x by m f, less than friction holds: a = mu g > f.
+/// A puck slides over a rough table and is pulled along x by m f, less than friction can hold: a = mu g > f.
 ///
 ///   u' = -a u/|u| + f e_x:   d(a |u| + f u_x)/dt = -(a^2 - f^2),                                     (1)
 ///

@@ -22,8 +22,8 @@ template <int D>
 
 /// Rigid body of N atoms in torque-free motion (notes, mln36).
 ///
-/// The atoms, of equal masses, sit on a zigzag ring: x = a cos u, y = b sin u, z = +-c in turn, u =
-/// 2 pi k/N (three of them are a triangle). With R the body's attitude and I its inertia tensor about
+/// The atoms, of equal masses, are placed on a zigzag ring: x = a cos u, y = b sin u, z = +-c in turn, u = 2
+/// pi k/N (three of them are a triangle). With R the body's attitude and I its inertia tensor about
 /// the centre of mass in body axes, Euler's equations
 ///
 ///   I w' = (I w) x w,   R' = R [w]x

@@ -6,7 +6,7 @@
 
 namespace dalembert::models {
 
-/// A number that `equilibrium` or `normal_modes` gave, and what it must be.
+/// A number that `equilibrium` or `normal_modes` gave, and its closed form.
 struct Compared {
   std::string model;     ///< as in the catalogue
   std::string quantity;  ///< "omega", "tension", ...
@@ -19,14 +19,14 @@ struct Compared {
 };
 
 /// Equilibria, forces of constraint there and small motions of the systems of the notes that have them in
-/// closed form. Each system says its own in its header; those that are said nowhere else:
+/// closed form. Each system states its own in its header; those that are stated nowhere else:
 ///
 ///   double pendulum:   m1 l1 l2 w^2 - (m1 + m2) g (l1 + l2) w + (m1 + m2) g^2 = 0,  w = omega^2
 ///   conical pendulum:  cos theta = g/(l Omega^2), tension m l Omega^2, omega^2 = Omega^2 (1 + 3 cos^2 theta)
 ///   cone:              r = g cot a/Omega^2, normal force m g/sin a, omega^2 = 3 Omega^2 sin^2 a
 ///   rod on a track, hanging:  omega^2 = 6 g/l, from its Routhian
-///   pendulum upright on a shaken pivot: g/(l omega^2) = -a_0(2 A/l)/4, a_0 the characteristic value of
-///                      Mathieu's equation, to 12 published digits
+///   pendulum upright on a vibrating pivot: g/(l omega^2) = -a_0(2 A/l)/4, a_0 the characteristic value
+///                      of Mathieu's equation, to 12 published digits
 ///   chain of N:        omega^2 = (g/l) x, x the zeros of the Laguerre polynomial L_N
 [[nodiscard]] std::vector<Compared> small_motions();
 

@@ -13,7 +13,7 @@ struct TwoFormulations {
   std::string model;  ///< as in the catalogue
   std::string notes;
   std::string what;  ///< what is compared with what
-  /// The largest difference of motion, and of forces of constraint where both tell them, relative to the
+  /// The largest difference of motion, and of forces of constraint where both give them, relative to the
   /// scene's length, speeds and forces.
   std::function<double(const Options&)> difference;
 };

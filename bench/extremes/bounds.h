@@ -61,8 +61,8 @@ template <int D, class Measure>
 [[nodiscard]] Result unless_refused(const std::function<Result()>& run, bool may_be_refused,
                                     std::string_view why);
 
-/// A stiff scene in the explicit stepper, whose steps are held down by stability: it may reach the end, or
-/// must say that max_steps are used up.
+/// A stiff scene in the explicit stepper, whose steps are limited by stability: it may reach the end, or must
+/// report that max_steps are used up.
 [[nodiscard]] inline Result unless_too_stiff(const std::function<Result()>& run, Stepper stepper) {
   return unless_refused(run, stepper == Stepper::erk, "max_steps");
 }

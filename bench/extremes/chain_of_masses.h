@@ -19,7 +19,7 @@ struct ChainOfMasses {
   double link;                 ///< l [length]
   double angle = 1.0;          ///< of all rods at t = 0, at rest [rad]
 
-  /// So many links on 1 m, beads of 1 kg, the last of `ratio`.
+  /// This many links on 1 m, beads of 1 kg, the last of `ratio`.
   [[nodiscard]] static ChainOfMasses heavy_at_the_end(int links, double ratio);
   [[nodiscard]] models::Model<2> model() const;
 };

@@ -8,10 +8,10 @@ namespace {
 
 using namespace one_sided;
 
-/// The top of a parabola, 1/2 under g = 1, beside a ceiling that gives back what strikes it. Where that is d
-/// below the top the ball strikes it at u = sqrt(2 d), and is thrown back by 2 u (1 + u) until t = 2. Errors
-/// E of the height make u anything between those of d + E and d - E: without derivative at d = 0, the double
-/// root, where any answer within sqrt(2 E) is right.
+/// The top of a parabola, 1/2 under g = 1, beneath an elastic ceiling. Where that is d below the top the ball
+/// hits it at u = sqrt(2 d), and is thrown back by 2 u (1 + u) until t = 2. Errors E of the height make u
+/// anything between those of d + E and d - E: without derivative at d = 0, the double root, where any answer
+/// within sqrt(2 E) is right.
 Case grazing() {
   const auto speed = [](double depth) { return std::sqrt(2.0 * std::max(depth, 0.0)); };
   return {.name = "grazing",
@@ -40,7 +40,7 @@ Case grazing() {
 /// position at an impact is doubled by it.
 Case corner() {
   return {.name = "two-at-once",
-          .parameter = "part of the time by which a wall is struck after the floor",
+          .parameter = "part of the time by which a wall is hit after the floor",
           .sweep = {0.0, 1e-16, 1e-15, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-3},
           .brief = {0.0, 1e-15, 1e-12, 1e-10, 1e-6},
           .run =
@@ -56,8 +56,8 @@ Case corner() {
           .limit = [](const Run& run) { return 2.0 * drift(run, 1.5); }};
 }
 
-/// A ball thrown down at 1 m/s from so little above the floor that it is struck in the first step, or at
-/// once: it comes back as fast, sqrt(1 + 2 g h), after (u - 1)/g. (It is back before 0.2 s.)
+/// A ball thrown down at 1 m/s from so little above the floor that it hits it in the first step, or at once:
+/// it comes back as fast, sqrt(1 + 2 g h), after (u - 1)/g. (It is back before 0.2 s.)
 Case first_step() {
   return {.name = "first-step",
           .parameter = "height above the floor of a ball thrown down at 1 m/s [m]",
@@ -83,8 +83,9 @@ Case first_step() {
 
 /// One particle above another, 1 m apart, dropped onto the floor from 1 m: what they come to rest with is the
 /// weight of both below and that of the upper one between. The forces are those of the accelerations, (1/m_1
-/// + 1/m_2) against 1/m_1: round-off grows like the ratio of masses. A state that errs by the tolerance moves
-/// them by so many times that: where this is more than the root of the tolerance they are not determined.
+/// + 1/m_2) against 1/m_1: round-off grows like the ratio of masses. A state that errs by the tolerance
+/// changes them by that ratio times it: where this is more than the root of the tolerance they are not
+/// determined.
 Case stack() {
   return {
       .name = "stack",

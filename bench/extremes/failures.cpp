@@ -169,7 +169,7 @@ Case chatter() {
           .limit = [](const Run&) { return std::max(1e3 * tolerance, 1.0 / (50.0 * 50.0)); }};
 }
 
-/// It stops after just so many steps, and what it kept is what a longer run has.
+/// It stops after exactly this many steps, and what it kept is what a longer run has.
 Case step_limit() {
   return {.name = "step-limit",
           .parameter = "max_steps",

@@ -25,8 +25,8 @@ Case walls() {
           .limit = [](const Run& run) { return 10.0 * epsilon * run.parameter; }};
 }
 
-/// A ball that is dropped from 1 m and never loses anything: after so many impacts, the energy by that at the
-/// start. Steps err by what they may in height, E, and speed, E/T: by g E and v E/T of g 1 m.
+/// A ball dropped from 1 m that never loses anything: after n impacts, its energy against that at the start.
+/// Steps err by what they may in height, E, and speed, E/T: by g E and v E/T of g 1 m.
 Case elastic() {
   return {.name = "elastic",
           .parameter = "elastic impacts of a ball that was dropped: the energy",

@@ -10,8 +10,8 @@ namespace dalembert::extremes {
 
 namespace {
 
-/// What repeats itself is to be as good as what does not: within 100 tolerances at 1,000 samples, and 1e-12
-/// of round-off.
+/// A redundant statement is to be as accurate as an independent one: within 100 tolerances at 1,000 samples,
+/// and 1e-12 of round-off.
 double as_good(const Run& run) { return std::max(100.0 * run.parameter, 1e-12); }
 
 const std::vector<double> tolerances = {1e-3, 1e-4, 1e-6, 1e-8, 1e-10};
@@ -66,7 +66,7 @@ double difference(const std::vector<Seen>& a, const std::vector<Seen>& b, double
   return error;
 }
 
-/// A mechanism of bodies, stated with or without repetition.
+/// A mechanism of bodies, stated with or without redundancy.
 struct Mechanism {
   Scene<3> scene;
   std::vector<RigidBody<3>> bodies;
@@ -85,8 +85,8 @@ struct Mechanism {
   }
 };
 
-/// By how much the statement of a mechanism that repeats itself errs more than the other, both at a tolerance
-/// against the other at a hundredth of it.
+/// By how much the redundant statement of a mechanism errs more than the other, both at a tolerance against
+/// the other at a hundredth of it.
 Result compared_statements(const Mechanism& repeated, const Mechanism& once, double weight, double t_end,
                            double tolerance, Stepper stepper) {
   Options options{.t_end = t_end, .samples = 1001, .tolerance = tolerance, .stepper = stepper};

@@ -41,7 +41,7 @@ struct Astray {
   }
 };
 
-/// What is left of what a start was astray by: a few roundings of 1 m or 1 m/s.
+/// What is left of a start's violation: a few roundings of 1 m or 1 m/s.
 double left_of(const Simulation<2>& simulation, Particle<2> bob) {
   const Vec<2> r = simulation.position(bob);
   return larger(std::abs(r.norm() - 1.0), std::abs(r.normalized().dot(simulation.velocity(bob))));

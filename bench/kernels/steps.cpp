@@ -9,8 +9,8 @@
 namespace dalembert::bench {
 namespace {
 
-/// IDA starts with order 1 and tiny steps; by so many its order and step have grown to what the motion asks
-/// for.
+/// IDA starts with order 1 and tiny steps; after this many its order and step have grown to what the motion
+/// requires.
 constexpr int settling_steps = 200;
 /// Steps timed before the run starts anew, so that however long this takes the same motion is measured.
 constexpr int steps_of_a_run = 200;

@@ -17,7 +17,7 @@ struct NamedConstant {
 
 #define CONSTANT(name) \
   NamedConstant { #name, &varied.name }
-/// Every judged number of the solvers.
+/// Every empirical constant of the solvers.
 inline const std::array named_constants = {
     CONSTANT(safety),
     CONSTANT(most_growth),

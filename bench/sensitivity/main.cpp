@@ -42,7 +42,7 @@ std::vector<Seen> look(const std::vector<SensitivityRun>& runs) {
   return seen;
 }
 
-/// What a changed constant did. A run within its limit both ways is not worse.
+/// The effect of a changed constant. A run within its limit both ways is not worse.
 struct Effect {
   int changed = 0, refused = 0;
   double worse_error = 1.0, more_time = 1.0;

@@ -67,8 +67,8 @@ TEST(Compliant, StiffSpringsTensionIsThatOfARodUpToOneOverStiffness) {
   }
 }
 
-// The explicit stepper reads it from positions, whose roundings a vibration gathers: right to the root of the
-// tolerance, of forces up to 3 m g, or not at all.
+// The explicit stepper reads it from positions, in whose round-off a vibration accumulates: right to the root
+// of the tolerance, of forces up to 3 m g, or not at all.
 TEST(Compliant, AForceThatPositionsDoNotTellCannotBeRead) {
   const double tolerance = 1e-8;
   for (const double k : {1e6, 1e8, 1e10, 1e12}) {
@@ -100,7 +100,7 @@ TEST(Compliant, WithoutComplianceItIsTheRigidConstraint) {
   EXPECT_EQ(a.statistics().degrees_of_freedom, 1);
 }
 
-// Two springs side by side share the load as their stiffnesses, 1 to 3; a rod beside a spring takes all.
+// Two parallel springs share the load as their stiffnesses, 1 to 3; a rod beside a spring takes all.
 TEST(Compliant, SpringsSideBySideShareTheLoad) {
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -g}});

@@ -1,5 +1,5 @@
-// What each type of point, force and constraint of the library is. Asked here and not in the headers, where
-// every user would pay for the answers.
+// What each type of point, force and constraint of the library is. Asserted here and not in the headers,
+// where every user would pay for it.
 #include <dalembert/dalembert.h>
 
 namespace dalembert {

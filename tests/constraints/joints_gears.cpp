@@ -150,7 +150,7 @@ TEST_P(GearTrain, AnIndexingDriveLosesNoTurn) {
       add_joint(scene, AngleDrive{pin, armature, round}, "motor");
       const auto run =
           simulate(scene, {.t_end = 10.0, .samples = 101, .tolerance = tolerance, .stepper = GetParam()});
-      // Both are put onto their constraints, to some hundred roundings.
+      // Both are projected onto their constraints, to some hundred roundings.
       EXPECT_NEAR(run.angle(armature, 100), 2.0 * std::numbers::pi, 1e-11) << within << ' ' << tolerance;
       EXPECT_NEAR(std::cos(angle(run.sample(100), wheel)), -1.0, 1e-11) << within << ' ' << tolerance;
     }

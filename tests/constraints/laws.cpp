@@ -103,9 +103,9 @@ void has_unit_gradients(const Add<D>& add) {
   }
 }
 
-/// Moved together with its particles, a constraint says the same, and its force on each turns with
-/// it. (Rows may mix among themselves, as those of Coincident do: what is compared is lengths of g and
-/// gamma, and the space of forces W^T W.)
+/// Moved together with its particles, a constraint has the same residual, and its force on each rotates with
+/// it. (Rows may mix among themselves, as those of Coincident do: what is compared is lengths of g and gamma,
+/// and the space of forces W^T W.)
 template <int D>
 void does_not_depend_on_the_place(const Add<D>& add) {
   const Placement<D> there = elsewhere<D>();

@@ -7,7 +7,7 @@
 #include <functional>
 #include <string>
 
-/// What every constraint type must obey, whatever it says. A type is put under these laws by one
+/// The laws that every constraint type must satisfy, whatever its equation. A type is put under them by one
 /// line in one of the laws_*.cpp.
 namespace dalembert::laws {
 

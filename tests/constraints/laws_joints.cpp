@@ -94,7 +94,7 @@ void expect_same_bits(const Case<D>& c) {
 
 /// Rows may mix among themselves, and a torque may come as different forces on the particles of a body, whose
 /// rods take the difference. Compared are what is left for rigid bodies: the space of forces P W^T W P, P the
-/// projector onto their motions, and the least accelerations that obey all rows.
+/// projector onto their motions, and the least accelerations that satisfy all rows.
 template <int D>
 struct OfRigidBodies {
   Eigen::MatrixXd forces;
@@ -135,8 +135,8 @@ void expect_no_preferred_place(const Case<D>& c) {
   EXPECT_LT((elsewhere.forces - turn * at_rest.forces * turn.transpose()).norm(), round_off);
 }
 
-/// A state moved along the joint's freedoms by a random way, of length about 1, and put back onto its
-/// manifold.
+/// A state moved along the joint's degrees of freedom by a random way, of length about 1, and projected back
+/// onto its manifold.
 template <int D>
 State moved_on(const Built<D>& built, State s, unsigned seed, double length = 1.0) {
   const Eigen::VectorXd way = noise(s.q.size(), length, seed);
@@ -180,8 +180,8 @@ void expect_action_is_reaction(const Case<D>& c) {
 
 namespace {
 
-/// Each row takes one freedom, where it starts and where a random way takes it: rows of unit length that lose
-/// less than two digits together.
+/// Each row removes one degree of freedom, where it starts and where a random way takes it: rows of unit
+/// length that lose less than two digits together.
 template <int D>
 void expect_independent_rows(const Case<D>& c) {
   const Built<D> built(c);

@@ -8,8 +8,8 @@
 #include <functional>
 #include <string>
 
-/// What every joint must obey: the laws of constraints at states near its manifold, and those of two bodies
-/// that touch nothing else.
+/// The laws that every joint must satisfy: those of constraints at states near its manifold, and those of two
+/// bodies that touch nothing else.
 namespace dalembert::laws {
 
 template <int D>

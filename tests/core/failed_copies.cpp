@@ -11,7 +11,7 @@
 namespace dalembert {
 namespace {
 
-/// A parameter whose copies fail when it is told so.
+/// A parameter whose copies fail on demand.
 struct Fragile {
   std::shared_ptr<bool> broken;
 

@@ -51,7 +51,7 @@ TEST(Integrability, ReturnsWhenTheHeadingIsHeld) {
   EXPECT_TRUE(judged(scene)[0].holonomic);
 }
 
-// A spring that holds the heading takes no freedom away.
+// A spring that holds the heading removes no degree of freedom.
 TEST(Integrability, DoesNotReturnByASpring) {
   Scene<2> scene;
   const auto disk = scene.add_particle({.mass = 1.0, .position = {0.2, 0.5}});

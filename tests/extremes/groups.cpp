@@ -5,7 +5,7 @@
 namespace dalembert::extremes {
 namespace {
 
-/// Every case of a group over the short part of its sweep: within its limit, or refused as is due.
+/// Every case of a group over the short part of its sweep: within its limit, or rejected as it should be.
 void expect_right(const std::vector<Case>& cases) {
   for (const Case& extreme : cases) {
     for (const Stepper stepper : extreme.steppers) {

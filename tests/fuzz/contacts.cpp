@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-/// What a run with one-sided and rough constraints must be like, whatever the scene.
+/// What a run with one-sided and rough constraints must satisfy, whatever the scene.
 namespace dalembert::fuzz {
 
 namespace {

@@ -14,7 +14,7 @@ namespace dalembert::fuzz {
 template <int D>
 using AnyPoint = std::variant<Particle<D>, BodyPoint<D>, Fixed<D>, Driven<D, SwingingPath<D>>>;
 
-/// A point, where it is at the start, and what it belongs to.
+/// A point, its position at the start, and what it belongs to.
 template <int D>
 struct Place {
   AnyPoint<D> point;
@@ -24,9 +24,9 @@ struct Place {
   std::string text;
 };
 
-/// One of the ways in which a scene is stated and begun.
+/// One of the ways in which a scene is stated and started.
 struct Statement {
-  bool lean = false;        ///< without what follows from the rest
+  bool lean = false;        ///< without what is redundant
   double more_speed = 0.0;  ///< added to every initial velocity along `axis` [length / time]
   double more_spin = 0.0;   ///< to every angular velocity [1 / time]
   int axis = 0;
@@ -102,7 +102,7 @@ class Draft {
   [[nodiscard]] const Vec<D>& origin() const { return origin_; }
   [[nodiscard]] const std::vector<Place<D>>& particles() const { return particles_; }
 
-  /// Whether a sensible scene has room for a constraint of so many rows on these owners; takes it.
+  /// Whether a sensible scene has room for a constraint of this many rows on these owners; takes it.
   [[nodiscard]] bool take(int rows, std::initializer_list<int> owners);
 
   /// Adds to the scene what `make` returns and writes it down; what the library refuses is left out.
@@ -182,7 +182,7 @@ void add_pin(Draft<D>& draft);
 /// Holds two points together of which the second moves.
 template <int D>
 void add_ball(Draft<D>& draft, const Place<D>& a, const Place<D>& b, In statement);
-/// A part of the scene with constraints that follow from others: a hinge, a frame, a rod.
+/// A part of the scene with redundant constraints: a hinge, a frame, a rod.
 template <int D>
 void add_redundant(Draft<D>& draft);
 template <int D>
@@ -205,7 +205,7 @@ void add_own_force(Draft<D>& draft);
 /// A force, or a constraint, with a kink or a jump.
 template <int D>
 void add_kinked(Draft<D>& draft);
-/// A force that has an energy or takes some away.
+/// A force that has an energy or dissipates some.
 template <int D>
 void add_passive_force(Draft<D>& draft);
 /// A floor or a wall, a string, a sphere, two particles that may meet: one-sided constraints.

@@ -9,11 +9,11 @@
 
 namespace dalembert::fuzz {
 
-/// What scenes are made of, and what their runs are held against.
+/// What scenes are made of, and what their runs are compared with.
 ///
 ///   any        everything; a run is checked by itself
-///   redundant  hinges, frames and constraints that say again what others imply: against the run without
-///   those kinked     forces and constraints with kinks and jumps: one stepper against the other
+///   redundant  hinges, frames and constraints that others imply: against the run without those
+///   kinked     forces and constraints with kinks and jumps: one stepper against the other
 ///   one-sided  floors, walls, strings, spheres, particles that meet: gaps, signs of forces, impulses, energy
 ///   rough      particles that stick and slide on planes and spheres: bounds of friction, energy
 enum class Family { any, redundant, kinked, one_sided, rough };

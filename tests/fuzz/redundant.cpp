@@ -5,30 +5,30 @@
 #include <cmath>
 #include <numbers>
 
-/// Parts of a scene with constraints that follow from the others, and the same without those.
+/// Parts of a scene with redundant constraints, and the same without those.
 namespace dalembert::fuzz {
 
 namespace {
 
-/// What holds a part: the ground, a point that is driven, or a body. Gives its point that is at `r`.
+/// What supports a part: the ground, a driven point, or a body. Gives its point that is at `r`.
 template <int D>
-using Carrier = std::function<Place<D>(const Vec<D>& r)>;
+using Support = std::function<Place<D>(const Vec<D>& r)>;
 
 template <int D>
-Carrier<D> carrier_of(const typename Draft<D>::Body& body, Draft<D>& draft) {
+Support<D> support_on(const typename Draft<D>::Body& body, Draft<D>& draft) {
   return [body, &draft](const Vec<D>& r) {
     return draft.point_at(body, body.axes.transpose() * (r - body.centre));
   };
 }
 
 template <int D>
-Carrier<D> random_carrier(Draft<D>& draft) {
+Support<D> random_support(Draft<D>& draft) {
   const Plan& plan = draft.plan;
   const double kind = draft.random.uniform();
   const Vec<D> amplitude = 0.2 * plan.length * draft.random.template vector<D>();
   const double omega = draft.size(1.0 / plan.time);
   if (kind < 0.3) {
-    if (const auto* body = draft.new_body()) return carrier_of(*body, draft);
+    if (const auto* body = draft.new_body()) return support_on(*body, draft);
   }
   if (kind < 0.5) {
     return [=, start = plan.options.t_start](const Vec<D>& r) {
@@ -40,18 +40,18 @@ Carrier<D> random_carrier(Draft<D>& draft) {
   return [](const Vec<D>& r) { return Place<D>{Fixed<D>{r}, r, Vec<D>::Zero(), -1, "Fixed" + write<D>(r)}; };
 }
 
-/// A second ball, at p, beside one at `first`, which already keeps the distance between them: in full it says
-/// that again, without redundancy p keeps its distance from points to the sides.
+/// A second ball, at p, beside one at `first`, which already keeps the distance between them: in full it is
+/// redundant in that direction, without redundancy p keeps its distance from points to the sides.
 template <int D>
-void add_second_ball(Draft<D>& draft, const Carrier<D>& carrier, const Vec<D>& first, const Place<D>& p) {
-  add_ball(draft, carrier(p.r), p, In::full);
+void add_second_ball(Draft<D>& draft, const Support<D>& support, const Vec<D>& first, const Place<D>& p) {
+  add_ball(draft, support(p.r), p, In::full);
   const double side = draft.plan.length;
   const Vec<D> axis = (p.r - first).normalized();
   Vec<D> u = axis.unitOrthogonal();
-  add_distance(draft, carrier(p.r + side * u), p, side, In::lean);
+  add_distance(draft, support(p.r + side * u), p, side, In::lean);
   if constexpr (D == 3) {
     u = axis.cross(u).eval();
-    add_distance(draft, carrier(p.r + side * u), p, side, In::lean);
+    add_distance(draft, support(p.r + side * u), p, side, In::lean);
   }
 }
 
@@ -59,21 +59,21 @@ void add_second_ball(Draft<D>& draft, const Carrier<D>& carrier, const Vec<D>& f
 /// in one place.
 template <int D>
 void add_hinge(Draft<D>& draft) {
-  const Carrier<D> carrier = random_carrier(draft);
+  const Support<D> support = random_support(draft);
   const auto* added = draft.new_body();
   const int more = 1 + draft.random.below(2);
   if (added == nullptr || !draft.take(D == 2 ? 2 : 5, {added->owner})) return;
-  const Carrier<D> body = carrier_of(*added, draft);
+  const Support<D> body = support_on(*added, draft);
   const Vec<D> first = added->centre + draft.plan.length * draft.random.template vector<D>();
   const Vec<D> axis = draft.random.template direction<D>();
-  add_ball(draft, carrier(first), body(first), In::both);
+  add_ball(draft, support(first), body(first), In::both);
   for (int i = 0; i < more; ++i) {
     const double along = draft.plan.length * draft.random.between(0.3, 1.0) * (i == 0 ? 1.0 : -1.0);
     const Place<D> p = body(D == 2 ? first : Vec<D>(first + along * axis));
     if (D == 3 && i == 0) {
-      add_second_ball(draft, carrier, first, p);
+      add_second_ball(draft, support, first, p);
     } else {
-      add_ball(draft, carrier(p.r), p, In::full);
+      add_ball(draft, support(p.r), p, In::full);
     }
   }
 }
@@ -98,7 +98,7 @@ std::vector<Vec<D>> nodes(Draft<D>& draft) {
 }
 
 /// Particles with more rods between them than keep them rigid, free, hung by one node or by two. Each node
-/// has rods to the D before it; the others are surplus.
+/// has rods to the D before it; the others are redundant.
 template <int D>
 void add_frame(Draft<D>& draft) {
   std::vector<Place<D>> node;
@@ -114,24 +114,24 @@ void add_frame(Draft<D>& draft) {
   for (const Place<D>& p : node) (void)draft.take(D - 1, {p.owner});  // nothing else holds it
   const int hung = draft.random.below(3);
   if (hung == 0) return;
-  const Carrier<D> carrier = random_carrier(draft);
-  add_ball(draft, carrier(node[0].r), node[0], In::both);
-  if (hung == 2) add_second_ball(draft, carrier, node[0].r, node[1]);
+  const Support<D> support = random_support(draft);
+  add_ball(draft, support(node[0].r), node[0], In::both);
+  if (hung == 2) add_second_ball(draft, support, node[0].r, node[1]);
 }
 
 /// A bob on a particle that is held at a point, and on that point.
 template <int D>
 void add_twin_rod(Draft<D>& draft) {
-  const Carrier<D> carrier = random_carrier(draft);
+  const Support<D> support = random_support(draft);
   const Vec<D> r = draft.plan.length * draft.random.template vector<D>() + draft.origin();
   const Place<D> p = draft.new_particle(r);
   const Place<D> bob = draft.new_particle(r + draft.plan.length * draft.random.template direction<D>());
   (void)draft.take(D - 1, {p.owner});
   if (!draft.take(1, {bob.owner})) return;
   const double length = (bob.r - r).norm();
-  add_ball(draft, carrier(r), p, In::both);
+  add_ball(draft, support(r), p, In::both);
   add_distance(draft, p, bob, length, In::both);
-  add_distance(draft, carrier(r), bob, length, In::full);
+  add_distance(draft, support(r), bob, length, In::full);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ double largest(std::span<const double> x) {
   return most;
 }
 
-/// The system as it is at a sample: one-sided constraints without a force say nothing, nor do rough ones
+/// The system as it is at a sample: one-sided constraints without a force have no rows, nor have rough ones
 /// where they may slide.
 System in_force(const System& system, const FlatSample& sample) {
   std::vector<std::size_t> idle = system.rough();
@@ -148,7 +148,7 @@ std::string Check::principle(std::string& detail) const {
 }
 
 /// Where forces are not determined there is nothing to audit, and the state is the stepper's own, right to
-/// the accuracy that the run held, which is not moved onto the constraints.
+/// the accuracy of the run, and not projected onto the constraints.
 std::string Check::run(double accuracy, std::string& detail) {
   const bool determined = finite(sample.forces);
   const Instant at{sample.time, sample.q, sample.v};
@@ -161,7 +161,7 @@ std::string Check::run(double accuracy, std::string& detail) {
   std::string fault = residuals(determined ? held : std::max(held, error_of_run * accuracy), detail);
   if (!determined) return fault;
   if (fault.empty()) fault = accelerations(detail);
-  return fault.empty() && system.rough().empty() ? principle(detail) : fault;  // friction works
+  return fault.empty() && system.rough().empty() ? principle(detail) : fault;  // friction does work
 }
 
 std::string fault_of_times(std::span<const double> times, std::span<const double> wanted,

@@ -30,7 +30,7 @@ std::string walk(Draft<D>& draft) {
   return {};
 }
 
-/// May say that an equation is at fault.
+/// May report that an equation is at fault.
 template <int D>
 void describe(const Draft<D>& draft) {
   try {

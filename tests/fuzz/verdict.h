@@ -15,7 +15,7 @@ struct Task {
   Family family = Family::any;
 };
 
-/// What became of a scene. `fault` is empty unless the library did what it must not: then it says what.
+/// What became of a scene. `fault` is empty unless the library did what it must not: then it describes that.
 struct Verdict {
   std::string outcome;  ///< "ran", or the type of the error
   std::string message;  ///< of the error

@@ -68,8 +68,8 @@ TEST(Accelerations, ContainFriction) {
   }
 }
 
-/// Also where a constraint yields, from nearly rigid to a soft spring: its multiplier and the accelerations
-/// obey Newton together.
+/// Also where a constraint is compliant, from nearly rigid to a soft spring: its multiplier and the
+/// accelerations satisfy Newton's law together.
 TEST(Accelerations, ContainCompliantConstraints) {
   for (const Stepper stepper : both) {
     for (const double compliance : {1e-8, 1e-4, 1e-2, 1.0}) {

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 TEST(Complementarity, IsSolvedForRandomPositiveSemidefiniteMatrices) {
-  // What a solution is needs no other solver. Ranks below the size, and rows repeated, make ties.
+  // A solution is checked without another solver. Ranks below the size, and rows repeated, make ties.
   std::mt19937 generator(1);
   std::normal_distribution<double> normal;
   for (int trial = 0; trial < 300; ++trial) {
@@ -106,7 +106,7 @@ TEST_P(Contacts, OfAStackCarryWhatLiesOnThem) {
   const auto between = scene.add(
       unilateral(holonomic(points(lower, upper), [](auto a, auto b) { return b.y() - a.y() - 1.0; })));
   const auto run = simulate(scene, options(1.0));
-  ASSERT_EQ(run.events().size(), 2U);  // both struck, at once
+  ASSERT_EQ(run.events().size(), 2U);  // both impacts, at once
   EXPECT_NEAR(run.events()[0].time, std::sqrt(1.0 / g), bound);
   EXPECT_NEAR(run.impulse(floor, 0), 2.0 * std::sqrt(g), bound * g);
   EXPECT_NEAR(run.impulse(between, 0), 2.0 * std::sqrt(g), bound * g);

@@ -7,7 +7,7 @@
 namespace dalembert {
 namespace {
 
-/// Contacts that touch, close and open at the limits of what round-off can tell.
+/// Contacts that touch, close and open at the limits of round-off.
 class ContactsAtRoundOff : public WithEvents {};
 INSTANTIATE_TEST_SUITE_P(Steppers, ContactsAtRoundOff, both_steppers, stepper_name);
 

@@ -82,10 +82,9 @@ TEST(DenseRun, GivesTheForcesOfSprings) {
   }
 }
 
-/// At a singular position, where the rods lie in line, the implicit stepper gives way to the explicit one,
-/// which goes across on a polynomial of its own, and begins anew behind. Bound: the error of a step, the
-/// tolerance in position and over the linkage's time, 0.2 s, in velocity, added up over all steps and the
-/// time left.
+/// At a singular position, where the rods are in line, the implicit stepper hands over to the explicit one,
+/// which crosses on a polynomial of its own, and restarts behind. Bound: the error of a step, the tolerance
+/// in position and over the linkage's time, 0.2 s, in velocity, added up over all steps and the time left.
 TEST_P(Dense, LeadsThroughSingularPositions) {
   const models::FourBar linkage{.loops = 2};
   const models::FourBarScene built = linkage.scene();

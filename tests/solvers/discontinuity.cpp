@@ -74,9 +74,9 @@ class Kinks : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(AtTolerances, Kinks,
                          testing::Values(1e-4, 1e-5, 3e-6, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12));
 
-// A spring of rate k on one side of x = 0 is in touch for half a period, pi/sqrt(k), and returns the speed it
-// met. An error of velocity is one of position over the 2 s that follow; both weigh as the scene, of some
-// metres and seconds, does.
+// A spring of rate k on one side of x = 0 is in contact for half a period, pi/sqrt(k), and returns the speed
+// of approach. An error of velocity is one of position over the 2 s that follow; both count like the scene,
+// of some metres and seconds.
 TEST_P(Kinks, OfAOneSidedSpringReturnTheSpeed) {
   const double k = 400.0, x0 = 0.5, t_end = 3.0;
   OnALine line(x0, -1.0);
@@ -105,7 +105,7 @@ TEST_P(Kinks, OfAPotentialAreMetAtTheStartAndOnTheWay) {
   }
 }
 
-// An effect of 1e-3 would be seen by no error estimate: it weighs a jump between the 6th and the 9th stage a
+// No error estimate would see an effect of 1e-3: it weights a jump between the 6th and the 9th stage by a
 // thousandth of what the step does.
 TEST_P(Kinks, FromOneInstantOnIsWhenTheForceActs) {
   for (const double begin : {0.21, 0.51, 0.55, 0.83}) {
@@ -216,7 +216,7 @@ TEST_P(Friction, ThatIsWeakerLetsTheBlockTurnBack) {
   }
 }
 
-// Across the slope the direction of sliding turns, the speed never comes to zero, and nothing is to be said:
+// Across the slope the direction of sliding turns, the speed never vanishes, and nothing is to be reported:
 // v' = g (sin(0.5) e_x - 0.3 cos(0.5) v/|v|), by Runge-Kutta of order 4 in steps whose error is round-off.
 TEST_P(Friction, ThatTurnsTheBlockRoundIsFollowed) {
   OnASlope slope({-2.0, 0.5, 0.0});

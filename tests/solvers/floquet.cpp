@@ -16,8 +16,7 @@ using std::numbers::pi;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-/// The map over a period is known to 1e-11 of itself and 1 (see floquet); it may be non-normal, a few
-/// times 1.
+/// The monodromy matrix is known to 1e-11 of itself and 1 (see floquet); it may be non-normal, a few times 1.
 constexpr double known = 1e-10;
 
 struct Hung {
@@ -74,7 +73,7 @@ TEST(Floquet, OfASkateLeaveOutWhatItsBladeForbids) {
   EXPECT_NEAR(trace.real(), 1.0 + 2.0 * std::cos(0.4 * std::sqrt(5.0)), known);
 }
 
-/// A pendulum upright on a pivot shaken vertically, x = g/(l omega^2), omega = 10 and l = 1.
+/// A pendulum upright on a pivot that vibrates vertically, x = g/(l omega^2), omega = 10 and l = 1.
 models::DrivenPivot upright(double amplitude, double x) {
   auto pivot = models::DrivenPivot::vertical(amplitude);
   pivot.gravity = 100.0 * x;
@@ -83,7 +82,8 @@ models::DrivenPivot upright(double amplitude, double x) {
 }
 
 TEST(Floquet, HaveTheProductThatDragTells) {
-  // Liouville: the determinant of the map is exp of the integral of the divergence, -(drag/mass) T.
+  // Liouville: the monodromy matrix has the determinant exp of the integral of the divergence, -(drag/mass)
+  // T.
   auto built = upright(0.1, 0.004).scene();
   built.scene.add(force_law(points(built.bob), [](auto t, auto, auto v) {
     return (-0.3 * (v - vec(0.0 * t, sin(10.0 * t)))).eval();  // against what moves with the pivot
@@ -114,7 +114,7 @@ TEST(Floquet, TurnAwayFromOneAtKapitzasBoundary) {
 
 TEST(Floquet, OfALibrationAreOneTwice) {
   // Along the motion nothing changes, and another amplitude has another period: a Jordan block, whose
-  // eigenvalues are known to the root.
+  // eigenvalues are known to the square root.
   const models::PlanePendulum pendulum;
   const auto found = floquet(pendulum.scene().scene, pendulum.period());
   ASSERT_EQ(found.multipliers.size(), 2U);
@@ -133,7 +133,7 @@ TEST(Floquet, DoNotDependOnTheUnitOfTime) {
     scene.add(Distance{Fixed<2>{}, bob, 1.0});
     const auto found = floquet(scene, unit);
     ASSERT_EQ(found.multipliers.size(), 2U) << unit;
-    // A double multiplier is known to the root.
+    // A double multiplier is known to the square root.
     for (const auto& m : found.multipliers) EXPECT_NEAR(std::abs(m - 1.0), 0.0, std::sqrt(known)) << unit;
   }
 }

@@ -188,8 +188,8 @@ TEST(SlidingLadder, RefusesAStartWithNoUniqueAccelerationByName) {
   }
 }
 
-// Drawn inwards, u < 0, friction's sign turns and the bracket of (2) is positive whatever mu1: a law in N has
-// one solution. With |N| the table may as well hold the block down, N < 0, and that has no bound.
+// Drawn inwards, u < 0, friction's sign reverses and the bracket of (2) is positive whatever mu1: a law in N
+// has one solution. With |N| the table may just as well hold the block down, N < 0, and that is unbounded.
 TEST(SlidingLadder, DrawnBackHasOneAccelerationIfTheTableOnlyPushes) {
   const Ladder::State inwards{0.9, -0.4};
   const Ladder one_sided(6.0, 0.0, inwards, true), two_sided(6.0, 0.0, inwards);

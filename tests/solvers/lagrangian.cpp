@@ -278,7 +278,7 @@ TEST_P(LagrangianMotions, MayBeginWhenTheInertiaIsOfAnotherSignThanAtTimeZero) {
 
 TEST(LagrangianMotion, RefusesForcesWhereConstraintsAreCloseToDependent) {
   // A point at the crossing of a line and a circle that it touches: x = 0 and x^2 + (y - 1)^2 = 1 - 2 c with
-  // small c are met at an angle of the root of 2 c.
+  // small c are crossed at an angle of the root of 2 c.
   constexpr double c = 1e-8;
   LagrangianSystem<2> system({.position = {1.0 - std::sqrt(1.0 - 2.0 * c + c * c), c}},
                              [](const auto& /*q*/, const auto& v) { return 0.5 * v.squaredNorm(); });

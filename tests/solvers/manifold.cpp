@@ -71,7 +71,7 @@ TEST_F(ManifoldTest, ProjectionIgnoresNonholonomicRows) {
   EXPECT_EQ(q, before.q.head(3));
 }
 
-// v - v0 = M^-1 W^T y and W v + psi(v = 0) = 0: the least change of v weighed by mass.
+// v - v0 = M^-1 W^T y and W v + psi(v = 0) = 0: the least change of v in the mass-weighted norm.
 TEST_F(ManifoldTest, VelocitiesChangeByTheLeastImpulseThatSatisfiesTheConstraints) {
   Manifold manifold(system, rows, system.coordinate_scales(1.0));
   (void)project(manifold);

@@ -274,7 +274,7 @@ TEST(LowestModes, AreRefusedWithDampingAndWithoutANumber) {
               ThrowsMessage<InvalidScene>(HasSubstr("damping")));
 }
 
-/// The residual of motion in the turning frame at displacements u and rates w of it:
+/// The residual of motion in the rotating frame at displacements u and rates w of it:
 /// F + W^T lambda - M (2 A w + A^2 (q + u - p)), and psi of the nonholonomic rows.
 Eigen::VectorXd residual(const System& system, const RotatingFrame& frame, const Instant& at,
                          std::span<const double> lambda, const Eigen::VectorXd& u, const Eigen::VectorXd& w) {

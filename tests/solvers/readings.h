@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-/// What the tests of readings share.
+/// Shared by the tests of readings.
 namespace dalembert {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();

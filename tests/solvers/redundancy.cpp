@@ -10,7 +10,7 @@ using testing::AnyOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-/// Two equal rods hold one bob at rest: each may carry any share of the weight m g = 20, the least
+/// Two equal rods hold one bob at rest: each may carry any share of the weight m g = 20, the least-norm
 /// forces share it equally.
 class TwinRods : public testing::Test {
  protected:

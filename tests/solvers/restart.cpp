@@ -37,7 +37,7 @@ TEST(Restart, BeginsAtTheTimeOfItsSampleWithItsForces) {
   for (const std::size_t i : {0U, 3U, 10U}) {
     const Simulation<2> again(each.scene, run.sample(i), {.t_end = 2.0, .tolerance = 1e-8});
     EXPECT_EQ(again.time(), run.times()[i]);
-    // Both are put onto the constraints, to round-off.
+    // Both are projected onto the constraints, to round-off.
     EXPECT_LT((again.position(each.lower) - run.position(each.lower, i)).norm(), round_off);
     EXPECT_NEAR(again.multiplier(each.upper_rod), run.multiplier(each.upper_rod, i), round_off);
   }

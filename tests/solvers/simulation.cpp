@@ -51,8 +51,8 @@ TEST(Simulation, SamplesDoNotInfluenceTheSteps) {
   const auto few = simulate(each.scene, {.t_end = 1.0, .samples = 3});
   const auto many = simulate(each.scene, {.t_end = 1.0, .samples = 1001});
   EXPECT_EQ(few.statistics().steps, many.statistics().steps);
-  // What puts a sample onto the constraints keeps the pivots of the sample before: positions, all
-  // smaller than 4, agree to the 1e-15 of the length 4 that the projection stops at, and its round-off.
+  // The projection of a sample keeps the pivots of the sample before: positions, all smaller than 4, agree to
+  // the 1e-15 of the length 4 that the projection stops at, and its round-off.
   for (std::size_t i = 0; i < few.size(); ++i) {
     for (const auto p : {each.upper, each.lower, each.bead, each.rider, each.skate}) {
       EXPECT_LE((few.position(p, i) - many.position(p, 500 * i)).norm(), 2.0 * (1e-15 * 4.0 + 4.0 * 2.3e-16));

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-/// Where constraints repeat each other the forces are the least squares of those of the constraints that
-/// the user stated; what bodies are made of does not show.
+/// Where constraints are redundant the forces are the least squares of those of the constraints that the user
+/// stated; what bodies are made of has no effect.
 namespace dalembert {
 namespace {
 
@@ -73,9 +73,8 @@ TEST_P(Coupler, AtRestCarriesThePublishedForces) {
 }
 
 /// A door of mass m = 10 on two hinges 2 h = 2 apart, its centre of mass at w = 0.4 from their axis, turns
-/// about it at the rate omega. Each hinge is a ball joint: along the axis n they repeat each other. With
-/// gravity g along -n, e from the axis to the centre, and A and B the forces of the lower and the upper
-/// hinge,
+/// about it at the rate omega. Each hinge is a ball joint: along the axis n they are redundant. With gravity
+/// g along -n, e from the axis to the centre, and A and B the forces of the lower and the upper hinge,
 ///
 ///   along n:    A_n + B_n = m g,                             the least squares share it equally
 ///   along e:    A_e + B_e = -m omega^2 w,  h (A_e - B_e) = m g w      (moment about the middle of the axis)
@@ -263,8 +262,7 @@ TEST(InternalRods, TakeWhatTheyCanFromRodsThatRepeatThem) {
   EXPECT_NEAR(at.multiplier(body.rods[0]), before.multiplier(body.rods[0]), rounding);
 }
 
-// Two equations of one constraint that say the same: which of them carries it does not matter, and no
-// number grows.
+// Two identical equations of one constraint: which of them carries it does not matter, and no number grows.
 TEST(StatedForces, OfAnEquationWrittenTwiceInOneConstraintAreThoseOfOne) {
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -10.0}});

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-/// What tests of events, contacts and friction share.
+/// Shared by the tests of events, contacts and friction.
 namespace dalembert {
 
 inline constexpr double g = 9.81, tolerance = 1e-10;
