@@ -22,8 +22,8 @@ namespace dalembert::models {
 ///   m b (w + w+) = P,  I' (w - w+) = b P:   w+ = r w,  r = (I' - m b^2)/(I' + m b^2)                    (2)
 ///
 /// and the corner that it turned about lifts off at 2 b w+: it takes no impulse, as Moreau's law requires, if
-/// r > 0. For a rough floor r = 1 - (3/2) sin^2 a, Housner's. Each time the energy of (1) is multiplied by
-/// r^2; with Q(theta_k) = int_0^theta_k dtheta/theta', and x_k = cos(a - theta_k) - cos a = r^2k x_0,
+/// r > 0. For a rough floor r = 1 - (3/2) sin^2 a, Housner's. Each time the energy of (1) is scaled by r^2;
+/// with Q(theta_k) = int_0^theta_k dtheta/theta', and x_k = cos(a - theta_k) - cos a = r^2k x_0,
 ///
 ///   t_k = Q(theta_0) + 2 Q(theta_1) + ... + 2 Q(theta_k),   k from 0,
 ///   tan(theta_k/2) = x_k/(sin a + sqrt(sin^2 a - x_k (2 cos a + x_k))).

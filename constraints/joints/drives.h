@@ -34,9 +34,7 @@ struct AngleDrive {
   auto operator()(const auto& t, const auto& x_a, const auto& y_a, const auto& x_b, const auto& phi_r) const {
     return vec(detail::out_of_mesh(detail::angle_between(x_a, y_a, x_b) - phi_r[0]), phi_r[0] - angle(t));
   }
-  [[nodiscard]] std::string fault() const {
-    return frames.fault("the axis of its joint must be finite and not zero");
-  }
+  [[nodiscard]] std::string fault() const { return frames.fault("its joint needs a finite nonzero axis"); }
 };
 template <class J, class Angle>
 AngleDrive(const J&, Rotor, Angle) -> AngleDrive<detail::BodyA<J>, detail::BodyB<J>, Angle>;
@@ -62,9 +60,7 @@ struct PathDrive {
   auto operator()(const auto& t, const auto& c_a, const auto& z_a, const auto& c_b) const {
     return z_a.dot(c_b - c_a) / frames.length - path(t);
   }
-  [[nodiscard]] std::string fault() const {
-    return frames.fault("the axis of its joint must be finite and not zero");
-  }
+  [[nodiscard]] std::string fault() const { return frames.fault("its joint needs a finite nonzero axis"); }
 };
 template <class J, class Path>
 PathDrive(const J&, Path) -> PathDrive<detail::BodyA<J>, detail::BodyB<J>, Path>;

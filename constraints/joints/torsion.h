@@ -49,7 +49,7 @@ struct TorsionSpring {
     if (!std::isfinite(relaxed_angle)) {
       return "relaxed_angle = " + detail::text(relaxed_angle) + ", must be finite";
     }
-    return frames.fault("the axis of its joint must be finite and not zero");
+    return frames.fault("its joint needs a finite nonzero axis");
   }
 };
 template <class J>
@@ -87,7 +87,7 @@ struct TorsionDamper {
     if (!(std::isfinite(coefficient) && coefficient >= 0.0)) {
       return "coefficient = " + detail::text(coefficient) + ", must be finite and >= 0";
     }
-    return frames.fault("the axis of its joint must be finite and not zero");
+    return frames.fault("its joint needs a finite nonzero axis");
   }
 };
 template <class J>

@@ -32,9 +32,7 @@ struct Winding {
   auto operator()(const auto& x_a, const auto& y_a, const auto& x_b, const auto& angle) const {
     return detail::out_of_mesh(detail::angle_between(x_a, y_a, x_b) - angle[0]);
   }
-  [[nodiscard]] std::string fault() const {
-    return frames.fault("the axis of its joint must be finite and not zero");
-  }
+  [[nodiscard]] std::string fault() const { return frames.fault("its joint needs a finite nonzero axis"); }
 };
 template <class J>
 Winding(const J&, Rotor) -> Winding<detail::BodyA<J>, detail::BodyB<J>>;

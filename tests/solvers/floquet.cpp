@@ -82,8 +82,7 @@ models::DrivenPivot upright(double amplitude, double x) {
 }
 
 TEST(Floquet, HaveTheProductThatDragTells) {
-  // Liouville: the monodromy matrix has the determinant exp of the integral of the divergence, -(drag/mass)
-  // T.
+  // Liouville: det of the monodromy matrix is exp of the integral of the divergence, -(drag/mass) T.
   auto built = upright(0.1, 0.004).scene();
   built.scene.add(force_law(points(built.bob), [](auto t, auto, auto v) {
     return (-0.3 * (v - vec(0.0 * t, sin(10.0 * t)))).eval();  // against what moves with the pivot
