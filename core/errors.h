@@ -35,8 +35,8 @@ class InconsistentStart : public Error {
   using Error::Error;
 };
 
-/// A constraint or force threw, or gave a number that is not finite; says which, and when. Turned
-/// into InconsistentStart or IntegrationFailure by a run.
+/// A constraint or force threw, or gave a number that is not finite; names it, and when. Turned into
+/// InconsistentStart or IntegrationFailure by a run.
 class EquationFault : public Error {
   using Error::Error;
 };

@@ -17,7 +17,7 @@ namespace {
 std::vector<FlatEvent> with_transitions(std::vector<FlatEvent> events, const Transitions* transitions) {
   for (std::size_t i = 0; transitions != nullptr && i < transitions->functions(); ++i) {
     events.push_back({transitions->label(i),
-                      [transitions, i](const FlatSample& now) { return transitions->watched(i, now); },
+                      [transitions, i](const FlatSample& now) { return transitions->switching(i, now); },
                       Crossing::falling, false});
   }
   return events;
@@ -135,7 +135,7 @@ void EventLog::begin_anew(double t, Stepping& stepping) {
     return;
   }
   if (transitions_ == nullptr) return;
-  if (const auto function = transitions_->driven()) change_ = {asked_for_ + *function, t};
+  if (const auto function = transitions_->approaching()) change_ = {asked_for_ + *function, t};
 }
 
 /// Throws StepFailure where changes of one kind accumulate, as impacts do (see Accumulation): they do not

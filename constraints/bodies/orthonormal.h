@@ -6,7 +6,7 @@
 namespace dalembert::detail {
 
 /// Whether columns are right-handed axes of unit length, to the digits that a user writes down. False if one
-/// of their numbers is none.
+/// of their numbers is NaN.
 template <int D>
 [[nodiscard]] bool orthonormal(const Eigen::Matrix<double, D, D>& axes) {
   constexpr double rounding_of_the_user = 1e-8;

@@ -16,8 +16,8 @@ namespace dalembert {
 /// with phi the angle by which b has turned against a since they were added, phi_r that of the rotor. The
 /// first multiplier is the torque of the motor's shaft, on b about the axis; the opposite is on a. The second
 /// is what drives the armature: besides the shaft's torque its inertia times its angular acceleration. (The
-/// bodies' positions alone do not say how often b has turned: without the rotor, whose angle does, a law that
-/// turns fast by whole turns and rests again would be obeyed by not turning.)
+/// bodies' positions alone do not determine how often b has turned: without the rotor, whose angle does, a
+/// law that turns fast by whole turns and rests again would be satisfied by not turning.)
 template <class A, class B, class Angle>
 struct AngleDrive {
   static constexpr std::string_view kind = "AngleDrive";

@@ -149,7 +149,7 @@ struct JointFrames {
     }
   }
 
-  /// What is wrong with it, if anything is; `axes` says what its user stated them by.
+  /// What is wrong with it, if anything is; `axes` names what its user stated them by.
   [[nodiscard]] std::string fault(const char* axes) const {
     if (!place.allFinite()) return "its point must be finite";
     if (!detail::orthonormal<dimension>(stated)) return axes;

@@ -12,8 +12,8 @@ namespace dalembert {
 ///   g = (c_b - c_a,  -y_a . z_b,  x_a . z_b)      [length, rad]; in the plane c_b - c_a
 ///
 /// for unit vectors x_a, y_a across the axis z. The first multipliers are the force on b, along the axes of
-/// space; the last two the torques on b about x_a and y_a. (Two ball joints on the axis would say one thing
-/// twice: their forces along it.)
+/// space; the last two the torques on b about x_a and y_a. (Two ball joints on the axis would be redundant in
+/// their forces along it.)
 template <class A, class B>
 struct Revolute {
   static constexpr std::string_view kind = "Revolute";

@@ -12,9 +12,9 @@ namespace dalembert {
 /// the angle by which b has turned against a since they were added. The torque on b is
 /// -stiffness (phi - relaxed_angle).
 ///
-/// The positions of two bodies do not say how often one has turned. So the spring may be turned by up to 150
-/// degrees from where it is relaxed; further, the run stops and says so. One that is wound up acts on the
-/// Rotor of a Winding.
+/// The positions of two bodies do not determine how often one has turned. So the spring may be turned by up
+/// to 150 degrees from where it is relaxed; beyond that the run stops with an error. One that is wound up
+/// acts on the Rotor of a Winding.
 template <class A, class B>
 struct TorsionSpring {
   static constexpr std::string_view kind = "TorsionSpring";

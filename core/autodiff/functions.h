@@ -18,9 +18,9 @@ namespace dalembert {
 /// The functions of <cmath> for a number D that carries derivatives, each with its first and second one; see
 /// Dual::chain. They are called without std::.
 ///
-/// Where a function has a kink or a jump, it tells Branches on which side of it its argument lies: abs, max,
-/// min and what is made of them, copysign, and floor, ceil, trunc, round, fmod, whose derivatives are those
-/// between their jumps. What has no derivative somewhere (sqrt at 0) gives one there that is not finite.
+/// Where a function has a kink or a jump, it reports the side of its argument to Branches: abs, max, min and
+/// what is made of them, copysign, and floor, ceil, trunc, round, fmod, whose derivatives are those between
+/// their jumps. What has no derivative somewhere (sqrt at 0) gives one there that is not finite.
 ///
 /// They are friends, not templates, so that numbers convert: max(x, 0.0).
 template <class D>

@@ -183,9 +183,9 @@ class MultiplierForceBatch {
 template <class Batch, class Element>
 struct BatchOf {
   [[nodiscard]] static std::unique_ptr<Batch> empty();
-  /// Adds the element and says so, if the batch is of its type.
+  /// Adds the element if the batch is of its type, else returns false.
   static bool add(Batch& batch, const Element& element);
-  /// Puts the element in the place of number `i` and says so, if the batch is of its type.
+  /// Puts the element in the place of number `i` if the batch is of its type, else returns false.
   static bool replace(Batch& batch, std::size_t i, const Element& element);
 };
 

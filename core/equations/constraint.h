@@ -181,7 +181,7 @@ using Residual = std::remove_cvref_t<decltype(call<takes_time<C>>(
 
 }  // namespace detail
 
-/// Scalar equations of a constraint type; 0 of what is none.
+/// Scalar equations of a constraint type; 0 of any other type.
 template <class C>
 inline constexpr int rows_of_constraint = 0;
 template <class C>

@@ -96,7 +96,7 @@ LagrangeTerms<N - 1> Routhian<N>::terms(double t, const Vec<N - 1>& q, const Vec
 }
 
 /// A Lagrangian without one of its cyclic coordinates: the system of the others, and the Routhian, which
-/// tells the rate of that one along their motion.
+/// gives the rate of that one along their motion.
 template <int N>
 struct RouthReduction {
   LagrangianSystem<N - 1> system;

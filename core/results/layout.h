@@ -16,8 +16,8 @@ class AppliedForces;
 
 /// Names and places: where each particle and constraint of a scene stands in the flat arrays.
 ///
-/// Everything says which scene added it, itself or one that it was copied from. So a handle addresses what it
-/// was given for, in copies as well, and nothing else that happens to have the same number.
+/// Everything knows which scene added it, itself or one that it was copied from. So a handle addresses what
+/// it was given for, in copies as well, and nothing else that happens to have the same number.
 struct Layout {
   struct Particle {
     std::string name;

@@ -34,9 +34,9 @@ concept MadeOfParticles = requires(const B& body) {
 ///
 /// Every function throws InvalidArgument for a handle that is not one of this scene's. Where the state does
 /// not determine them forces of constraint throw UndeterminedForce, see `is_determined`, and so do
-/// accelerations: those that it may determine though the forces which share them are not.
+/// accelerations; it may determine these though not the forces that act there.
 ///
-/// What is added here is given on in Readings.
+/// What is added here is passed on in Readings.
 template <int D>
 class Sample {
  public:

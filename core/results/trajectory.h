@@ -60,8 +60,8 @@ struct Record {
   /// How many of `values` each sample has.
   [[nodiscard]] std::size_t stride() const;
 
-  /// The whole run as comma-separated values, all digits, behind lines that start with '#' and say
-  /// what it is: scene, stepper, tolerance, versions, sign convention, statistics. Columns: t;
+  /// The whole run as comma-separated values, all digits, behind lines that start with '#' and describe it:
+  /// scene, stepper, tolerance, versions, sign convention, statistics. Columns: t;
   /// position and velocity of each particle, angle and rate of each rotor; multipliers of each
   /// constraint and its force on each particle it acts on, "nan" where the state does not determine it;
   /// energy.

@@ -203,8 +203,8 @@ class System {
   /// What the scene consists of, its degrees of freedom, and what was left out because nothing in
   /// it needs it.
   [[nodiscard]] std::string describe() const;
-  /// The same with what only a state can tell: how many constraint equations are independent there,
-  /// and which velocity constraints are integrable.
+  /// The same with what only a state determines: how many constraint equations are independent there, and
+  /// which velocity constraints are integrable.
   [[nodiscard]] std::string describe(double t, std::span<const double> q) const;
 
  private:

@@ -41,7 +41,7 @@ struct Constants {
   /// below what passing at a distance would show, far above the accuracy of the extrapolated state.
   double vanished = 1e-3;
   /// If it does not fall to this part it does not vanish. In between, the extrapolation is too coarse to
-  /// tell.
+  /// know.
   double clearly_there = 0.2;
   /// Steps that are short compared with the time left look for it from here on.
   double in_sight = 0.1;

@@ -98,7 +98,7 @@ void Contacts::find_gaps(const Instant& at) const {
   gaps_at_ = at.t;
 }
 
-double Contacts::watched(std::size_t contact, const FlatSample& now) const {
+double Contacts::switching(std::size_t contact, const FlatSample& now) const {
   const Contact& c = contacts_[contact];
   if (c.closed) return c.sign * now.lambda[c.row] + tolerance_ * largest_force(*stated_, now);
   if (now.time == c.opened_at) return c.rate_at_opening;
@@ -111,8 +111,8 @@ double Contacts::watched(std::size_t contact, const FlatSample& now) const {
   return std::abs(gap) <= none ? 0.0 : gap / since;
 }
 
-/// Contacts that are closed or have no gap, that have just reached 0, and that will before times can be told
-/// apart.
+/// Contacts that are closed or have no gap, those that have just reached 0, and those that will within the
+/// resolution of times.
 std::vector<std::size_t> Contacts::touching(const Instant& at, const std::vector<std::size_t>& fallen) const {
   const double same_time = tolerance_ * scales_.time;
   std::vector<std::size_t> touching;

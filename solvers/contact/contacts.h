@@ -58,7 +58,7 @@ class Contacts {
   /// closed one; the gap of an open one over the time since it opened, which has no root there. (One that has
   /// just opened and is not above the surface yet, within the error of a step, but separates counts by its
   /// rate.) A force that is 0 to the tolerance, relative to the others, has not fallen.
-  [[nodiscard]] double watched(std::size_t contact, const FlatSample& now) const;
+  [[nodiscard]] double switching(std::size_t contact, const FlatSample& now) const;
   /// Notes which open contacts have separated where a step ends, or a change. Throws StepFailure, naming it,
   /// if one has been penetrated unnoticed.
   void require_open(const FlatSample& now);
@@ -77,7 +77,7 @@ class Contacts {
   Change begin(const Instant& start);
   /// A contact driven back to its surface by an impact on others, of those that touched and were separating:
   /// its impact is next, at the same time.
-  [[nodiscard]] std::optional<std::size_t> driven() const;
+  [[nodiscard]] std::optional<std::size_t> approaching() const;
   /// Goes on from an instant at which the switching functions of some contacts have fallen to 0. Throws
   /// StepFailure where no velocities or accelerations satisfy (1), (2), naming the contacts; EquationFault.
   /// With friction accelerations are not those of (2): what touches and does not separate is closed then,
@@ -117,11 +117,11 @@ class Contacts {
   [[nodiscard]] std::optional<double> limit_of_impacts(const Change& change, const Instant& at);
   static void rest(const Coupling& coupling, const std::vector<std::size_t>& resting, double limit,
                    Change& change);
-  std::vector<Eigen::Index> part(const std::vector<std::size_t>& touched, const Eigen::VectorXd& U, double t,
-                                 Change& change);
+  std::vector<Eigen::Index> open_separating(const std::vector<std::size_t>& touched, const Eigen::VectorXd& U,
+                                            double t, Change& change);
   [[nodiscard]] double still(const Contact& contact) const;
-  void find_driven(const Instant& at);
-  [[nodiscard]] bool join_slow(const Instant& at, std::vector<std::size_t>& touched) const;
+  void update_rates(const Instant& at);
+  [[nodiscard]] bool add_slow(const Instant& at, std::vector<std::size_t>& touched) const;
   void close(const std::vector<std::size_t>& touched, const std::vector<std::size_t>& fallen,
              const std::vector<Eigen::Index>& resting, double t, Change& change);
   void accelerate(Coupling& coupling, const std::vector<std::size_t>& touched,

@@ -107,7 +107,7 @@ double DryFriction::round_off_of(const Rough& rough, std::span<const double> a,
 /// The stepper takes what slides on past rest, in its direction: a single slip velocity keeps that, two have
 /// none at rest and the run stops before, at a speed that is rest to its tolerance. What is 0 to round-off,
 /// of what slides without moving, has not fallen.
-double DryFriction::watched(std::size_t function, const FlatSample& now) const {
+double DryFriction::switching(std::size_t function, const FlatSample& now) const {
   const Rough& r = all_[function / 2];
   const double force = round_off_of(r, now.a, now.lambda);
   const double lambda = now.lambda[r.pressing_row];

@@ -46,7 +46,7 @@ class DryFriction {
   /// until it sticks or slides, and the normal force, if that may change its sign.
   [[nodiscard]] std::size_t functions() const { return 2 * all_.size(); }
   [[nodiscard]] std::string label(std::size_t function) const;
-  [[nodiscard]] double watched(std::size_t function, const FlatSample& now) const;
+  [[nodiscard]] double switching(std::size_t function, const FlatSample& now) const;
 
   /// Decides what sticks, at a state where constraints with these numbers are open. `fallen` is the switching
   /// function that has fallen, in the motion `before`. Throws StepFailure, naming the constraints, where

@@ -95,7 +95,7 @@ Contacts::Change Contacts::begin(const Instant& start) {
 }
 
 /// Updates the rates of contacts that opened at this very time, after the impacts of others.
-void Contacts::find_driven(const Instant& at) {
+void Contacts::update_rates(const Instant& at) {
   find_gaps(at);
   for (Contact& c : contacts_) {
     if (c.closed || c.opened_at != at.t) continue;
@@ -104,7 +104,7 @@ void Contacts::find_driven(const Instant& at) {
   }
 }
 
-std::optional<std::size_t> Contacts::driven() const {
+std::optional<std::size_t> Contacts::approaching() const {
   for (std::size_t i = 0; i < contacts_.size(); ++i)
     if (!contacts_[i].closed && contacts_[i].rate_at_opening < 0.0) return i;
   return std::nullopt;
@@ -112,7 +112,7 @@ std::optional<std::size_t> Contacts::driven() const {
 
 /// Adds contacts left at their surface by impacts at one time, no faster than velocities are known: what
 /// bounces to and fro in a slot without play would else be open on both sides. Whether there was any.
-bool Contacts::join_slow(const Instant& at, std::vector<std::size_t>& touched) const {
+bool Contacts::add_slow(const Instant& at, std::vector<std::size_t>& touched) const {
   const std::size_t before = touched.size();
   find_gaps(at);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
@@ -129,7 +129,7 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
     return Change{v, v, std::vector<double>(stated_->rows())};
   };
   Change change = unchanged();
-  const bool known_roughly = !begun_ || driven();
+  const bool known_roughly = !begun_ || approaching();
   begun_ = true;
   auto touched = touching(at, fallen);
   if (touched.empty()) return change;
@@ -154,7 +154,7 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
   }
   for (Contact& c : contacts_) c.moved = false;
   const Instant after{at.t, at.q, change.v};
-  if (known_roughly && join_slow(after, touched)) {
+  if (known_roughly && add_slow(after, touched)) {
     coupling.emplace(only(touched), numbers(touched), after);
     U = coupling->rates(after.v);
     for (std::size_t k = 0; k < touched.size(); ++k) {
@@ -162,13 +162,13 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
       if (std::abs(rate) <= still(contacts_[touched[k]])) rate = 0.0;
     }
   }
-  const auto resting = part(touched, U, at.t, change);
+  const auto resting = open_separating(touched, U, at.t, change);
   if (friction_) {
     close(touched, fallen, resting, at.t, change);
   } else {
     accelerate(*coupling, touched, fallen, resting, at, change);
   }
-  find_driven(after);
+  update_rates(after);
   settle();
   return change;
 }
@@ -187,8 +187,8 @@ void Contacts::close(const std::vector<std::size_t>& touched, const std::vector<
 }
 
 /// Opens those that separate; returns the others.
-std::vector<Index> Contacts::part(const std::vector<std::size_t>& touched, const VectorXd& U, double t,
-                                  Change& change) {
+std::vector<Index> Contacts::open_separating(const std::vector<std::size_t>& touched, const VectorXd& U,
+                                             double t, Change& change) {
   std::vector<Index> resting;
   for (Index k = 0; k < U.size(); ++k) {
     if (U[k] > 0.0) {

@@ -15,9 +15,9 @@ std::string Transitions::label(std::size_t function) const {
                                      : friction_.label(function - contacts_.size());
 }
 
-double Transitions::watched(std::size_t function, const FlatSample& now) const {
-  return function < contacts_.size() ? contacts_.watched(function, now)
-                                     : friction_.watched(function - contacts_.size(), now);
+double Transitions::switching(std::size_t function, const FlatSample& now) const {
+  return function < contacts_.size() ? contacts_.switching(function, now)
+                                     : friction_.switching(function - contacts_.size(), now);
 }
 
 void Transitions::add(const std::vector<Contacts::Happening>& contacts,

@@ -33,7 +33,7 @@ class Transitions {
   /// Switching functions, which fall through 0 where something changes, and what each belongs to.
   [[nodiscard]] std::size_t functions() const { return contacts_.size() + friction_.functions(); }
   [[nodiscard]] std::string label(std::size_t function) const;
-  [[nodiscard]] double watched(std::size_t function, const FlatSample& now) const;
+  [[nodiscard]] double switching(std::size_t function, const FlatSample& now) const;
   /// See Contacts.
   void require_open(const FlatSample& now) { contacts_.require_open(now); }
 
@@ -42,7 +42,7 @@ class Transitions {
   /// Goes on from where a switching function has fallen to 0. Throws likewise.
   [[nodiscard]] Change pass(const FlatSample& at, std::size_t function);
   /// See Contacts.
-  [[nodiscard]] std::optional<std::size_t> driven() const { return contacts_.driven(); }
+  [[nodiscard]] std::optional<std::size_t> approaching() const { return contacts_.approaching(); }
   /// Goes on from a given state, reached by impulses, with equations whose parameters may differ. Throws
   /// likewise.
   [[nodiscard]] Change restate(const std::shared_ptr<const System>& stated, const Instant& at,

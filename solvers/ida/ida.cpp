@@ -115,8 +115,8 @@ bool IdaStepper::State::asks_for_too_much() const {
          scales.rounding(instant(t, y.get()).q);
 }
 
-/// After a step: changes the highest order if the guard says so. IDA has no way down but to begin anew
-/// at order 1.
+/// After a step: changes the highest order if the guard does. IDA can lower it only by beginning anew at
+/// order 1.
 void IdaStepper::State::watch_order() {
   double h = 0.0;
   check(IDAGetLastStep(ida.get(), &h), "IDAGetLastStep");

@@ -24,7 +24,9 @@ std::string at(double t) {
 
 }  // namespace
 
-void KeptSteps::begin(const Start& start, double t) { legs_.push_back({system_, start, t, steps_.size()}); }
+void KeptSteps::begin(const Start& start, double t) {
+  segments_.push_back({system_, start, t, steps_.size()});
+}
 
 void KeptSteps::change(double t, std::shared_ptr<const System> system) {
   steps_.back().end = t;
@@ -75,14 +77,14 @@ void KeptSteps::interpolate(const Step& step, double t, Moment& m, Springs& spri
 
 void KeptSteps::read(std::span<const double> times, Record& out) const {
   Springs springs(system_->rows());
-  const Leg* leg = nullptr;
+  const Segment* segment = nullptr;
   std::optional<Reader> reader;
   std::optional<Moment> now;
   for (const double t : times) {
     const Step& step = step_at(t);
     const auto number = static_cast<std::size_t>(&step - steps_.data());
-    const Leg& own = *std::prev(std::ranges::upper_bound(legs_, number, {}, &Leg::first_step));
-    if (std::exchange(leg, &own) != &own) {
+    const Segment& own = *std::prev(std::ranges::upper_bound(segments_, number, {}, &Segment::first_step));
+    if (std::exchange(segment, &own) != &own) {
       reader.emplace(*own.system, own.start, own.t, tolerance_);
       now.emplace(*own.system, own.start);
       out.go_on_with(own.system->layout());

@@ -32,7 +32,7 @@ class KeptSteps final : public DenseOutput {
   void read(std::span<const double> times, Record& out) const override;
 
  private:
-  struct Leg {
+  struct Segment {
     std::shared_ptr<const System> system;
     Start start;
     double t;
@@ -51,7 +51,7 @@ class KeptSteps final : public DenseOutput {
 
   std::shared_ptr<const System> system_;
   double tolerance_;
-  std::vector<Leg> legs_;
+  std::vector<Segment> segments_;
   std::vector<Step> steps_;
   std::size_t end_ = 0;         // of the values of all steps
   std::vector<double> values_;  // per step and node: q, v, and of springs lambda and its derivatives

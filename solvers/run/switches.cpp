@@ -47,8 +47,8 @@ void Switches::find(const Instant& at, std::span<const double> lambda,
   }
 }
 
-/// The inner product of a friction's slopes: negative if it turned. NaN-free: one that cannot be told counts
-/// as not turned.
+/// The inner product of a friction's slopes: negative if it turned. NaN-free: an unknown one counts as not
+/// turned.
 double Switches::turn(const Side& a, const Side& b, std::size_t friction) const {
   double product = 0.0;
   for (std::size_t k = first_[friction]; k < first_[friction + 1] && k < a.slope.size() && k < b.slope.size();
