@@ -40,11 +40,10 @@ void require_no_force_reads(const System& system) {
   for (std::size_t k = 0; k < system.friction_pattern().size(); ++k) {
     for (const std::size_t c : system.contacts()) {
       const Layout::Constraint& contact = system.layout()->constraints[c];
-      if (system.friction_pattern()[k].column != static_cast<std::size_t>(contact.first_row)) continue;
-      throw InvalidScene(
-          system.force_of_friction(k) + " reads the force of " + contact.label() +
-          ", which is one-sided: state that one as it holds both ways, and end the run by an event "
-          "where its force vanishes");
+      if (system.friction_pattern()[k].column != contact.places().front()) continue;
+      throw InvalidScene(system.force_of_friction(k) + " reads the force of " + contact.label() +
+                         ", which is one-sided: state it as a bilateral one, and end the run by an event "
+                         "where its force vanishes");
     }
   }
 }
@@ -87,7 +86,8 @@ struct DALEMBERT_HIDDEN Integrator::State {
     if (numbers.empty()) return nullptr;
     require_no_force_reads(*system);
     begin.nearest_contact = nearest_contact(*system, {options.t_start, begin.q, begin.v});
-    Start start = first_start(system->without(numbers), begin.q, begin.v, options, begin.nearest_contact);
+    Start start =
+        first_start(Problem(system->without(numbers)), begin.q, begin.v, options, begin.nearest_contact);
     const Instant at{options.t_start, start.q, start.v};
     auto found = std::make_unique<Transitions>(system, start.scales, options.tolerance, at);
     begin.change = found->begin(at);
@@ -107,7 +107,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
   void step_once(double wanted) {
     if (++steps > options.max_steps) {
       throw StepFailure{"max_steps = " + std::to_string(options.max_steps) +
-                            " is used up; raise it, or ask for a looser tolerance",
+                            " was reached; raise it, or ask for a looser tolerance",
                         stepping.time()};
     }
     if (log) log->carry_out(stepping);
@@ -155,7 +155,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
   }
 
   [[noreturn]] void fail(const std::string& why, double time) {
-    const std::string suspect = stepping.suspect();
+    const std::string suspect = stepping.unbounded_multiplier();
     auto kept = std::make_shared<Record>(record);
     kept->statistics = statistics();
     kept->dense = stepping.dense();

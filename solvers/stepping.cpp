@@ -1,32 +1,33 @@
 #include "dalembert/solvers/stepping.h"
 
 #include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/erk/erk.h>
 #include <dalembert/solvers/ida/ida.h>
 #include <dalembert/solvers/run/diagnosis.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace dalembert {
 
 namespace {
 
-std::unique_ptr<TimeStepper> make_stepper(const System& system, const Start& start, const Options& options) {
-  if (options.stepper == Stepper::erk) return std::make_unique<ErkStepper>(system, start, options);
-  return std::make_unique<IdaStepper>(system, start, options);
+std::unique_ptr<TimeStepper> make_stepper(const Problem& problem, const Start& start,
+                                          const Options& options) {
+  if (options.stepper == Stepper::erk) return std::make_unique<ErkStepper>(problem, start, options);
+  return std::make_unique<IdaStepper>(problem, start, options);
 }
 
 }  // namespace
 
-Start first_start(const System& system, std::span<const double> q, std::span<const double> v,
+Start first_start(const Problem& problem, std::span<const double> q, std::span<const double> v,
                   const Options& options, double nearest_contact) {
-  Start start = consistent_start(system, q, v, options, nearest_contact);
+  Start start = consistent_start(problem, q, v, options, nearest_contact);
   if (!start.scales.of_path) return start;
   try {
-    ErkStepper first(system, start, options);
+    ErkStepper first(problem, start, options);
     first.step(options.t_end);
     const Scales& scales = first.scales();
     start.scales.of_path = scales.way.length > Scales::least;  // else it rests, and any length will do
@@ -37,30 +38,35 @@ Start first_start(const System& system, std::span<const double> q, std::span<con
   return start;
 }
 
-Stepping::Stepping(std::shared_ptr<const System> system, std::span<const double> q, std::span<const double> v,
+Stepping::Stepping(std::shared_ptr<const System> of, std::span<const double> q, std::span<const double> v,
                    const Options& options, double nearest_contact)
-    : system_(std::move(system)),
+    : problem_(std::move(of)),
       options_(options),
-      start_(first_start(*system_, q, v, options, nearest_contact)),
+      start_(first_start(problem_, q, v, options, nearest_contact)),
       lambda_at_start_(start_.lambda),
       state_{start_.q, start_.v} {
-  if (system_->compliant()) springs_ = Springs(start_.lambda.size());
+  if (system().compliant()) springs_ = Springs(start_.lambda.size());
   const auto number = [](std::size_t equations) { return static_cast<int>(equations); };
   past_.degrees_of_freedom =
-      number(system_->coordinates() + system_->compliant_rows()) - number(start_.rows.size());
-  past_.redundant_equations = number(system_->rows_in_force() - start_.rows.size());
-  if (options.dense) kept_ = std::make_shared<KeptSteps>(system_, options.tolerance);
+      number(system().coordinates() + system().compliant_rows()) - number(start_.rows.size());
+  past_.redundant_equations = number(system().rows_in_force() - start_.rows.size());
+  if (options.dense) kept_ = std::make_shared<KeptSteps>(shared_system(), options.tolerance);
   begin(options_);
   unkept_ = options.t_start;
   keep_step();
 }
 
-/// At options.t_start, from start_.
+/// At options.t_start, from start_. If that fails, what there was still tells how far the run has come.
 void Stepping::begin(const Options& options) {
-  reader_.emplace(*system_, start_, options.t_start, options_.tolerance);
-  stepper_ = make_stepper(*system_, start_, options);
-  if (system_->frictional() && options_.stepper == Stepper::ida)
-    sticking_.emplace(*system_, start_, options.t_start, options_.tolerance);
+  Reader reader(problem_, start_, options.t_start, options_.tolerance);
+  auto stepper = make_stepper(problem_, start_, options);
+  std::optional<Sticking> sticking;
+  if (system().frictional() && options_.stepper == Stepper::ida)
+    sticking.emplace(problem_, start_, options.t_start, options_.tolerance);
+  reader_.emplace(std::move(reader));
+  stepper_ = std::move(stepper);
+  sticking_.reset();
+  if (sticking) sticking_.emplace(std::move(*sticking));
   angle_ = {options.t_start, 1.0};
   if (kept_) own_steps().begin(start_, options.t_start);
 }
@@ -117,13 +123,13 @@ const Stepping::State& Stepping::interpolate(double t) {
 
 /// If they are part of the stepper's state.
 const Springs* Stepping::springs_at(double t) {
-  return system_->compliant() && stepper_->springs(t, springs_) ? &springs_ : nullptr;
+  return system().compliant() && stepper_->springs(t, springs_) ? &springs_ : nullptr;
 }
 
 /// The rows in use are independent at the start of the run; on the way they may come to depend on each
 /// other while others do not.
 void Stepping::exchange_rows() {
-  if (start_.rows.size() == system_->rows_in_force()) return;
+  if (start_.rows.size() == system().rows_in_force()) return;
   const State& now = interpolate(time());
   if (reader_->better_rows({time(), now.q, now.v})) restart(handed_over_ ? Stepper::erk : options_.stepper);
 }
@@ -159,10 +165,10 @@ void Stepping::watch_sliding() {
 void Stepping::begin_changed(double t, std::shared_ptr<const System> system, std::span<const double> q,
                              std::span<const double> v) {
   keep_step();  // if it could not be kept before
-  Start start = dalembert::begin_changed(*system, start_, t, q, v, options_.tolerance);
+  Problem problem(std::move(system));
+  Start start = dalembert::begin_changed(problem, start_, t, q, v, options_.tolerance);
   if (start.scales.of_path) {  // a first step, see IdaStepper, must advance the time
-    const double rounding =
-        constants.roundings_of_path * std::numeric_limits<double>::epsilon() * std::abs(t);
+    const double rounding = constants.roundings_of_path * epsilon * std::abs(t);
     Way way = start.scales.way;
     way.length = std::max(
         way.length, way.speed * rounding / (constants.first_implicit_step * std::sqrt(options_.tolerance)));
@@ -171,12 +177,11 @@ void Stepping::begin_changed(double t, std::shared_ptr<const System> system, std
   past_ = statistics();
   past_.advice.clear();
   start_ = std::move(start);
-  sticking_.reset();
   handed_over_ = false;
   Options from_here = options_;
   from_here.t_start = t;
-  if (kept_) own_steps().change(t, system);
-  system_ = std::move(system);
+  if (kept_) own_steps().change(t, problem.shared_system());
+  problem_ = std::move(problem);
   begin(from_here);
 }
 
@@ -185,7 +190,7 @@ void Stepping::restart(Stepper kind) {
   const double t = time();
   State now = interpolate(t);
   // The explicit stepper takes -g/C for the forces of compliant constraints: g must be as exact.
-  if (system_->compliant())
+  if (system().compliant())
     reader_->manifold().project_positions(t, now.q, now.v, 0.1 * start_.scales.rounding(now.q));
   past_ = statistics();
   past_.advice.clear();  // of a crossing it would be about the wrong stepper
@@ -194,8 +199,9 @@ void Stepping::restart(Stepper kind) {
   from_here.stepper = kind;
   // Close to a singular position a step of the explicit stepper is to err by no more than one of the other.
   if (kind != options_.stepper)
-    from_here.tolerance = std::max(constants.share_of_a_step * options_.tolerance, smallest_tolerance);
-  start_ = begin_anew(*system_, start_, t, now.q, now.v);
+    from_here.tolerance =
+        std::max(tolerance_of_a_step(options_.stepper, options_.tolerance), smallest_tolerance);
+  start_ = begin_anew(problem_, start_, t, now.q, now.v);
   begin(from_here);
 }
 
@@ -207,13 +213,14 @@ Statistics Stepping::statistics() const {
   return s;
 }
 
-std::string Stepping::suspect() {
+std::string Stepping::unbounded_multiplier() {
   try {
     State now = interpolate(time());
     std::vector<double> a(now.q.size()), lambda(lambda_at_start_.size());
     Manifold& manifold = reader_->manifold();
     if (!manifold.solve_motion(time(), now.q, now.v, a, lambda)) return {};
-    return unbounded_multiplier(*system_, start_.scales, manifold.equations().w, lambda, lambda_at_start_);
+    return dalembert::unbounded_multiplier(system(), start_.scales, manifold.equations().w, lambda,
+                                           lambda_at_start_);
   } catch (const std::exception&) {
     return {};  // the run is stopping: what stops it is known already
   }

@@ -12,14 +12,14 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// The start of a run. What has no length but that of its path gets that of a first explicit step, whose
+/// The start of a run. A scene without a characteristic length gets that of a first explicit step, whose
 /// error is within the tolerance of its own length. Throws InconsistentStart.
 /// A contact that is not in force may be as near as `nearest_contact`.
-[[nodiscard]] Start first_start(const System& system, std::span<const double> q, std::span<const double> v,
+[[nodiscard]] Start first_start(const Problem& problem, std::span<const double> q, std::span<const double> v,
                                 const Options& options, double nearest_contact);
 
 /// A system's way through time: the stepper that the options ask for, restarted with other rows where those
-/// in use come to depend on each other, and giving way to the explicit one at isolated singular positions.
+/// in use come to depend on each other, and handed over to the explicit one at isolated singular positions.
 /// What is read from it lies on the constraints.
 class Stepping {
  public:
@@ -28,9 +28,12 @@ class Stepping {
            const Options& options, double nearest_contact);
 
   [[nodiscard]] double time() const { return stepper_->time(); }
+  [[nodiscard]] const Problem& problem() const { return problem_; }
   /// The one whose equations are stepped.
-  [[nodiscard]] const System& system() const { return *system_; }
-  [[nodiscard]] const std::shared_ptr<const System>& shared_system() const { return system_; }
+  [[nodiscard]] const System& system() const { return problem_.system(); }
+  [[nodiscard]] const std::shared_ptr<const System>& shared_system() const {
+    return problem_.shared_system();
+  }
   /// See TimeStepper.
   [[nodiscard]] int degree() const { return stepper_->degree(); }
   [[nodiscard]] double tolerance() const { return options_.tolerance; }
@@ -48,7 +51,7 @@ class Stepping {
   [[nodiscard]] const Start& start() const { return start_; }
   /// The constraint whose force has grown without bound where the last step ended, in words; empty if there
   /// is none.
-  [[nodiscard]] std::string suspect();
+  [[nodiscard]] std::string unbounded_multiplier();
   /// All steps, if the options ask to keep them; else null.
   [[nodiscard]] std::shared_ptr<const DenseOutput> dense() const { return kept_; }
   /// Of all its steppers, without the run time.
@@ -72,7 +75,7 @@ class Stepping {
   void watch_sliding();
   void restart(Stepper kind);
 
-  std::shared_ptr<const System> system_;
+  Problem problem_;
   Options options_;
   Start start_;
   std::vector<double> lambda_at_start_;

@@ -18,10 +18,9 @@ inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
 ///
 ///   S e (1 + t/(2 T)),
 ///
-/// with e = tolerance/20 for the implicit stepper, e = tolerance for the explicit one. A motion that
-/// amplifies errors multiplies this by how much it does.
+/// with e = `tolerance_of_a_step`. A motion that amplifies errors multiplies this by how much it does.
 [[nodiscard]] inline double added_up(const Run& run, double tolerance, double own_times) {
-  const double of_a_step = run.stepper == Stepper::ida ? tolerance / 20.0 : tolerance;
+  const double of_a_step = tolerance_of_a_step(run.stepper, tolerance);
   return static_cast<double>(run.statistics.steps) * of_a_step * (1.0 + 0.5 * own_times);
 }
 
@@ -62,7 +61,7 @@ template <int D, class Measure>
                                     std::string_view why);
 
 /// A stiff scene in the explicit stepper, whose steps are limited by stability: it may reach the end, or must
-/// report that max_steps are used up.
+/// report that max_steps were reached.
 [[nodiscard]] inline Result unless_too_stiff(const std::function<Result()>& run, Stepper stepper) {
   return unless_refused(run, stepper == Stepper::erk, "max_steps");
 }

@@ -8,7 +8,7 @@ namespace {
 /// What an evaluation of rods costs, per rod.
 template <int D, class Kernel>
 void on_rods(benchmark::State& state, const Kernel& kernel) {
-  const Problem rods(loose_rods<D>(static_cast<int>(state.range(0))));
+  const Posed rods(loose_rods<D>(static_cast<int>(state.range(0))));
   kernel(state, rods);
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
@@ -16,10 +16,10 @@ void on_rods(benchmark::State& state, const Kernel& kernel) {
 /// Residuals, velocity residuals and gradients.
 template <int D>
 void gradient(benchmark::State& state) {
-  on_rods<D>(state, [](benchmark::State& running, const Problem& rods) {
-    auto out = rods.system.evaluation();
+  on_rods<D>(state, [](benchmark::State& running, const Posed& rods) {
+    auto out = rods.system().evaluation();
     for (auto _ : running) {
-      rods.system.evaluate(rods.instant(), out);
+      rods.system().evaluate(rods.instant(), out);
       benchmark::DoNotOptimize(out.w.data());
       benchmark::ClobberMemory();
     }
@@ -28,10 +28,10 @@ void gradient(benchmark::State& state) {
 
 template <int D>
 void hessian(benchmark::State& state) {
-  on_rods<D>(state, [](benchmark::State& running, const Problem& rods) {
-    auto out = rods.system.linearisation();
+  on_rods<D>(state, [](benchmark::State& running, const Posed& rods) {
+    auto out = rods.system().linearisation();
     for (auto _ : running) {
-      rods.system.linearise(rods.instant(), rods.start.lambda, out);
+      rods.system().linearise(rods.instant(), rods.start.lambda, out);
       benchmark::DoNotOptimize(out.stiffness.data());
       benchmark::ClobberMemory();
     }
@@ -41,10 +41,10 @@ void hessian(benchmark::State& state) {
 /// gamma = psi_q v + psi_t.
 template <int D>
 void bias(benchmark::State& state) {
-  on_rods<D>(state, [](benchmark::State& running, const Problem& rods) {
+  on_rods<D>(state, [](benchmark::State& running, const Posed& rods) {
     std::vector<double> gamma(rods.start.lambda.size());
     for (auto _ : running) {
-      rods.system.bias(rods.instant(), gamma);
+      rods.system().bias(rods.instant(), gamma);
       benchmark::DoNotOptimize(gamma.data());
       benchmark::ClobberMemory();
     }

@@ -1,7 +1,6 @@
 #include <dalembert/bench/kernels/scenes.h>
-#include <dalembert/solvers/linear/kkt.h>
 #include <dalembert/solvers/linear/ldl.h>
-#include <dalembert/solvers/linear/schur.h>
+#include <dalembert/solvers/linear/saddle.h>
 
 #include <benchmark/benchmark.h>
 
@@ -13,9 +12,9 @@ namespace {
 /// Time per bead of a chain. Each solve has a fresh right-hand side: solved in place over and over it would
 /// under- or overflow, and such numbers are slow.
 template <class Matrix>
-void solve(benchmark::State& state, const Problem& problem, Matrix& matrix) {
-  if (!matrix.factorise(problem.w())) state.SkipWithError("singular");
-  const std::vector<double> b = problem.right_hand_side();
+void solve(benchmark::State& state, const Posed& posed, Matrix& matrix) {
+  if (!matrix.factorise({.w = posed.w()})) state.SkipWithError("singular");
+  const std::vector<double> b = posed.right_hand_side();
   std::vector<double> x = b;
   for (auto _ : state) {
     std::ranges::copy(b, x.begin());
@@ -27,31 +26,32 @@ void solve(benchmark::State& state, const Problem& problem, Matrix& matrix) {
 }
 
 template <class Matrix>
-void factorise(benchmark::State& state, const Problem& problem, Matrix& matrix) {
+void factorise(benchmark::State& state, const Posed& posed, Matrix& matrix) {
   bool regular = true;
-  for (auto _ : state) regular = matrix.factorise(problem.w()) && regular;
+  for (auto _ : state) regular = matrix.factorise({.w = posed.w()}) && regular;
   if (!regular) state.SkipWithError("singular");
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 
 /// S = W M^-1 W^T summed up and factored by LDL. What assembly takes of it is this less `ldl_factorise`.
 void schur_assemble_and_factorise(benchmark::State& state) {
-  const Problem problem = chain(static_cast<int>(state.range(0)));
-  SchurComplement s(problem.system, problem.start.rows.rows);
-  factorise(state, problem, s);
+  const Posed posed = chain(static_cast<int>(state.range(0)));
+  SchurComplement s(posed.pattern()->complement());
+  factorise(state, posed, s);
 }
 
 /// LDL alone, on a matrix of the pattern and kind of a chain's S: tridiagonal, positive definite.
 void ldl_factorise(benchmark::State& state) {
   const auto n = static_cast<std::size_t>(state.range(0));
-  std::vector<SparseLdl::Entry> entries;
+  std::vector<LdlPattern::Entry> entries;
   for (std::size_t i = 0; i < n; ++i) {
     entries.push_back({i, i});
     if (i > 0) entries.push_back({i, i - 1});
   }
-  SparseLdl matrix(n, entries);
+  const LdlPattern pattern(n, entries);
+  SparseLdl matrix(pattern);
   for (std::size_t k = 0; k < entries.size(); ++k) {
-    matrix.values()[matrix.place(k)] = entries[k].row == entries[k].column ? 2.0 : -0.5;
+    matrix.values()[pattern.place(k)] = entries[k].row == entries[k].column ? 2.0 : -0.5;
   }
   bool regular = true;
   for (auto _ : state) regular = matrix.factorise() && regular;
@@ -60,22 +60,22 @@ void ldl_factorise(benchmark::State& state) {
 }
 
 void schur_solve(benchmark::State& state) {
-  const Problem problem = chain(static_cast<int>(state.range(0)));
-  SchurComplement s(problem.system, problem.start.rows.rows);
-  solve(state, problem, s);
+  const Posed posed = chain(static_cast<int>(state.range(0)));
+  SchurComplement s(posed.pattern()->complement());
+  solve(state, posed, s);
 }
 
 /// [M -W^T; W 0] as a whole.
 void klu_assemble_and_factorise(benchmark::State& state) {
-  const Problem problem = chain(static_cast<int>(state.range(0)));
-  KktMatrix kkt(problem.system, problem.start.rows, KktMatrix::Forces::none);
-  factorise(state, problem, kkt);
+  const Posed posed = chain(static_cast<int>(state.range(0)));
+  WholeMatrix whole(posed.pattern()->whole(SaddleValues::Blocks::symmetric));
+  factorise(state, posed, whole);
 }
 
 void klu_solve(benchmark::State& state) {
-  const Problem problem = chain(static_cast<int>(state.range(0)));
-  KktMatrix kkt(problem.system, problem.start.rows, KktMatrix::Forces::none);
-  solve(state, problem, kkt);
+  const Posed posed = chain(static_cast<int>(state.range(0)));
+  WholeMatrix whole(posed.pattern()->whole(SaddleValues::Blocks::symmetric));
+  solve(state, posed, whole);
 }
 
 BENCHMARK(schur_assemble_and_factorise)->Arg(1000);

@@ -24,29 +24,33 @@ template <int D>
 }
 
 /// A scene's equations and a state of it, for a kernel to be called on.
-struct DALEMBERT_HIDDEN Problem {
+struct DALEMBERT_HIDDEN Posed {
   template <int D>
-  explicit Problem(const Scene<D>& scene, const Options& options = {.t_end = 1.0})
-      : system(scene.system()),
-        start(consistent_start(system, scene.initial_positions(), scene.initial_velocities(), options)),
-        equations(system.evaluation()) {
-    system.evaluate(instant(), equations);
+  explicit Posed(const Scene<D>& scene, const Options& options = {.t_end = 1.0})
+      : problem(scene.system()),
+        start(consistent_start(problem, scene.initial_positions(), scene.initial_velocities(), options)),
+        equations(system().evaluation()) {
+    system().evaluate(instant(), equations);
   }
 
+  [[nodiscard]] const System& system() const { return problem.system(); }
+  [[nodiscard]] std::shared_ptr<const SaddlePattern> pattern() const {
+    return problem.pattern(start.rows.rows);
+  }
   [[nodiscard]] Instant instant() const { return {0.0, start.q, start.v}; }
   [[nodiscard]] std::span<const double> w() const { return equations.w; }
   /// As many numbers as coordinates and rows, none of them zero.
   [[nodiscard]] std::vector<double> right_hand_side() const {
-    std::vector<double> b(static_cast<std::size_t>(system.coordinates() + start.rows.size()));
+    std::vector<double> b(static_cast<std::size_t>(system().coordinates() + start.rows.size()));
     std::iota(b.begin(), b.end(), 1.0);
     return b;
   }
 
-  System system;
+  Problem problem;
   Start start;
   System::Evaluation equations;
 };
 
-[[nodiscard]] inline Problem chain(int beads) { return Problem(models::Chain{.beads = beads}.scene().scene); }
+[[nodiscard]] inline Posed chain(int beads) { return Posed(models::Chain{.beads = beads}.scene().scene); }
 
 }  // namespace dalembert::bench

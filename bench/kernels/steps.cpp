@@ -19,9 +19,9 @@ constexpr int steps_of_a_run = 200;
 template <class AnyStepper>
 void step(benchmark::State& state) {
   const Options options{.t_end = 1e3};
-  const Problem problem(models::Chain{.beads = static_cast<int>(state.range(0))}.scene().scene, options);
+  const Posed posed(models::Chain{.beads = static_cast<int>(state.range(0))}.scene().scene, options);
   const auto settled = [&] {
-    auto stepper = std::make_unique<AnyStepper>(problem.system, problem.start, options);
+    auto stepper = std::make_unique<AnyStepper>(posed.problem, posed.start, options);
     for (int i = 0; i < settling_steps; ++i) stepper->step(options.t_end);
     return stepper;
   };

@@ -26,8 +26,7 @@ Audit audit(const System& system, const FlatSample& sample) {
   auto e = system.evaluation();
   system.evaluate(at, e);
   for (const auto& constraint : layout.constraints) {
-    const auto own = sample.forces.subspan(static_cast<std::size_t>(constraint.first_slot),
-                                           static_cast<std::size_t>(constraint.width));
+    const auto own = constraint.slots().in(sample.forces);
     if (std::ranges::any_of(own, [](double Z) { return std::isnan(Z); }))
       throw UndeterminedForce("No audit at this instant: the force of " + constraint.label() +
                               " is not determined; choose another time");
@@ -37,8 +36,7 @@ Audit audit(const System& system, const FlatSample& sample) {
   Eigen::VectorXd Z = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(system.coordinates()));
   for (const auto& constraint : layout.constraints) {
     double power = 0.0;
-    for (int s = constraint.first_slot; s < constraint.first_slot + constraint.width; ++s) {
-      const auto slot = static_cast<std::size_t>(s);
+    for (const std::size_t slot : constraint.slots()) {
       const int i = layout.slot_coordinate[slot];
       Z[i] += sample.forces[slot];
       power += sample.forces[slot] * sample.v[static_cast<std::size_t>(i)];

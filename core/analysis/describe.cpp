@@ -10,8 +10,7 @@ namespace dalembert {
 
 namespace {
 
-template <class Batches>
-std::string kinds(const Batches& batches) {
+std::string kinds(const auto& batches) {
   std::map<std::string, std::size_t> count;
   for (const auto& batch : batches) count[std::string(batch->shape().kind)] += batch->size();
   std::string text;
@@ -48,8 +47,11 @@ std::string System::describe() const {
       << "degrees of freedom: " << freedom(n, holonomic_rows() - compliant_rows()) << " of position, "
       << freedom(n, rows() - compliant_rows()) << " of velocity (if the constraints are independent)\n"
       << "islands that do not act on each other: " << islands(*this).count << '\n'
-      << "forces: " << kinds(parts_.forces) << " besides constant ones"
-      << (frictional() ? ", and " + kinds(parts_.frictions) + " that read multipliers" : "") << '\n'
+      << "forces: " << kinds(std::span(parts_.forces).first(first_reading_)) << " besides constant ones"
+      << (frictional()
+              ? ", and " + kinds(std::span(parts_.forces).subspan(first_reading_)) + " that read multipliers"
+              : "")
+      << '\n'
       << "unknowns of the stabilised index-2 equations: " << 2 * n + rows() + holonomic_rows() << '\n';
   const auto left_out = [&out](bool is, const char* what) {
     if (is) out << "left out: " << what << '\n';

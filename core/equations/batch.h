@@ -112,30 +112,9 @@ class ConstraintBatch {
 struct ForceShape {
   std::string_view kind;
   int width;          ///< coordinates that each of them reads and acts on
+  int rows;           ///< multipliers that each of them reads, those of one constraint; most read none
   bool dissipative;   ///< depends on velocities
   bool conservative;  ///< has an energy
-};
-
-/// All force elements of one type.
-class ForceBatch {
- public:
-  virtual ~ForceBatch() = default;
-  [[nodiscard]] virtual std::unique_ptr<ForceBatch> clone() const = 0;
-  [[nodiscard]] virtual ForceShape shape() const = 0;
-  [[nodiscard]] virtual std::size_t size() const = 0;
-  [[nodiscard]] virtual std::span<const int> coordinates() const = 0;
-
-  /// Adds the forces to F.
-  virtual void add_force(const Instant& at, std::span<double> F) const = 0;
-  /// For each force the dense `width x width` blocks (rows first) of dF/dq and, if it is
-  /// dissipative, dF/dv.
-  virtual void linearise(const Instant& at, std::span<double> stiffness, std::span<double> damping) const = 0;
-  /// F . v of each force.
-  virtual void power(const Instant& at, std::span<double> out) const = 0;
-  /// The force of one element on each of the `width` coordinates that it acts on.
-  virtual void force(std::size_t element, const Instant& at, std::span<double> out) const = 0;
-  /// Sum of the energies; 0 for forces that have none.
-  [[nodiscard]] virtual double energy(const Instant& at) const = 0;
 };
 
 /// The multipliers of a scene, and at which row those that each element of a batch reads begin.
@@ -144,37 +123,33 @@ struct Multipliers {
   std::span<const std::size_t> first_row;
 };
 
-/// What all forces of one type that read multipliers have in common.
-struct MultiplierForceShape {
-  std::string_view kind;
-  int width;  ///< coordinates that each of them reads and acts on
-  int rows;   ///< multipliers that each of them reads, those of one constraint
-};
-
-/// All force elements of one type that depend on multipliers: F(t, q, v, lambda).
-class MultiplierForceBatch {
+/// All force elements of one type: F(t, q, v, lambda).
+class ForceBatch {
  public:
-  virtual ~MultiplierForceBatch() = default;
-  [[nodiscard]] virtual std::unique_ptr<MultiplierForceBatch> clone() const = 0;
-  [[nodiscard]] virtual MultiplierForceShape shape() const = 0;
+  virtual ~ForceBatch() = default;
+  [[nodiscard]] virtual std::unique_ptr<ForceBatch> clone() const = 0;
+  [[nodiscard]] virtual ForceShape shape() const = 0;
   [[nodiscard]] virtual std::size_t size() const = 0;
   [[nodiscard]] virtual std::span<const int> coordinates() const = 0;
-  /// The scene's number of the constraint that each of them reads.
-  [[nodiscard]] virtual std::span<const int> constraints() const = 0;
+  /// The scene's number of the constraint that each of them reads; of batches that read none nothing.
+  [[nodiscard]] virtual std::span<const int> constraints() const { return {}; }
 
   /// Adds the forces to F.
   virtual void add_force(const Instant& at, const Multipliers& lambda, std::span<double> F) const = 0;
-  /// dF/dlambda: for each force and each multiplier it reads, `width` numbers.
-  virtual void slope(const Instant& at, const Multipliers& lambda, std::span<double> out) const = 0;
-  /// dF/dq and dF/dv as for other forces, at fixed multipliers.
+  /// For each force the dense `width x width` blocks (rows first) of dF/dq and, if it is
+  /// dissipative, dF/dv, at fixed multipliers.
   virtual void linearise(const Instant& at, const Multipliers& lambda, std::span<double> stiffness,
                          std::span<double> damping) const = 0;
+  /// dF/dlambda: for each force and each multiplier it reads, `width` numbers.
+  virtual void slope(const Instant& /*at*/, const Multipliers& /*lambda*/, std::span<double> /*out*/) const {}
   /// F . v of each force.
   virtual void power(const Instant& at, const Multipliers& lambda, std::span<double> out) const = 0;
   /// The force of one element on each of the `width` coordinates that it acts on; `lambda` are the `rows`
   /// multipliers that it reads.
   virtual void force(std::size_t element, const Instant& at, std::span<const double> lambda,
                      std::span<double> out) const = 0;
+  /// Sum of the energies; 0 for forces that have none.
+  [[nodiscard]] virtual double energy(const Instant& /*at*/) const { return 0.0; }
 };
 
 /// The batch for one type of element, as a scene makes and fills it, in the one place that instantiates

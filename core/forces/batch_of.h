@@ -2,7 +2,7 @@
 
 #include <dalembert/core/equations/holonomic_batch.h>
 #include <dalembert/core/equations/nonholonomic_batch.h>
-#include <dalembert/core/forces/friction_batch.h>
+#include <dalembert/core/forces/law_batch.h>
 
 namespace dalembert {
 
@@ -32,13 +32,10 @@ template <PotentialForce E>
 struct BatchFor<E> {
   using type = PotentialBatch<E>;
 };
-template <LawForce E>
+template <class E>
+  requires LawForce<E> || FrictionForce<E>
 struct BatchFor<E> {
   using type = LawBatch<E>;
-};
-template <FrictionForce E>
-struct BatchFor<E> {
-  using type = FrictionBatch<E>;
 };
 
 template <class E>

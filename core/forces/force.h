@@ -118,12 +118,12 @@ class PotentialBatch final : public ForceBatch {
     return std::make_unique<PotentialBatch>(*this);
   }
   [[nodiscard]] ForceShape shape() const override {
-    return {detail::kind_of<E>("Potential"), width, false, true};
+    return {detail::kind_of<E>("Potential"), width, 0, false, true};
   }
   [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
   [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
 
-  void add_force(const Instant& at, std::span<double> F) const override {
+  void add_force(const Instant& at, const Multipliers& /*lambda*/, std::span<double> F) const override {
     using S = Dual<inputs, 1>;
     for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
       const S V = potential<S>(e, at, AsInput<S>{});
@@ -132,14 +132,14 @@ class PotentialBatch final : public ForceBatch {
     });
   }
 
-  void power(const Instant& at, std::span<double> out) const override {
+  void power(const Instant& at, const Multipliers& /*lambda*/, std::span<double> out) const override {
     using S = Dual<inputs, 1>;
     for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
       out[i] = -potential<S>(e, at, AsInput<S>{}).gradient.dot(gather_inputs(e, at.v));
     });
   }
 
-  void linearise(const Instant& at, std::span<double> stiffness,
+  void linearise(const Instant& at, const Multipliers& /*lambda*/, std::span<double> stiffness,
                  std::span<double> /*damping*/) const override {
     using S = Dual<inputs, 2>;
     for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
@@ -150,7 +150,8 @@ class PotentialBatch final : public ForceBatch {
     });
   }
 
-  void force(std::size_t element, const Instant& at, std::span<double> out) const override {
+  void force(std::size_t element, const Instant& at, std::span<const double> /*lambda*/,
+             std::span<double> out) const override {
     using S = Dual<inputs, 1>;
     for_each_element(elements_.all(), element, element + 1, [&](const E& e, std::size_t) {
       const S V = potential<S>(e, at, AsInput<S>{});
@@ -172,78 +173,6 @@ class PotentialBatch final : public ForceBatch {
   [[nodiscard]] static S potential(const E& e, const Instant& at, const Lift& lift) {
     const S t(at.t);
     return S(call<takes_time>(detail::EnergyOf<E>{e}, t, positions<S>(e, t, at, lift)));
-  }
-
-  Elements<E> elements_;
-};
-
-/// Forces of one type given by their law F(t, r, v).
-template <LawForce E>
-class LawBatch final : public ForceBatch {
-  static constexpr int inputs = PointFacts<E>::inputs;
-  static constexpr int width = PointFacts<E>::coordinates;
-  static constexpr bool takes_time =
-      applicable_with_time<detail::ForceOf<E>, detail::Probe<E>, detail::ProbeMotion<E>>;
-
- public:
-  /// What Scene::add asks for.
-  static constexpr bool gives_what_it_should =
-      detail::are_forces<detail::ForceResult<detail::ForceOf<E>, takes_time, E, detail::ProbeMotion<E>>,
-                         PointTuple<E>>;
-
-  void add(E element) { elements_.add(std::move(element)); }
-  void replace(std::size_t i, const E& element) { elements_.replace(i, element); }
-
-  [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override {
-    return std::make_unique<LawBatch>(*this);
-  }
-  [[nodiscard]] ForceShape shape() const override {
-    return {detail::kind_of<E>("ForceLaw"), width, true, false};
-  }
-  [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
-  [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
-
-  void add_force(const Instant& at, std::span<double> F) const override {
-    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      const Vec<inputs> f = forces<double>(e, at, AsNumber{}, AsNumber{});
-      detail::require_finite(detail::all_finite(f), i, "is not a finite number");
-      detail::scatter(e, f, elements_.coordinates(i), F);
-    });
-  }
-
-  void power(const Instant& at, std::span<double> out) const override {
-    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      out[i] = forces<double>(e, at, AsNumber{}, AsNumber{}).dot(gather_inputs(e, at.v));
-    });
-  }
-
-  void linearise(const Instant& at, std::span<double> stiffness, std::span<double> damping) const override {
-    using S = Dual<2 * inputs, 1>;
-    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      const VecOf<S, inputs> f = forces<S>(e, at, AsInput<S>{}, AsInput<S>{});
-      detail::write_slopes<E, S>(e, i, f, stiffness, damping);
-    });
-  }
-
-  void force(std::size_t element, const Instant& at, std::span<double> out) const override {
-    for_each_element(elements_.all(), element, element + 1, [&](const E& e, std::size_t) {
-      const Vec<inputs> f = forces<double>(e, at, AsNumber{}, AsNumber{});
-      detail::require_finite(detail::all_finite(f), element, "is not a finite number");
-      pull_back(e, f.data(), out.data());
-    });
-  }
-
-  [[nodiscard]] double energy(const Instant& /*at*/) const override { return 0.0; }
-
- private:
-  /// The force on each of the inputs.
-  template <class S, class LiftPosition, class LiftVelocity>
-  [[nodiscard]] static VecOf<S, inputs> forces(const E& e, const Instant& at, const LiftPosition& lift_r,
-                                               const LiftVelocity& lift_v) {
-    const S t(at.t);
-    const auto motion =
-        std::tuple_cat(positions<S>(e, t, at, lift_r), velocities<S>(e, t, at, lift_v, inputs));
-    return detail::forces_on_inputs<S, E>(call<takes_time>(detail::ForceOf<E>{e}, t, motion));
   }
 
   Elements<E> elements_;

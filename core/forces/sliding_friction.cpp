@@ -27,8 +27,8 @@ SlidingFriction::SlidingFriction(const detail::Owned<ConstraintBatch>& of, std::
   }
 }
 
-MultiplierForceShape SlidingFriction::shape() const {
-  return {batch_->shape().kind, static_cast<int>(width_), 1};
+ForceShape SlidingFriction::shape() const {
+  return {batch_->shape().kind, static_cast<int>(width_), 1, true, false};
 }
 
 void SlidingFriction::evaluate(const Instant& at) const try {

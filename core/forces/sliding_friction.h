@@ -26,14 +26,14 @@ struct Sliding {
 /// d is the direction of sliding, and defined where sliding begins.
 ///
 /// The work space is its own: not for two threads at once.
-class SlidingFriction final : public MultiplierForceBatch {
+class SlidingFriction final : public ForceBatch {
  public:
   SlidingFriction(const detail::Owned<ConstraintBatch>& of, std::vector<Sliding> sliding);
 
-  [[nodiscard]] std::unique_ptr<MultiplierForceBatch> clone() const override {
+  [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override {
     return std::make_unique<SlidingFriction>(*this);
   }
-  [[nodiscard]] MultiplierForceShape shape() const override;
+  [[nodiscard]] ForceShape shape() const override;
   [[nodiscard]] std::size_t size() const override { return sliding_.size(); }
   [[nodiscard]] std::span<const int> coordinates() const override { return coordinates_; }
   [[nodiscard]] std::span<const int> constraints() const override { return pressed_by_; }

@@ -101,21 +101,22 @@ class LagrangeBatch final : public ForceBatch {
   [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override {
     return std::make_unique<LagrangeBatch>(*this);
   }
-  [[nodiscard]] ForceShape shape() const override { return {Element::kind, N, true, true}; }
+  [[nodiscard]] ForceShape shape() const override { return {Element::kind, N, 0, true, true}; }
   [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
   [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
 
-  void add_force(const Instant& at, std::span<double> F) const override {
+  void add_force(const Instant& at, const Multipliers& /*lambda*/, std::span<double> F) const override {
     for_each_element(elements_.all(), [&](const Element& e, std::size_t i) {
       detail::scatter(e, force_of(e, i, at), elements_.coordinates(i), F);
     });
   }
-  void power(const Instant& at, std::span<double> out) const override {
+  void power(const Instant& at, const Multipliers& /*lambda*/, std::span<double> out) const override {
     for_each_element(elements_.all(), [&](const Element& e, std::size_t i) {
       out[i] = force_of(e, i, at).dot(gather_inputs(e, at.v));
     });
   }
-  void force(std::size_t element, const Instant& at, std::span<double> out) const override {
+  void force(std::size_t element, const Instant& at, std::span<const double> /*lambda*/,
+             std::span<double> out) const override {
     for_each_element(elements_.all(), element, element + 1, [&](const Element& e, std::size_t i) {
       const Vec<N> f = force_of(e, i, at);
       std::copy_n(f.data(), N, out.data());
@@ -130,7 +131,8 @@ class LagrangeBatch final : public ForceBatch {
   /// By central differences: only Newton's matrix reads them, whose iteration corrects what they err, and
   /// third derivatives of L would cost N times its second ones. The step is the cube root of round-off, of a
   /// coordinate's unit and of the largest velocity.
-  void linearise(const Instant& at, std::span<double> stiffness, std::span<double> damping) const override {
+  void linearise(const Instant& at, const Multipliers& /*lambda*/, std::span<double> stiffness,
+                 std::span<double> damping) const override {
     for_each_element(elements_.all(), [&](const Element& e, std::size_t i) {
       const double speed = typical_speed(e, i, at);
       std::vector<double> q(at.q.begin(), at.q.end()), v(at.v.begin(), at.v.end());

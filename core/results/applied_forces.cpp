@@ -22,22 +22,18 @@ bool AppliedForces::on(std::size_t number, const Instant& at, std::span<const do
                        double mass, std::span<double> out) const {
   const Place& place = places_[number];
   std::ranges::fill(out, 0.0);
-  if (place.batch != nullptr) {
-    const auto width = static_cast<std::size_t>(place.batch->shape().width);
-    std::vector<double> force(width);
-    place.batch->force(place.element, at, force);
-    gather(place.batch->coordinates().subspan(place.element * width, width), force, first, out);
-  } else if (place.friction != nullptr) {
-    const MultiplierForceShape shape = place.friction->shape();
-    const auto width = static_cast<std::size_t>(shape.width);
-    const auto read = lambda.subspan(place.first_row, static_cast<std::size_t>(shape.rows));
-    if (std::ranges::any_of(read, [](double x) { return std::isnan(x); })) return false;
-    std::vector<double> force(width);
-    place.friction->force(place.element, at, read, force);
-    gather(place.friction->coordinates().subspan(place.element * width, width), force, first, out);
-  } else {
+  if (place.batch == nullptr) {
     for (std::size_t k = 0; k < out.size(); ++k) out[k] = mass * place.acceleration[k];
+    return true;
   }
+  const ForceShape shape = place.batch->shape();
+  const auto width = static_cast<std::size_t>(shape.width);
+  const auto read = shape.rows > 0 ? lambda.subspan(place.first_row, static_cast<std::size_t>(shape.rows))
+                                   : std::span<const double>();
+  if (std::ranges::any_of(read, [](double x) { return std::isnan(x); })) return false;
+  std::vector<double> force(width);
+  place.batch->force(place.element, at, read, force);
+  gather(place.batch->coordinates().subspan(place.element * width, width), force, first, out);
   return true;
 }
 

@@ -12,13 +12,11 @@ namespace dalembert {
 /// The applied forces of a scene one by one, evaluated where a sample is read: a run records none of them.
 class AppliedForces {
  public:
-  /// Where a force is found: in a batch, or in one that reads multipliers, or, of neither, the same
-  /// acceleration for every particle.
+  /// Where a force is found: in a batch, or else as the same acceleration for every particle.
   struct Place {
     std::shared_ptr<const ForceBatch> batch{};
-    std::shared_ptr<const MultiplierForceBatch> friction{};
     std::size_t element = 0;
-    std::size_t first_row = 0;  ///< of the multipliers that it reads
+    std::size_t first_row = 0;  ///< of the multipliers that it reads, if it does
     std::array<double, 3> acceleration{};
   };
 

@@ -45,8 +45,7 @@ struct ForceColumn {
 
 std::vector<ForceColumn> force_columns(const Layout& layout, const Layout::Constraint& c) {
   std::vector<ForceColumn> columns;
-  for (int s = c.first_slot; s < c.first_slot + c.width; ++s) {
-    const auto slot = static_cast<std::size_t>(s);
+  for (const std::size_t slot : c.slots()) {
     const int coordinate = layout.slot_coordinate[slot];
     auto column = std::ranges::find(columns, coordinate, &ForceColumn::coordinate);
     if (column == columns.end()) column = columns.insert(column, {coordinate, {}});
@@ -107,11 +106,9 @@ class Writer {
     });
     for (std::size_t c = 0; c < layout_.constraints.size(); ++c) {
       const auto& info = layout_.constraints[c];
-      write(
-          now.lambda.subspan(static_cast<std::size_t>(info.first_row), static_cast<std::size_t>(info.rows)));
+      write(info.places().in(now.lambda));
       if (!now.unique.empty()) {
-        const auto own =
-            now.unique.subspan(static_cast<std::size_t>(info.first_row), static_cast<std::size_t>(info.rows));
+        const auto own = info.places().in(now.unique);
         out_ << ',' << (std::ranges::find(own, 0) == own.end() ? 1 : 0);
       }
       for (const auto& column : forces_[c]) {

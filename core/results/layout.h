@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/core/equations/contact.h>
+#include <dalembert/core/places.h>
 #include <dalembert/core/points/handles.h>
 #include <dalembert/core/points/points.h>
 
@@ -43,6 +44,13 @@ struct Layout {
     std::uint64_t scene;
     Condition holds{};  ///< when, if not always
 
+    /// Those of its multipliers, in lambda.
+    [[nodiscard]] Places places() const {
+      return Places::next(static_cast<std::size_t>(first_row), static_cast<std::size_t>(rows));
+    }
+    [[nodiscard]] Places slots() const {
+      return Places::next(static_cast<std::size_t>(first_slot), static_cast<std::size_t>(width));
+    }
     [[nodiscard]] std::string label() const { return kind + " \"" + name + '"'; }
   };
   struct Force {

@@ -59,13 +59,12 @@ bool Sample<D>::unique(const Layout::Constraint& constraint, int component) cons
                           ": it has " + std::to_string(constraint.rows) + ", counted from 0");
   }
   return flat_.unique.empty() ||
-         flat_.unique[static_cast<std::size_t>(constraint.first_row + component)] != 0;
+         constraint.places().in(flat_.unique)[static_cast<std::size_t>(component)] != 0;
 }
 
 template <int D>
 bool Sample<D>::determined(const Layout::Constraint& constraint) const {
-  const auto own = flat_.lambda.subspan(static_cast<std::size_t>(constraint.first_row),
-                                        static_cast<std::size_t>(constraint.rows));
+  const auto own = constraint.places().in(flat_.lambda);
   return std::ranges::none_of(own, [](double lambda) { return std::isnan(lambda); });
 }
 
@@ -81,10 +80,8 @@ void Sample<D>::refuse(const Layout::Constraint& constraint) const {
 template <int D>
 double Sample<D>::force_at(const Layout::Constraint& constraint, int coordinate) const {
   double Z = 0.0;
-  for (int slot = constraint.first_slot; slot < constraint.first_slot + constraint.width; ++slot) {
-    const auto s = static_cast<std::size_t>(slot);
-    if (layout_->slot_coordinate[s] == coordinate) Z += flat_.forces[s];
-  }
+  for (const std::size_t slot : constraint.slots())
+    if (layout_->slot_coordinate[slot] == coordinate) Z += flat_.forces[slot];
   if (std::isnan(Z)) refuse(constraint);
   return Z;
 }
@@ -124,8 +121,7 @@ MomentOf<D> Sample<D>::moment(Particle<D> particle, const Vec<D>& force, const V
 template <int D>
 Vec<D> Sample<D>::force_on_ground(const Layout::Constraint& constraint) const {
   Vec<D> Z = Vec<D>::Zero();
-  for (int s = constraint.first_slot; s < constraint.first_slot + constraint.width; ++s) {
-    const auto slot = static_cast<std::size_t>(s);
+  for (const std::size_t slot : constraint.slots()) {
     const int coordinate = layout_->slot_coordinate[slot];
     if (const auto* p = layout_->particle_at(coordinate)) Z[coordinate - p->coordinate] -= flat_.forces[slot];
   }
@@ -138,8 +134,7 @@ MomentOf<D> Sample<D>::moment_on_ground(const Layout::Constraint& constraint, co
   (void)force_on_ground(constraint);  // is it determined?
   const Vec<D> zero = Vec<D>::Zero();
   MomentOf<D> M = detail::moment(zero, zero);
-  for (int s = constraint.first_slot; s < constraint.first_slot + constraint.width; ++s) {
-    const auto slot = static_cast<std::size_t>(s);
+  for (const std::size_t slot : constraint.slots()) {
     const int coordinate = layout_->slot_coordinate[slot];
     const auto* p = layout_->particle_at(coordinate);
     if (p == nullptr) {

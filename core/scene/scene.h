@@ -81,7 +81,7 @@ class Scene {
     const std::string_view kind = detail::kind_of_force<E>();
     const std::string own = unique_name(kind, name, layout_.forces.size() - gravities_.size());
     Surroundings around = admit(force, {kind, own});
-    const Place place = put(batches_for<E>(), force, layout_.forces.size());
+    const Place place = put(forces_, force, layout_.forces.size());
     return enter_force(place, kind, own, std::move(around));
   }
 
@@ -108,7 +108,7 @@ class Scene {
     const auto number = static_cast<std::size_t>(handle.index);
     const Layout::Force& its = layout_.forces[number];
     Surroundings around = admit(force, {its.kind, its.name});
-    exchange(batches_for<E>(), force, force_places_[number], number, its.label(), std::move(around));
+    exchange(forces_, force, force_places_[number], number, its.label(), std::move(around));
   }
   void replace(Force handle, const UniformGravity<D>& gravity);
   /// Another mass and another initial state.
@@ -256,14 +256,6 @@ class Scene {
   static void check(const RotorState& state, const Label& label);
   static void check(const UniformGravity<D>& gravity);
 
-  template <class E>
-  auto& batches_for() {
-    if constexpr (FrictionForce<E>) {
-      return frictions_;
-    } else {
-      return forces_;
-    }
-  }
   /// Puts an element with those of its type.
   template <class Batch, class E>
   static Place put(std::vector<Group<Batch>>& groups, const E& element, std::size_t number) {
@@ -298,7 +290,6 @@ class Scene {
   std::vector<std::pair<int, UniformGravity<D>>> gravities_;  // and their numbers among the forces
   std::vector<Group<ConstraintBatch>> constraints_;
   std::vector<Group<ForceBatch>> forces_;
-  std::vector<Group<MultiplierForceBatch>> frictions_;
   std::vector<Place> constraint_places_, force_places_;
   std::unordered_map<std::string, Named> names_;  // asked for one name at a time, never iterated
 };

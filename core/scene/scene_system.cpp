@@ -82,10 +82,6 @@ System Scene<D>::system() const {
     parts.forces.push_back(group.batch->clone());
     parts.force_numbers.push_back(group.numbers);
   }
-  for (const auto& group : frictions_) {
-    parts.frictions.push_back(group.batch->clone());
-    parts.friction_numbers.push_back(group.numbers);
-  }
   const System all(std::move(parts));
   const auto released = all.released();
   return released.empty() ? all : all.without(released);

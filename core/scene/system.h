@@ -25,8 +25,6 @@ struct SystemParts {
   // Shared with the results of a run, which evaluate forces where they are read.
   std::vector<std::shared_ptr<const ForceBatch>> forces{};
   std::vector<std::vector<int>> force_numbers{};
-  std::vector<std::shared_ptr<const MultiplierForceBatch>> frictions{};
-  std::vector<std::vector<int>> friction_numbers{};
   std::vector<std::pair<int, std::array<double, 3>>> gravities{};  ///< the scene's number, acceleration
   std::function<double(double t)> extent{};  ///< diagonal of the box around all points at the start [length]
 };
@@ -59,28 +57,6 @@ class System {
   struct Entry {
     std::size_t row;
     std::size_t column;
-  };
-
-  /// Consecutive entries of W.
-  class Places {
-   public:
-    Places(std::size_t first, std::size_t last) : first_(first), last_(last) {}
-    struct Iterator {
-      std::size_t k;
-      std::size_t operator*() const { return k; }
-      Iterator& operator++() {
-        ++k;
-        return *this;
-      }
-      bool operator==(const Iterator&) const = default;
-    };
-    [[nodiscard]] Iterator begin() const { return {first_}; }
-    [[nodiscard]] Iterator end() const { return {last_}; }
-    [[nodiscard]] std::size_t front() const { return first_; }
-    [[nodiscard]] std::size_t size() const { return last_ - first_; }
-
-   private:
-    std::size_t first_, last_;
   };
 
   explicit System(SystemParts parts);
@@ -213,41 +189,41 @@ class System {
   /// A pattern's dense blocks, rows first, one per element.
   static void append_blocks(std::span<const int> coordinates, std::size_t width, std::vector<Entry>& pattern);
   void place_constraints();
-  void place_forces();
+  /// Those that read multipliers behind the others.
+  void sort_forces();
   /// Those that have no place yet.
-  void place_frictions(const Layout& layout);
+  void place_forces(const Layout& layout);
   /// Which slots act on each coordinate, and where each force is found.
   void index_layout();
-  void linearise_frictions(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
-  [[nodiscard]] std::string friction_label(std::size_t batch, std::size_t element) const;
-  [[nodiscard]] std::string friction_of_stiffness(std::size_t entry) const;
   [[nodiscard]] std::string force_label(std::size_t batch, std::size_t element) const;
   [[nodiscard]] const Layout::Constraint& constraint_of_row(std::size_t row, std::size_t& batch) const;
 
   template <class F>
   void on_constraints(double t, const F& f) const;
+  /// F without friction.
+  void add_forces(const Instant& at, std::span<double> F) const;
+  /// On the batches from one to before another.
   template <class F>
-  void on_forces(double t, const F& f) const;
-  template <class F>
-  void on_frictions(const Instant& at, std::span<const double> lambda, const F& f) const;
+  void on_forces(std::size_t from, std::size_t end, const Instant& at, std::span<const double> lambda,
+                 const F& f) const;
 
-  /// Where a batch's part of each array begins; for constraints also how long it is.
-  struct Offsets {
-    std::size_t row, w, stiffness, damping;
-    bool holonomic = false;
-    std::size_t row_count = 0, w_count = 0;
+  /// Where a batch's part of each array is.
+  struct ConstraintPlaces {
+    Places rows, w, stiffness;
+    bool holonomic;
   };
-
-  /// Where a batch of frictions stands, and at which row the multipliers of each element begin.
-  struct FrictionPlace {
-    std::size_t slope, stiffness, damping, slope_count, block_count;
-    std::vector<std::size_t> first_row;
+  /// And at which row the multipliers of each element begin, if it reads any.
+  struct ForcePlaces {
+    Places slope, stiffness, damping;
+    std::vector<std::size_t> first_row{};
   };
+  /// The label of the force that an entry of an array belongs to.
+  [[nodiscard]] std::string force_of(std::size_t entry, Places ForcePlaces::*array) const;
 
   SystemParts parts_;
   std::shared_ptr<const Layout> layout_;
-  std::vector<Offsets> constraint_offsets_;
-  std::vector<Offsets> force_offsets_;
+  std::vector<ConstraintPlaces> constraint_places_;
+  std::vector<ForcePlaces> force_places_;
   std::size_t holonomic_rows_ = 0;
   std::vector<std::size_t> row_start_;
   std::vector<std::size_t> w_columns_;
@@ -258,8 +234,9 @@ class System {
   std::vector<Entry> stiffness_pattern_;
   std::vector<Entry> damping_pattern_;
   std::size_t stiffness_of_constraints_ = 0;
-  std::vector<FrictionPlace> friction_places_;
-  std::size_t stated_frictions_ = 0, stated_friction_entries_ = 0;  // the others are of what slides
+  // Batches of forces: those that read multipliers, and behind what the scene states what slides.
+  std::size_t first_reading_ = 0, stated_forces_ = 0;
+  std::size_t stated_friction_entries_ = 0;
   std::vector<std::shared_ptr<const SlidingFriction>> slides_;
   std::vector<Entry> friction_pattern_;
 };

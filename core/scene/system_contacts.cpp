@@ -46,8 +46,7 @@ System System::without(std::span<const std::size_t> constraints) const {
       const auto number = static_cast<std::size_t>(numbers[i]);
       if (std::ranges::find(constraints, number) == constraints.end()) continue;
       (*other.parts_.constraints[b]).leave_out(i);
-      const Layout::Constraint& its = layout_->constraints[number];
-      std::fill_n(other.out_of_force_.begin() + its.first_row, its.rows, char{1});
+      for (const std::size_t r : layout_->constraints[number].places()) other.out_of_force_[r] = 1;
     }
   }
   other.rows_in_force_ = static_cast<std::size_t>(std::ranges::count(other.out_of_force_, char{0}));
@@ -71,23 +70,21 @@ System System::sliding(std::span<const Slide> slides) const {
     }
     if (own.empty()) continue;
     other.slides_.push_back(std::make_shared<const SlidingFriction>(parts_.constraints[b], std::move(own)));
-    other.parts_.frictions.push_back(other.slides_.back());
-    other.parts_.friction_numbers.push_back(std::move(numbers));
+    other.parts_.forces.push_back(other.slides_.back());
+    other.parts_.force_numbers.push_back(std::move(numbers));
   }
-  other.place_frictions(*layout_);
+  other.place_forces(*layout_);
   return other;
 }
 
 void System::exert_sliding(const Instant& at, std::span<double> lambda, std::span<double> slots) const {
   for (std::size_t k = 0; k < slides_.size(); ++k) {
-    const std::size_t b = stated_frictions_ + k;
+    const std::size_t b = stated_forces_ + k;
     for (std::size_t i = 0; i < slides_[k]->size(); ++i) {
       const Layout::Constraint& its =
-          layout_->constraints[static_cast<std::size_t>(parts_.friction_numbers[b][i])];
-      const auto first = [](int number) { return static_cast<std::size_t>(number); };
-      slides_[k]->exert(i, at, lambda[friction_places_[b].first_row[i]],
-                        lambda.subspan(first(its.first_row), first(its.rows)),
-                        slots.subspan(first(its.first_slot), first(its.width)));
+          layout_->constraints[static_cast<std::size_t>(parts_.force_numbers[b][i])];
+      slides_[k]->exert(i, at, lambda[force_places_[b].first_row[i]], its.places().in(lambda),
+                        its.slots().in(slots));
     }
   }
 }

@@ -13,9 +13,9 @@ void System::index_layout() {
   layout.touching.resize(layout.slot_coordinate.size());
   std::vector<int> next = layout.touching_start;
   for (const Layout::Constraint& c : layout.constraints) {
-    for (int slot = c.first_slot; slot < c.first_slot + c.width; ++slot) {
-      const int coordinate = layout.slot_coordinate[static_cast<std::size_t>(slot)];
-      layout.touching[static_cast<std::size_t>(next[static_cast<std::size_t>(coordinate)]++)] = slot;
+    for (const std::size_t slot : c.slots()) {
+      const auto coordinate = static_cast<std::size_t>(layout.slot_coordinate[slot]);
+      layout.touching[static_cast<std::size_t>(next[coordinate]++)] = static_cast<int>(slot);
     }
   }
 
@@ -23,13 +23,10 @@ void System::index_layout() {
   const auto of = [&places](int number) -> auto& { return places[static_cast<std::size_t>(number)]; };
   for (const auto& [number, acceleration] : parts_.gravities) of(number).acceleration = acceleration;
   for (std::size_t b = 0; b < parts_.forces.size(); ++b) {
+    const auto& first_row = force_places_[b].first_row;
     for (std::size_t i = 0; i < parts_.force_numbers[b].size(); ++i)
-      of(parts_.force_numbers[b][i]) = {.batch = parts_.forces[b], .element = i};
-  }
-  for (std::size_t b = 0; b < parts_.frictions.size(); ++b) {
-    for (std::size_t i = 0; i < parts_.friction_numbers[b].size(); ++i)
-      of(parts_.friction_numbers[b][i]) = {
-          .friction = parts_.frictions[b], .element = i, .first_row = friction_places_[b].first_row[i]};
+      of(parts_.force_numbers[b][i]) = {
+          .batch = parts_.forces[b], .element = i, .first_row = first_row.empty() ? 0 : first_row[i]};
   }
   layout.applied = std::make_shared<const AppliedForces>(std::move(places));
 }

@@ -1,6 +1,7 @@
 #include "dalembert/solvers/base/options.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/constants.h>
 
 #include <cmath>
 #include <sstream>
@@ -76,6 +77,10 @@ Options starting_at(double time, Options o) {
           "leave it out, as the run starts from a sample at " + text(time));
   o.t_start = time;
   return o;
+}
+
+double tolerance_of_a_step(Stepper stepper, double tolerance) {
+  return stepper == Stepper::ida ? constants.share_of_a_step * tolerance : tolerance;
 }
 
 std::vector<double> sample_times(const Options& o) {

@@ -50,6 +50,9 @@ struct Options {
   double length = 0.0;
 };
 
+/// What each step of a run with this tolerance is held to, in the measures of Options::tolerance.
+[[nodiscard]] double tolerance_of_a_step(Stepper stepper, double tolerance);
+
 /// The sample times that the options ask for. Throws InvalidArgument, naming the option, its value
 /// and its bounds, if any option makes no sense.
 [[nodiscard]] std::vector<double> sample_times(const Options& options);

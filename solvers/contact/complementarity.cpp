@@ -1,8 +1,9 @@
 #include "dalembert/solvers/contact/complementarity.h"
 
+#include <dalembert/solvers/base/numbers.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Entries of a column below this fraction of its largest, a rounding error for each pivot so far, are 0.
-constexpr double round_off = 1e3 * std::numeric_limits<double>::epsilon();
+constexpr double round_off = 1e3 * epsilon;
 
 /// The equations w - M z - 1 z0 = q solved for the basic variables: each row is (w-part | z-part | z0 | q).
 /// Variables are numbered in that order, w_i is i, z_i is n + i, z0 is 2 n.

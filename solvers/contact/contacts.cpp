@@ -1,6 +1,7 @@
 #include "dalembert/solvers/contact/contacts.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/contact/round_off.h>
 #include <dalembert/solvers/linear/rows.h>
@@ -37,8 +38,7 @@ double gradient_of(const System& stated, std::size_t number, const Instant& at,
   } catch (const EquationFault&) {
     return 0.0;
   }
-  return gradient_length(alone, e.w, lengths,
-                         static_cast<std::size_t>(stated.layout()->constraints[number].first_row));
+  return gradient_length(alone, e.w, lengths, stated.layout()->constraints[number].places().front());
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ double nearest_contact(const System& stated, const Instant& at) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const std::size_t number : stated.contacts()) {
     const double gradient = gradient_of(stated, number, at, stated.coordinate_scales(1.0));
-    const double gap = std::abs(g[static_cast<std::size_t>(stated.layout()->constraints[number].first_row)]);
+    const double gap = std::abs(g[stated.layout()->constraints[number].places().front()]);
     if (gap > round_off() * farthest * gradient) nearest = std::min(nearest, gap / gradient);
   }
   return nearest;
@@ -68,7 +68,7 @@ Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, d
   for (const std::size_t number : stated_->contacts()) {
     const Layout::Constraint& its = stated_->layout()->constraints[number];
     contacts_.push_back({.number = number,
-                         .row = static_cast<std::size_t>(its.first_row),
+                         .row = its.places().front(),
                          .sign = its.holds.contact->sign(),
                          .restitution = its.holds.contact->restitution});
   }
@@ -187,7 +187,7 @@ void Contacts::require_open(const FlatSample& now) {
   for (Contact& c : contacts_) {
     const double gap = c.sign * g_[c.row];
     c.parted = c.parted || gap > error_of_gap(c);
-    const double of_time = 8.0 * std::numeric_limits<double>::epsilon() * std::abs(now.time * psi_[c.row]);
+    const double of_time = 8.0 * epsilon * std::abs(now.time * psi_[c.row]);
     if (c.closed || gap >= -error_of_gap(c) - of_time) continue;
     throw StepFailure{
         stated_->row_label(c.row) + " was penetrated: at none of the times examined was it closed", now.time};

@@ -25,7 +25,7 @@ ActiveRows rows_besides(const System& system, const std::vector<std::size_t>& co
                         const System::Evaluation& e) {
   std::vector<double> w = e.w;
   for (const std::size_t c : contacts) {
-    const auto row = static_cast<std::size_t>(system.layout()->constraints[c].first_row);
+    const auto row = system.layout()->constraints[c].places().front();
     for (const std::size_t k : system.row(row)) w[k] = 0.0;
   }
   return independent_rows(system.without(contacts), w);
@@ -38,23 +38,23 @@ Coupling::Coupling(std::shared_ptr<const System> of, const std::vector<std::size
     : system_(std::move(of)),
       e_(evaluated(*system_, at)),
       others_(rows_besides(*system_, contacts, e_)),
-      matrix_(*system_, others_) {
+      matrix_(Problem(system_).pattern(others_.rows)) {
   const System& system = *system_;
-  if (!matrix_.factorise(e_.w)) throw StepFailure{"the constraints became dependent on each other", at.t};
+  if (!matrix_.factorise({.w = e_.w})) throw StepFailure{"the constraints became linearly dependent", at.t};
   const auto n = static_cast<Index>(contacts.size());
   for (const std::size_t c : contacts) {
     const Layout::Constraint& its = system.layout()->constraints[c];
-    rows_.push_back(static_cast<std::size_t>(its.first_row));
+    rows_.push_back(its.places().front());
     signs_.push_back(its.holds.contact->sign());
     std::vector<double> x(matrix_.size());
     for (const std::size_t k : system.row(rows_.back())) x[system.w_columns()[k]] += signs_.back() * e_.w[k];
     matrix_.solve(x);
-    answers_.push_back(std::move(x));
+    responses_.push_back(std::move(x));
   }
   S_.resize(n, n);
   for (Index j = 0; j < n; ++j) {
     for (Index i = 0; i < n; ++i)
-      S_(i, j) = along(static_cast<std::size_t>(i), answers_[static_cast<std::size_t>(j)]);
+      S_(i, j) = along(static_cast<std::size_t>(i), responses_[static_cast<std::size_t>(j)]);
   }
 }
 
@@ -96,12 +96,12 @@ VectorXd Coupling::accelerations_without(const Instant& at) {
   return accelerations;
 }
 
-void Coupling::strike(const VectorXd& P, std::span<double> v, std::span<double> impulses) const {
+void Coupling::apply_impulses(const VectorXd& P, std::span<double> v, std::span<double> impulses) const {
   for (std::size_t j = 0; j < rows_.size(); ++j) {
     const double p = P[static_cast<Index>(j)];
-    for (std::size_t i = 0; i < v.size(); ++i) v[i] += p * answers_[j][i];
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] += p * responses_[j][i];
     for (std::size_t r = 0; r < others_.size(); ++r)
-      impulses[others_.rows[r]] += p * answers_[j][v.size() + r];
+      impulses[others_.rows[r]] += p * responses_[j][v.size() + r];
     impulses[rows_[j]] += signs_[j] * p;
   }
 }

@@ -3,7 +3,7 @@
 #include <dalembert/core/analysis/rank.h>
 #include <dalembert/core/scene/system.h>
 #include <dalembert/solvers/base/hidden.h>
-#include <dalembert/solvers/linear/saddle.h>
+#include <dalembert/solvers/linear/problem.h>
 
 #include <Eigen/Core>
 
@@ -13,7 +13,8 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// What touching contacts do to each other at an instant: rates U_i = s_i dg_i/dt answer impulses P_j by
+/// The coupling of touching contacts at an instant (Delassus matrix S): rates U_i = s_i dg_i/dt respond to
+/// impulses P_j by
 ///
 ///   U+ = U- + S P,   S_ij = s_i W_i X_j,   [ M  -W_b^T ] [ X_j ]   [ s_j W_j^T ]
 ///                                          [ W_b  0    ] [ Y_j ] = [    0      ]             (1)
@@ -31,8 +32,8 @@ class Coupling {
   [[nodiscard]] Eigen::VectorXd rates(std::span<const double> v) const;
   /// Of the contacts' rates, with the given velocities, if they exert no force. (M a - W_b^T lambda_b = F.)
   [[nodiscard]] Eigen::VectorXd accelerations_without(const Instant& at);
-  /// Adds what impulses do to velocities; and to `impulses`, one per row of the system, what they are.
-  void strike(const Eigen::VectorXd& P, std::span<double> v, std::span<double> impulses) const;
+  /// Adds what impulses change to velocities; and to `impulses`, one per row of the system, what they are.
+  void apply_impulses(const Eigen::VectorXd& P, std::span<double> v, std::span<double> impulses) const;
 
  private:
   [[nodiscard]] double along(std::size_t contact, std::span<const double> x) const;
@@ -43,7 +44,7 @@ class Coupling {
   std::vector<double> signs_;
   ActiveRows others_;
   SaddleMatrix matrix_;
-  std::vector<std::vector<double>> answers_;  // X_j, Y_j
+  std::vector<std::vector<double>> responses_;  // X_j, Y_j
   Eigen::MatrixXd S_;
 };
 

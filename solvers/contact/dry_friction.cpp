@@ -2,6 +2,7 @@
 
 #include <dalembert/core/analysis/rank.h>
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/contact/round_off.h>
 #include <dalembert/solvers/linear/rows.h>
@@ -24,12 +25,6 @@ double rest_in_space(double tolerance) {
   return std::min(constants.rest_in_space * tolerance, std::sqrt(tolerance));
 }
 
-double largest(std::span<const double> x) {
-  double most = 0.0;
-  for (const double value : x) most = std::max(most, std::abs(value));
-  return most;
-}
-
 }  // namespace
 
 DryFriction::DryFriction(std::shared_ptr<const System> stated, const Scales& scales, double tolerance)
@@ -41,9 +36,7 @@ DryFriction::DryFriction(std::shared_ptr<const System> stated, const Scales& sca
       u_(stated_->rows()) {
   for (const std::size_t number : stated_->rough()) {
     const Layout::Constraint& its = stated_->layout()->constraints[number];
-    all_.push_back({.number = number,
-                    .row = static_cast<std::size_t>(its.first_row),
-                    .rows = static_cast<std::size_t>(its.rows)});
+    all_.push_back({.number = number, .row = its.places().front(), .rows = its.places().size()});
     read_law(all_.back());
   }
   adopt(scales);
@@ -53,7 +46,7 @@ void DryFriction::read_law(Rough& rough) const {
   const auto& constraints = stated_->layout()->constraints;
   const Roughness& law = *constraints[rough.number].holds.roughness;
   const Layout::Constraint& pressing = constraints[static_cast<std::size_t>(law.pressed_by)];
-  const std::size_t row = std::exchange(rough.pressing_row, static_cast<std::size_t>(pressing.first_row));
+  const std::size_t row = std::exchange(rough.pressing_row, pressing.places().front());
   rough.pressed_by = static_cast<std::size_t>(law.pressed_by);
   rough.mu = law.mu;
   rough.mu_static = law.mu_static;
@@ -142,14 +135,15 @@ std::shared_ptr<const System> DryFriction::with_modes(const std::vector<std::siz
 }
 
 DryFriction::Motion DryFriction::solve(const std::vector<std::size_t>& open, const Instant& at) const {
-  const auto system = with_modes(open);
+  const Problem problem(with_modes(open));
+  const System* const system = &problem.system();
   auto e = system->evaluation();
   system->evaluate(at, e);
-  Manifold manifold(*system, independent_rows(*system, e.w), scales_.lengths());
+  Manifold manifold(problem, independent_rows(*system, e.w), scales_.lengths());
   Motion motion{std::vector<double>(at.q.size()), std::vector<double>(system->rows())};
   std::vector<double> v(at.v.begin(), at.v.end());
   if (!manifold.solve_motion(at.t, at.q, v, motion.a, motion.lambda))
-    throw StepFailure{"the constraints became dependent on each other", at.t};
+    throw StepFailure{"the constraints became linearly dependent", at.t};
   motion.unique.assign(manifold.unique().begin(), manifold.unique().end());
   return motion;
 }

@@ -45,7 +45,7 @@ void Contacts::solve_impact(const Coupling& coupling, const std::vector<std::siz
   clear_round_off(U, unit, before.cwiseProduct(unit).cwiseAbs().maxCoeff());
   for (Index i = 0; i < U.size(); ++i)
     if ((*P)[i] > 0.0) U[i] = before[i] - q[i];  // -e U-
-  coupling.strike(*P, change.v, change.impulses);
+  coupling.apply_impulses(*P, change.v, change.impulses);
   for (Index i = 0; i < U.size(); ++i)
     if ((*P)[i] > 0.0) change.what.push_back({touching[static_cast<std::size_t>(i)], Happened::struck, t});
 }
@@ -70,7 +70,7 @@ std::optional<double> Contacts::limit_of_impacts(const Change& change, const Ins
 void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& resting, double limit,
                     Change& change) {
   const VectorXd P = dense::least_squares(coupling.S(), -coupling.rates(change.v), rank_threshold);
-  coupling.strike(P, change.v, change.impulses);
+  coupling.apply_impulses(P, change.v, change.impulses);
   for (const std::size_t i : resting) change.what.push_back({i, Happened::rested, limit});
 }
 

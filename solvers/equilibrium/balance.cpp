@@ -1,6 +1,7 @@
 #include "dalembert/solvers/equilibrium/balance.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/equilibrium.h>
 
 #include <algorithm>
@@ -12,7 +13,6 @@ namespace dalembert {
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int most_corrections = 60, most_halvings = 6, most_descents = 2000;
 
 void require_finite(double time, const Turning<3>& turning, int dimension) {
@@ -38,16 +38,12 @@ void require_bilateral(const System& system) {
                      " holds only at times; state it as a bilateral one, and check the sign of its force");
 }
 
-double largest(std::span<const double> x) {
-  double m = 0.0;
-  for (const double y : x) m = std::max(m, std::abs(y));
-  return m;
-}
-
 }  // namespace
 
-Balance::Balance(const System& system, std::span<const double> guess, double time, const Turning<3>& turning)
-    : system_(&system), time_(time), frame_(*system.layout(), turning) {
+Balance::Balance(const Problem& problem, std::span<const double> guess, double time,
+                 const Turning<3>& turning)
+    : problem_(problem), system_(&problem_.system()), time_(time), frame_(*system_->layout(), turning) {
+  const System& system = *system_;
   require_finite(time, turning, system.layout()->dimension);
   require_frictionless(system);
   require_bilateral(system);
@@ -56,7 +52,7 @@ Balance::Balance(const System& system, std::span<const double> guess, double tim
   // A duration for scenes without a length only; a radian of rotation, where there is one.
   const double duration = frame_.rotates() ? 1.0 / frame_.rate() : 1.0;
   Start start =
-      consistent_start(system, guess, v, {.t_end = time + duration, .t_start = time, .assemble = true});
+      consistent_start(problem, guess, v, {.t_end = time + duration, .t_start = time, .assemble = true});
   q0_ = std::move(start.q);
   lambda0_ = std::move(start.lambda);
   rows_ = std::move(start.rows);
@@ -141,7 +137,7 @@ void Balance::measure_stiffness() {
   double highest = 0.0;
   least_force_.assign(q0_.size(), 0.0);
   for (const auto& entry : terms.stiffness) {
-    const auto row = static_cast<std::size_t>(entry.row()), column = static_cast<std::size_t>(entry.col());
+    const auto row = entry.row(), column = entry.col();
     highest = std::max(highest, std::abs(entry.value()) / system_->masses()[row]);
     const double rounding = 10.0 * epsilon * std::max(scales_.coordinate[column], std::abs(q0_[column]));
     least_force_[row] += std::abs(entry.value()) * rounding / balanced;
@@ -225,7 +221,7 @@ bool Balance::solve(State& s) const {
 }
 
 bool Balance::project(State& s) const {
-  Manifold manifold(*system_, rows_at(s), scales_.lengths());
+  Manifold manifold(problem_, rows_at(s), scales_.lengths());
   const double close = 1e-12 * scales_.length + scales_.rounding(s.q);
   if (manifold.project_positions(time_, s.q, s.v, close).size > 1e-8 * scales_.length + close) return false;
   frame_.velocity(s.q, s.v);
@@ -335,7 +331,7 @@ std::shared_ptr<const Record> Balance::record(const State& found) const {
   const ActiveRows rows = rows_at(s);
   std::vector<char> unique;
   if (rows.size() < system_->rows()) {
-    Manifold manifold(*system_, rows, scales_.lengths());
+    Manifold manifold(problem_, rows, scales_.lengths());
     std::vector<double> v(s.v), v_rate(s.q.size());
     if (!manifold.solve_motion(time_, s.q, v, v_rate, s.lambda)) refuse(s, "the constraints are singular");
     unique.assign(manifold.unique().begin(), manifold.unique().end());
@@ -351,10 +347,10 @@ std::shared_ptr<const Record> Balance::record(const State& found) const {
   return record;
 }
 
-std::shared_ptr<const Record> find_equilibrium(const System& system, std::span<const double> guess,
-                                               double time, const Turning<3>& turning) {
+std::shared_ptr<const Record> find_equilibrium(System system, std::span<const double> guess, double time,
+                                               const Turning<3>& turning) {
   try {
-    const Balance balance(system, guess, time, turning);
+    const Balance balance(Problem(std::move(system)), guess, time, turning);
     const Balance::State start = balance.start();
     Balance::State s = start;
     if (!balance.solve(s)) {

@@ -32,7 +32,7 @@ class Balance {
   };
 
   /// Projects the guess onto the constraint manifold. Throws InconsistentStart, NoEquilibrium.
-  Balance(const System& system, std::span<const double> guess, double time, const Turning<3>& turning);
+  Balance(const Problem& problem, std::span<const double> guess, double time, const Turning<3>& turning);
 
   /// v, R1, R2 and size of a state's q and lambda. Throws EquationFault.
   void evaluate(State& s) const;
@@ -72,7 +72,8 @@ class Balance {
   void share_along_rows(std::span<const double> w);
   [[noreturn]] void refuse(const State& s, const std::string& why) const;
 
-  const System* system_;
+  Problem problem_;
+  const System* system_;  // its own
   double time_;
   RotatingFrame frame_;
   std::vector<double> q0_, lambda0_;

@@ -63,7 +63,7 @@ struct Diagram {
 
 /// For Systems, out of which `follow_branches` makes branches of Equilibrium<D>.
 struct PosedSystem {
-  std::unique_ptr<const System> system;
+  std::shared_ptr<const System> system;
   std::vector<double> guess;
   double time;
   Turning<3> turning;
@@ -113,7 +113,7 @@ template <int D, class Build>
   const auto pose = [&build](double parameter) {
     const Posed<D> posed = build(parameter);
     const auto q = posed.scene.initial_positions();
-    return PosedSystem{std::make_unique<const System>(posed.scene.system()),
+    return PosedSystem{std::make_shared<const System>(posed.scene.system()),
                        {q.begin(), q.end()},
                        posed.options.time,
                        posed.options.turning};

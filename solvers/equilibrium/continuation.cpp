@@ -1,6 +1,7 @@
 #include "dalembert/solvers/equilibrium/continuation.h"
 
 #include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/tangent_modes.h>
 #include <dalembert/solvers/linear/dense.h>
 
@@ -35,7 +36,7 @@ Corrector::Corrector(std::function<PosedSystem(double)> pose, const BranchOption
   require_suited(*posed.system);
   const auto found = find_equilibrium(*posed.system, posed.guess, posed.time, posed.turning);
   const FlatSample flat = found->sample(0);
-  scale_ = Balance(*posed.system, flat.q, posed.time, posed.turning).scales().coordinate;
+  scale_ = Balance(Problem(posed.system), flat.q, posed.time, posed.turning).scales().coordinate;
   begin_.x = Eigen::VectorXd::Zero(static_cast<Index>(scale_.size()) + 1);
   for (std::size_t i = 0; i < scale_.size(); ++i) begin_.x[static_cast<Index>(i)] = flat.q[i] / scale_[i];
   begin_.lambda.assign(flat.lambda.begin(), flat.lambda.end());
@@ -50,7 +51,7 @@ Corrector::Here Corrector::at(double p, const Eigen::VectorXd& x) const {
   if (posed.system->coordinates() != q.size() || posed.system->rows() != begin_.lambda.size())
     throw InvalidScene("Branches of scene \"" + posed.system->layout()->scene +
                        "\": for another value of the parameter it has other points or constraints");
-  Balance balance(*posed.system, q, posed.time, posed.turning);
+  Balance balance(Problem(posed.system), q, posed.time, posed.turning);
   return {std::move(posed.system), std::move(balance), posed.turning};
 }
 
@@ -110,7 +111,7 @@ Eigen::MatrixXd Corrector::jacobian(const Here& here, const Balance::State& s, c
   const auto n = static_cast<Index>(s.q.size()), m = static_cast<Index>(rows.size());
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n + m, n + m + 1);
   for (const auto& k : terms.stiffness)
-    A(k.row(), k.col()) -= k.value() * scale_[static_cast<std::size_t>(k.col())];
+    A(static_cast<Index>(k.row()), static_cast<Index>(k.col())) -= k.value() * scale_[k.col()];
   for (Index a = 0; a < m; ++a) {
     const std::size_t r = rows.rows[static_cast<std::size_t>(a)];
     for (const std::size_t k : here.system->row(r)) {
@@ -152,7 +153,7 @@ void Corrector::newton_step(const Here& here, const Balance::State& s, double of
   A(n + m, n + m) = normal[n];
   Eigen::VectorXd b(n + m + 1);
   b << balance_of(s, rows), off;
-  const double rounding = std::numeric_limits<double>::epsilon() * static_cast<double>(A.rows());
+  const double rounding = epsilon * static_cast<double>(A.rows());
   const Eigen::VectorXd step = dense::least_squares(A, -b, rounding);
   node.x.head(n) += step.head(n);
   node.x[n] += step[n + m];
@@ -161,7 +162,7 @@ void Corrector::newton_step(const Here& here, const Balance::State& s, double of
 
 std::optional<Node> Corrector::correct(const Node& guess, const Eigen::VectorXd& normal) const {
   constexpr int most_corrections = 20;
-  constexpr double rounding = std::numeric_limits<double>::epsilon();
+  constexpr double rounding = epsilon;
   Node node = guess;
   double before = std::numeric_limits<double>::infinity();
   try {

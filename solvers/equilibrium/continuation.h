@@ -50,7 +50,7 @@ class Corrector {
 
  private:
   struct Here {
-    std::unique_ptr<const System> system;
+    std::shared_ptr<const System> system;
     Balance balance;
     Turning<3> turning;
   };

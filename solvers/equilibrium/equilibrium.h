@@ -46,9 +46,8 @@ class Equilibrium {
 };
 
 /// The same for a System, out of which `equilibrium` makes an Equilibrium; one sample.
-[[nodiscard]] std::shared_ptr<const Record> find_equilibrium(const System& system,
-                                                             std::span<const double> guess, double time,
-                                                             const Turning<3>& turning);
+[[nodiscard]] std::shared_ptr<const Record> find_equilibrium(System system, std::span<const double> guess,
+                                                             double time, const Turning<3>& turning);
 
 /// The equilibrium near the initial positions of a scene, stable or not (see normal_modes):
 ///

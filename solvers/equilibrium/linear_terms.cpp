@@ -73,10 +73,10 @@ LinearTerms linear_terms(const System& system, const RotatingFrame& frame, const
   return terms;
 }
 
-std::vector<SparseLU::Entry> TangentMatrix::pattern(const System& system, const ActiveRows& rows,
-                                                    const LinearTerms& terms) {
+std::vector<LuPattern::Entry> TangentMatrix::entries(const System& system, const ActiveRows& rows,
+                                                     const LinearTerms& terms) {
   const std::size_t n = system.coordinates();
-  std::vector<SparseLU::Entry> entries;
+  std::vector<LuPattern::Entry> entries;
   for (std::size_t i = 0; i < n; ++i) entries.push_back({i, i});
   for (std::size_t a = 0; a < rows.size(); ++a) {
     for (const std::size_t k : system.row(rows.rows[a])) {
@@ -85,13 +85,12 @@ std::vector<SparseLU::Entry> TangentMatrix::pattern(const System& system, const 
     }
     entries.push_back({n + a, n + a});
   }
-  for (const auto& entry : terms.stiffness)
-    entries.push_back({static_cast<std::size_t>(entry.row()), static_cast<std::size_t>(entry.col())});
+  for (const auto& entry : terms.stiffness) entries.push_back({entry.row(), entry.col()});
   return entries;
 }
 
 TangentMatrix::TangentMatrix(const System& system, const ActiveRows& rows, const LinearTerms& terms, double s)
-    : lu_(system.coordinates() + rows.size(), pattern(system, rows, terms)) {
+    : pattern_(system.coordinates() + rows.size(), entries(system, rows, terms)), lu_(pattern_) {
   std::size_t entry = 0;
   lu_.set_zero();
   for (const double m : system.masses()) lu_.add(entry++, s * m);

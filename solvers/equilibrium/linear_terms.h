@@ -23,7 +23,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// since u there stands for the change u' + A u of velocity and u'' + 2 A u' + A^2 u of acceleration. K
 /// contains the curvature of the constraints, -sum lambda g_qq, and the centrifugal forces.
 struct LinearTerms {
-  using Entries = std::vector<Eigen::Triplet<double>>;
+  using Entries = std::vector<Eigen::Triplet<double, std::size_t>>;
   Entries stiffness, damping;  ///< K and C; places may repeat, their entries add
   std::vector<double> w;       ///< W, in the system's pattern
   std::vector<double> e;       ///< E, in the same, for the nonholonomic rows
@@ -43,8 +43,9 @@ class TangentMatrix {
   void solve(std::span<double> x) { lu_.solve(x); }
 
  private:
-  [[nodiscard]] static std::vector<SparseLU::Entry> pattern(const System& system, const ActiveRows& rows,
-                                                            const LinearTerms& terms);
+  [[nodiscard]] static std::vector<LuPattern::Entry> entries(const System& system, const ActiveRows& rows,
+                                                             const LinearTerms& terms);
+  LuPattern pattern_;
   SparseLU lu_;
   bool regular_;
 };

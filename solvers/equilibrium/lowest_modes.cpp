@@ -1,6 +1,7 @@
 #include "dalembert/solvers/equilibrium/lowest_modes.h"
 
 #include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
 
 #include <Eigen/Eigenvalues>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <random>
 
 namespace dalembert {
@@ -147,8 +147,7 @@ std::vector<Pair> lowest_pairs(Inverse& T, std::size_t wanted) {
 double stiffest(const System& system, const LinearTerms& terms) {
   double largest = 0.0;
   for (const auto& entry : terms.stiffness) {
-    const double m = std::sqrt(system.masses()[static_cast<std::size_t>(entry.row())] *
-                               system.masses()[static_cast<std::size_t>(entry.col())]);
+    const double m = std::sqrt(system.masses()[entry.row()] * system.masses()[entry.col()]);
     largest = std::max(largest, std::abs(entry.value()) / m);
   }
   return largest;
@@ -161,7 +160,7 @@ bool nothing_below(const System& system, const LinearTerms& terms, double s, dou
   LinearTerms::Entries entries;
   const auto root = [&](std::size_t i) { return std::sqrt(system.masses()[i]); };
   for (const auto& k : terms.stiffness) {
-    const double scale = root(static_cast<std::size_t>(k.row())) * root(static_cast<std::size_t>(k.col()));
+    const double scale = root(k.row()) * root(k.col());
     entries.emplace_back(k.row(), k.col(), k.value() / scale);
   }
   for (std::size_t i = 0; i < system.coordinates(); ++i)
@@ -228,7 +227,7 @@ Modes lowest_modes(const System& system, const LinearTerms& terms, std::size_t w
     found.stability = Stability::undecided;
     found.reason = "it could not be proved that no mode grows fast";
   }
-  const double zero = roundings_of_a_sum * std::numeric_limits<double>::epsilon() * largest;
+  const double zero = roundings_of_a_sum * epsilon * largest;
   for (const Pair& pair : pairs) {
     const Vector u = T.shape(pair.x);
     Index most = 0;

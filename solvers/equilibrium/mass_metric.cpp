@@ -1,7 +1,8 @@
 #include "dalembert/solvers/equilibrium/mass_metric.h"
 
+#include <dalembert/solvers/base/numbers.h>
+
 #include <cmath>
-#include <limits>
 
 namespace dalembert {
 
@@ -11,7 +12,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// The place of a coordinate among those considered; -1: not among them.
 std::vector<Index> places(std::size_t all, std::span<const std::size_t> coordinates) {
@@ -23,8 +23,7 @@ std::vector<Index> places(std::size_t all, std::span<const std::size_t> coordina
 MatrixXd scaled(const LinearTerms::Entries& entries, std::span<const Index> place, const VectorXd& root) {
   MatrixXd dense = MatrixXd::Zero(root.size(), root.size());
   for (const auto& entry : entries) {
-    const Index i = place[static_cast<std::size_t>(entry.row())],
-                j = place[static_cast<std::size_t>(entry.col())];
+    const Index i = place[entry.row()], j = place[entry.col()];
     if (i >= 0 && j >= 0) dense(i, j) += entry.value() * root[i] * root[j];
   }
   return dense;

@@ -1,6 +1,7 @@
 #include "dalembert/solvers/equilibrium/normal_modes.h"
 
 #include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/balance.h>
 #include <dalembert/solvers/equilibrium/lowest_modes.h>
 #include <dalembert/solvers/equilibrium/singular_position.h>
@@ -39,8 +40,7 @@ double stiffness_along(const Balance& balance, const Balance::State& s, std::spa
   const LinearTerms terms =
       linear_terms(balance.system(), balance.frame(), {balance.time(), s.q, s.v}, s.lambda);
   double sum = 0.0;
-  for (const auto& k : terms.stiffness)
-    sum += k.value() * u[static_cast<std::size_t>(k.row())] * u[static_cast<std::size_t>(k.col())];
+  for (const auto& k : terms.stiffness) sum += k.value() * u[k.row()] * u[k.col()];
   for (std::size_t r = 0; r < balance.system().rows(); ++r) {
     const double C = balance.system().compliance()[r];
     if (C == 0.0) continue;
@@ -55,7 +55,7 @@ double stiffness_along(const Balance& balance, const Balance::State& s, std::spa
 /// Whether the stiffness along a mode exceeds its change within the square root of round-off, to which a
 /// position is known where the stiffness vanishes: for a bead at the turning point of a cubic it does not.
 bool is_known(const Balance& balance, const FlatSample& at, const Mode& mode) {
-  const double way = std::sqrt(std::numeric_limits<double>::epsilon()) * balance.scales().length;
+  const double way = std::sqrt(epsilon) * balance.scales().length;
   std::vector<double> u;
   for (const auto& x : mode.shape) u.push_back(x.real());
   Balance::State here = balance.start();
@@ -172,8 +172,7 @@ std::vector<double> response(const System& system, const LinearTerms& terms, dou
   const std::size_t n = u.size();
   std::vector<double> out(n + rows.size(), 0.0);
   for (std::size_t i = 0; i < n; ++i) out[i] = system.masses()[i] * u[i];
-  for (const auto& entry : terms.damping)
-    out[static_cast<std::size_t>(entry.row())] += entry.value() * u[static_cast<std::size_t>(entry.col())];
+  for (const auto& entry : terms.damping) out[entry.row()] += entry.value() * u[entry.col()];
   for (std::size_t a = rows.holonomic; a < rows.size(); ++a) {
     for (const std::size_t k : system.row(rows.rows[a])) out[n + a] -= terms.e[k] * u[system.w_columns()[k]];
   }
@@ -229,7 +228,7 @@ const char* name(Stability stability) {
 Modes find_modes(const System& system, const FlatSample& at, const Turning<3>& turning,
                  const ModesOptions& options) {
   require_same_size(system, at);
-  const Balance balance(system, at.q, at.time, turning);
+  const Balance balance(Problem(system), at.q, at.time, turning);
   require_equilibrium(balance, at);
   require_smooth(system, balance, at);
   const LinearTerms terms = linear_terms(system, balance.frame(), {at.time, at.q, at.v}, at.lambda);

@@ -21,8 +21,7 @@ MatrixXd stiffness(const System& system, const RotatingFrame& frame, const Insta
   const auto n = static_cast<Index>(system.coordinates());
   MatrixXd K = MatrixXd::Zero(n, n);
   for (const auto& k : terms.stiffness) {
-    const double masses = system.masses()[static_cast<std::size_t>(k.row())] *
-                          system.masses()[static_cast<std::size_t>(k.col())];
+    const double masses = system.masses()[k.row()] * system.masses()[k.col()];
     K(k.row(), k.col()) += k.value() / std::sqrt(masses);
   }
   return K;

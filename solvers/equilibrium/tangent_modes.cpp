@@ -1,6 +1,7 @@
 #include "dalembert/solvers/equilibrium/tangent_modes.h"
 
 #include <dalembert/core/analysis/islands.h>
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
 #include <dalembert/solvers/linear/dense.h>
 
@@ -18,7 +19,6 @@ namespace {
 using Eigen::Index;
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double round_off = roundings_of_a_sum * epsilon;
 
 /// The problem (1) of the header for some coordinates, u = shapes z.

@@ -1,6 +1,7 @@
 #include "dalembert/solvers/erk/erk.h"
 
 #include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/erk/erk_state.h>
 #include <dalembert/solvers/erk/hermite.h>
 
@@ -9,13 +10,13 @@
 
 namespace dalembert {
 
-ErkStepper::ErkStepper(const System& system, const Start& start, const Options& options)
-    : state_(std::make_unique<State>(system, start, options)) {}
+ErkStepper::ErkStepper(const Problem& problem, const Start& start, const Options& options)
+    : state_(std::make_unique<State>(problem, start, options)) {}
 ErkStepper::~ErkStepper() = default;
 
 /// Round-off in the projection of a state, over the tolerance: velocities by eps/sin^2, see Passage.
 double ErkStepper::State::round_off_of_projection() const {
-  const double eps = std::numeric_limits<double>::epsilon();
+  const double eps = epsilon;
   return constants.roundings_of_projection * eps / (std::max(next.sine * next.sine, eps) * tolerance);
 }
 
@@ -41,9 +42,7 @@ double ErkStepper::State::attempt(double step) {
   }
 }
 
-double ErkStepper::State::shortest() const {
-  return 16.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(to.t), scales.time);
-}
+double ErkStepper::State::shortest() const { return 16.0 * epsilon * std::max(std::abs(to.t), scales.time); }
 
 double ErkStepper::State::shorter(double step, double factor) const {
   if (step * factor > shortest()) return step * factor;
@@ -134,7 +133,7 @@ void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v)
   const Hermite<3, 2> of_velocities({s.from.t, s.middle.t, s.to.t}, t);
   const Hermite<2, 2> of_ends({s.from.t, s.to.t}, t);
   const double rounding = s.scales.rounding(s.to.q), h = s.to.t - s.from.t,
-               of_time = 10.0 * std::numeric_limits<double>::epsilon() * std::abs(s.to.t);
+               of_time = 10.0 * epsilon * std::abs(s.to.t);
   for (std::size_t i = 0; i < s.n; ++i) {
     const std::array speeds{s.from.va[i], s.middle.va[i], s.to.va[i]},
         accelerations{s.from.va[s.n + i], s.middle.va[s.n + i], s.to.va[s.n + i]};

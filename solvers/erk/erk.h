@@ -30,8 +30,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// accurate than the steps.
 class ErkStepper final : public TimeStepper {
  public:
-  /// The system must outlive the stepper.
-  ErkStepper(const System& system, const Start& start, const Options& options);
+  ErkStepper(const Problem& problem, const Start& start, const Options& options);
   ~ErkStepper() override;
 
   /// The step may replace the last one and end before it.

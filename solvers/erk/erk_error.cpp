@@ -1,3 +1,4 @@
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/erk/erk_state.h>
 
 #include <cmath>
@@ -93,7 +94,7 @@ void ErkStepper::State::watch_stability(double step) {
     rates += dv * dv + T2 * da * da;
     states += stage_q[i] * stage_q[i] + T2 * dv * dv;
   }
-  const double round_off = 100.0 * std::numeric_limits<double>::epsilon() * scales.length;
+  const double round_off = 100.0 * epsilon * scales.length;
   if (states > round_off * round_off && step * step * rates > stable * stable * states) {
     stability_limited += stability_check_interval;
   }

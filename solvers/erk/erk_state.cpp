@@ -24,13 +24,13 @@ std::array<double, stages> difference_of_last_rows() {
 
 }  // namespace
 
-ErkStepper::State::State(const System& s, const Start& start, const Options& options)
-    : system(&s),
+ErkStepper::State::State(const Problem& problem, const Start& start, const Options& options)
+    : system(&problem.system()),
       n(start.q.size()),
       scales(start.scales),
-      tolerance(options.tolerance),
+      tolerance(tolerance_of_a_step(Stepper::erk, options.tolerance)),
       t_end(options.t_end),
-      manifold(s, start.rows, start.scales.lengths()),
+      manifold(problem, start.rows, start.scales.lengths()),
       a(pair.a.begin(), pair.a.end()),
       last_difference(difference_of_last_rows()),
       stage_q(start.q.size()),
@@ -41,7 +41,7 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
             start.scales.time),
       h(std::min(usual, options.t_end - options.t_start)),
       passage(n),
-      switches(s, {options.t_start, start.q, start.v}, start.lambda),
+      switches(*system, {options.t_start, start.q, start.v}, start.lambda),
       multipliers(start.lambda.size()) {
   for (Node* node : {&from, &to, &middle, &next, &short_of, &beyond}) {
     node->t = options.t_start;
@@ -50,7 +50,7 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
     node->va.insert(node->va.end(), start.a.begin(), start.a.end());
   }
   if (switches.any()) {
-    sticking.emplace(s, start, options.t_start, tolerance);
+    sticking.emplace(problem, start, options.t_start, tolerance);
     manifold.listen();
     for (Side* side : {&from.side, &to.side, &middle.side, &next.side, &short_of.side, &beyond.side,
                        &stage_side, &behind_side})
@@ -62,7 +62,7 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
   }
   passage.remember(to.t, start.a);
   to.sine = manifold.sine({to.t, to.q, halves(to.va).first});
-  if (start.rows.size() < s.rows_in_force()) replace_below = constants.worn * to.sine;
+  if (start.rows.size() < system->rows_in_force()) replace_below = constants.worn * to.sine;
   if (!system->compliant()) return;
   auto e = system->evaluation();
   system->evaluate({options.t_start, start.q, start.v}, e);
@@ -75,7 +75,7 @@ ErkStepper::State::State(const System& s, const Start& start, const Options& opt
 }
 
 void ErkStepper::State::require(bool regular) {
-  if (!regular) throw EquationFault("the constraints became dependent on each other");
+  if (!regular) throw EquationFault("the constraints became linearly dependent");
 }
 
 /// Whether the angle between constraints changes much in a step. An error e of a stage off the manifold is

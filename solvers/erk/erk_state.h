@@ -24,7 +24,7 @@ struct ErkStepper::State {
   static constexpr int stages = pair.stages;
   static constexpr long stability_check_interval = 8;  // steps
 
-  State(const System& system, const Start& start, const Options& options);
+  State(const Problem& problem, const Start& start, const Options& options);
 
   /// An instant between two steps: positions, and velocities and accelerations in one piece, as the
   /// first stage of the next step.

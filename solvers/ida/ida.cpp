@@ -1,11 +1,11 @@
 #include "dalembert/solvers/ida/ida.h"
 
 #include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/ida/ida_state.h>
 #include <dalembert/solvers/run/singularity.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace dalembert {
@@ -26,8 +26,8 @@ constexpr double stiff_rate = 1000.0;
 
 }  // namespace
 
-IdaStepper::IdaStepper(const System& system, const Start& start, const Options& options)
-    : state_(std::make_unique<State>(system, start, options)) {
+IdaStepper::IdaStepper(const Problem& problem, const Start& start, const Options& options)
+    : state_(std::make_unique<State>(problem, start, options)) {
   State& s = *state_;
   void* ida = s.ida.get();
   const auto residual = [](double t, N_Vector x, N_Vector xp, N_Vector r, void* data) noexcept {
@@ -111,7 +111,7 @@ bool IdaStepper::State::has_stiff_force() const {
 
 /// Whether round-off, which the constraints amplify by 1/sine, exceeds the error allowed to a step.
 bool IdaStepper::State::asks_for_too_much() const {
-  return constants.share_of_a_step * asked_for * scales.length * sine() <
+  return tolerance_of_a_step(Stepper::ida, asked_for) * scales.length * sine() <
          scales.rounding(instant(t, y.get()).q);
 }
 
@@ -164,7 +164,7 @@ void IdaStepper::step(double /*wanted*/) {
   s.noise_of_steps += s.noise_of_step;
   s.watch_convergence();
   // In front of a fault IDA would halve and double such steps for ever.
-  if (code == IDA_SUCCESS && s.t - before <= 4.0 * std::numeric_limits<double>::epsilon() * std::abs(s.t)) {
+  if (code == IDA_SUCCESS && s.t - before <= 4.0 * epsilon * std::abs(s.t)) {
     throw StepFailure{
         s.fault_or(s.asks_for_too_much()
                        ? std::string("the step has become too short to advance time: ") + too_tight

@@ -20,8 +20,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// from them, too, Manifold recovers.)
 class IdaStepper final : public TimeStepper {
  public:
-  /// The system must outlive the stepper.
-  IdaStepper(const System& system, const Start& start, const Options& options);
+  IdaStepper(const Problem& problem, const Start& start, const Options& options);
   ~IdaStepper() override;
 
   /// Where output is wanted makes no difference: the BDF polynomial is as accurate between steps as at them.

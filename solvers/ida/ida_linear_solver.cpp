@@ -28,7 +28,7 @@ void IdaStepper::State::make_linear_solver() {
       s.factored_at = at.t;
       s.corrections = 0;
       s.error_over_correction = State::unknown_rate;
-      if (!regular) s.blame(s.matrix_t, "the constraints became dependent on each other");
+      if (!regular) s.blame(s.matrix_t, "the constraints became linearly dependent");
       return regular ? 0 : 1;
     });
   };

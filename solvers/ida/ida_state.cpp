@@ -1,31 +1,31 @@
 #include "dalembert/solvers/ida/ida_state.h"
 
 #include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/ida/vector_operations.h>
 
 #include <nvector/nvector_serial.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace dalembert {
 
-IdaStepper::State::State(const System& s, const Start& start, const Options& options)
-    : system(&s),
+IdaStepper::State::State(const Problem& problem, const Start& start, const Options& options)
+    : system(&problem.system()),
       rows(start.rows),
       scales(start.scales),
       asked_for(options.tolerance),
-      tolerance(constants.share_of_a_step * options.tolerance),
+      tolerance(tolerance_of_a_step(Stepper::ida, options.tolerance)),
       t_start(options.t_start),
       t_end(options.t_end),
       first_step(std::min(constants.first_implicit_step * std::sqrt(options.tolerance) * start.scales.time,
                           options.t_end - options.t_start)),
-      e(s.evaluation()),
+      e(system->evaluation()),
       lambda(start.lambda),
       impulse_row(start.rows.size()),
       compliance_row(impulse_row.size()),
-      newton(s, start.rows, start.scales.time),
+      newton(problem, start.rows, start.scales.time),
       t(options.t_start) {
   y.reset(check(N_VNew_Serial(static_cast<sunindextype>(unknowns()), context.get())));
   vectorise(y.get());
@@ -134,7 +134,7 @@ void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
     scales.take(scales.further(value.first(n()), value.subspan(n(), n()), h, tolerance));
     find_impulses();
   }
-  const double eps = constants.roundings_of_newton * std::numeric_limits<double>::epsilon();
+  const double eps = constants.roundings_of_newton * epsilon;
   noise_of_step = 0.0;
   for (std::size_t i = 0; i < n(); ++i) {
     const double noise = eps * std::abs(value[i]);

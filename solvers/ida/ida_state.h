@@ -21,7 +21,7 @@ struct FreeIda {
 
 /// IDA's memory and what its callbacks need.
 struct IdaStepper::State {
-  State(const System& system, const Start& start, const Options& options);
+  State(const Problem& problem, const Start& start, const Options& options);
 
   // The context is declared first: it dies last.
   Owned<SUNContext, FreeContext> context = make_context();

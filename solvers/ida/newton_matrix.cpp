@@ -1,5 +1,7 @@
 #include "dalembert/solvers/ida/newton_matrix.h"
 
+#include <dalembert/solvers/linear/rows.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,8 +9,8 @@ namespace dalembert {
 
 namespace {
 
-/// The places of the rows that carry mu: the holonomic ones that are not parallel.
-std::vector<std::size_t> carrying_rows(const ActiveRows& all) {
+/// The places of the rows with a multiplier mu: the holonomic ones that are not parallel.
+std::vector<std::size_t> rows_with_mu(const ActiveRows& all) {
   std::vector<std::size_t> places;
   for (std::size_t k = 0; k < all.holonomic; ++k) {
     if (!std::ranges::binary_search(all.parallel, k)) places.push_back(k);
@@ -16,9 +18,9 @@ std::vector<std::size_t> carrying_rows(const ActiveRows& all) {
   return places;
 }
 
-ActiveRows those_at(const std::vector<std::size_t>& places, const ActiveRows& all) {
-  ActiveRows rows{{}, places.size()};
-  for (const std::size_t k : places) rows.rows.push_back(all.rows[k]);
+std::vector<std::size_t> those_at(const std::vector<std::size_t>& places, const ActiveRows& all) {
+  std::vector<std::size_t> rows;
+  for (const std::size_t k : places) rows.push_back(all.rows[k]);
   return rows;
 }
 
@@ -26,32 +28,34 @@ bool any(const std::vector<char>& flags) { return std::ranges::find(flags, 1) !=
 
 }  // namespace
 
-NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows, double time)
-    : system_(&system),
+NewtonMatrix::NewtonMatrix(const Problem& problem, const ActiveRows& rows, double time)
+    : problem_(problem),
+      system_(&problem_.system()),
       rows_(rows),
       time_(time),
-      islands_(islands(system)),
-      needs_k1_(islands_.count, 0),
+      needs_k1_(problem.islands().count, 0),
       stiff_(needs_k1_),
-      linear_(system.linearisation()),
-      w_(system.w_columns().size()),
+      linear_(system_->linearisation()),
+      w_(system_->w_columns().size()),
       lower_(w_.size()),
-      s_(system.rows()),
-      carrying_(carrying_rows(rows)),
-      k2_(system, those_at(carrying_, rows)),
-      x1_(system.coordinates() + rows.size()),
+      s_(system_->rows()),
+      with_mu_(rows_with_mu(rows)),
+      k2_(problem.pattern(those_at(with_mu_, rows))),
+      x1_(system_->coordinates() + rows.size()),
       x2_(k2_.size()),
-      p_(system.coordinates()),
+      p_(system_->coordinates()),
       dmu_(rows.holonomic),
       yields_(dmu_.size(), 0),
-      first_force_entry_(system.stiffness_of_constraints()) {
+      first_force_entry_(system_->stiffness_of_constraints()) {
+  const System& system = *system_;
+  const Islands& islands = problem.islands();
   for (const std::size_t row : rows.rows) {
     if (row >= system.holonomic_rows() || system.compliance()[row] > 0.0)
-      needs_k1_[islands_.of_row(system, row)] = 1;
+      needs_k1_[islands.of_row(system, row)] = 1;
   }
   for (std::size_t k = 0; k < system.friction_pattern().size(); ++k) {
     const auto [coordinate, row] = system.friction_pattern()[k];
-    needs_k1_[islands_.of_coordinate[coordinate]] = 1;
+    needs_k1_[islands.of_coordinate[coordinate]] = 1;
     const auto active = static_cast<std::size_t>(std::ranges::find(rows.rows, row) - rows.rows.begin());
     if (active < rows.holonomic) friction_.push_back({k, coordinate, active});
   }
@@ -65,29 +69,26 @@ NewtonMatrix::NewtonMatrix(const System& system, const ActiveRows& rows, double 
 std::vector<char> NewtonMatrix::varying_islands() const {
   auto varying = needs_k1_;
   for (const auto& entry : system_->stiffness_pattern().subspan(first_force_entry_))
-    varying[islands_.of_coordinate[entry.row]] = 1;
+    varying[problem_.islands().of_coordinate[entry.row]] = 1;
   return varying;
 }
 
 /// Makes the matrix K1 for these islands.
 void NewtonMatrix::include(const std::vector<char>& which) {
-  std::vector<std::size_t> coordinates;
+  const Islands& islands = problem_.islands();
+  std::vector<std::size_t> coordinates, rows, active;
   for (std::size_t i = 0; i < system_->coordinates(); ++i) {
-    if (which[islands_.of_coordinate[i]]) coordinates.push_back(i);
+    if (which[islands.of_coordinate[i]]) coordinates.push_back(i);
   }
-  ActiveRows rows;
-  std::vector<std::size_t> active;
   for (std::size_t k = 0; k < rows_.rows.size(); ++k) {
-    if (!which[islands_.of_row(*system_, rows_.rows[k])]) continue;
-    rows.rows.push_back(rows_.rows[k]);
+    if (!which[islands.of_row(*system_, rows_.rows[k])]) continue;
+    rows.push_back(rows_.rows[k]);
     active.push_back(k);
-    if (k < rows_.holonomic) ++rows.holonomic;
   }
   if (k1_) factorisations_of_earlier_ += k1_->matrix.factorisations();
-  KktMatrix matrix(*system_, rows, KktMatrix::Forces::linearised, coordinates);
+  SaddleMatrix matrix(problem_.pattern(rows, coordinates), SaddleValues::Blocks::all);
   const std::size_t size = matrix.size();
-  k1_.emplace(
-      Stiff{std::move(coordinates), std::move(active), which, std::move(matrix), std::vector<double>(size)});
+  k1_.emplace(Stiff{std::move(active), which, std::move(matrix), std::vector<double>(size)});
 }
 
 /// Finds the islands where H or D are not small, by their largest row sums.
@@ -102,7 +103,7 @@ void NewtonMatrix::judge(double c) {
     p_[system_->damping_pattern()[k].row] += std::abs(linear_.damping[k]) / c;
   std::ranges::fill(stiff_, 0);
   for (std::size_t i = 0; i < p_.size(); ++i) {
-    if (p_[i] > still_soft_ * system_->masses()[i]) stiff_[islands_.of_coordinate[i]] = 1;
+    if (p_[i] > still_soft_ * system_->masses()[i]) stiff_[problem_.islands().of_coordinate[i]] = 1;
   }
 }
 
@@ -111,7 +112,9 @@ void NewtonMatrix::converged_badly() {
 }
 
 void NewtonMatrix::leave_out_soft_forces() {
-  const auto soft = [this](const System::Entry& entry) { return !stiff_[islands_.of_coordinate[entry.row]]; };
+  const auto soft = [this](const System::Entry& entry) {
+    return !stiff_[problem_.islands().of_coordinate[entry.row]];
+  };
   for (std::size_t k = 0; k < linear_.stiffness.size(); ++k)
     if (soft(system_->stiffness_pattern()[k])) linear_.stiffness[k] = 0.0;
   for (std::size_t k = 0; k < linear_.damping.size(); ++k)
@@ -123,7 +126,7 @@ bool NewtonMatrix::factorise(const Instant& at, const System::Evaluation& e, std
   system_->linearise(at, lambda, linear_);
   judge(c);
   std::ranges::copy(e.w, w_.begin());
-  if (!k2_.factorise(w_)) return false;
+  if (!k2_.factorise({.w = w_})) return false;
   fastest_ = fastest_vibrations(*system_, w_, linear_, p_);
   k1_in_use_ = false;
   for (std::size_t i = 0; i < stiff_.size(); ++i) {
@@ -144,12 +147,18 @@ bool NewtonMatrix::factorise_stiff(double c) {
     for (const std::size_t k : system_->row(r)) lower_[k] += linear_.psi_q[k] / c;
   }
   for (std::size_t r = 0; r < s_.size(); ++r) s_[r] = c * c * system_->compliance()[r];
-  return k1_->matrix.factorise(w_, lower_, linear_, 1.0 / (c * c), 1.0 / c, s_);
+  return k1_->matrix.factorise({.w = w_,
+                                .s = s_,
+                                .slope = linear_.friction,
+                                .lower = lower_,
+                                .forces = &linear_,
+                                .h = 1.0 / (c * c),
+                                .d = 1.0 / c});
 }
 
 bool NewtonMatrix::refresh(const System::Evaluation& e, double c) {
   std::ranges::copy(e.w, w_.begin());
-  return k2_.factorise(w_) && (!k1_in_use_ || factorise_stiff(c));
+  return k2_.factorise({.w = w_}) && (!k1_in_use_ || factorise_stiff(c));
 }
 
 double NewtonMatrix::along(std::size_t row, std::span<const double> values, std::span<const double> x) const {
@@ -178,10 +187,10 @@ double NewtonMatrix::dlambda(std::size_t active, double c) const {
 void NewtonMatrix::solve_by_k2() {
   const auto n = system_->coordinates();
   std::copy_n(x1_.begin(), n, x2_.begin());
-  for (std::size_t j = 0; j < carrying_.size(); ++j) x2_[n + j] = x1_[n + carrying_[j]];
+  for (std::size_t j = 0; j < with_mu_.size(); ++j) x2_[n + j] = x1_[n + with_mu_[j]];
   k2_.solve(x2_);
   std::copy_n(x2_.begin(), n, x1_.begin());
-  for (std::size_t j = 0; j < carrying_.size(); ++j) x1_[n + carrying_[j]] = x2_[n + j];
+  for (std::size_t j = 0; j < with_mu_.size(); ++j) x1_[n + with_mu_[j]] = x2_[n + j];
 }
 
 /// (5) to (7), given p and dmu as far as they are known; leaves x, dnu in x1_, dv in x2_, and dmu.
@@ -219,14 +228,14 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
   }
   if (k1_in_use_) {
     std::size_t next = 0;
-    for (const std::size_t i : k1_->coordinates) k1_->x[next++] = x1_[i];
+    for (const std::size_t i : k1_->matrix.coordinates()) k1_->x[next++] = x1_[i];
     for (const std::size_t r : k1_->active) k1_->x[next++] = x1_[n + r];
     k1_->matrix.solve(k1_->x);
   }
-  if (!k1_in_use_ || k1_->coordinates.size() < n) solve_by_k2();
+  if (!k1_in_use_ || k1_->matrix.coordinates().size() < n) solve_by_k2();
   if (k1_in_use_) {
     std::size_t next = 0;
-    for (const std::size_t i : k1_->coordinates) x1_[i] = k1_->x[next++];
+    for (const std::size_t i : k1_->matrix.coordinates()) x1_[i] = k1_->x[next++];
     for (const std::size_t r : k1_->active) x1_[n + r] = k1_->x[next++];
   }
 
@@ -236,13 +245,13 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
     x2_[i] = b1[i] + masses[i] * x1_[i] / c;
     x1_[i] /= c * c;
   }
-  for (std::size_t j = 0; j < carrying_.size(); ++j) {
-    const std::size_t r = carrying_[j];
+  for (std::size_t j = 0; j < with_mu_.size(); ++j) {
+    const std::size_t r = with_mu_[j];
     const auto row = rows_.rows[r];
     x2_[n + j] = b3[r] - along(row, linear_.psi_q, x1_) - c * C[row] * dlambda(r, c);
   }
   k2_.solve(x2_);
-  for (std::size_t j = 0; j < carrying_.size(); ++j) dmu_[carrying_[j]] = -x2_[n + j];  // the matrix has -G^T
+  for (std::size_t j = 0; j < with_mu_.size(); ++j) dmu_[with_mu_[j]] = -x2_[n + j];  // the matrix has -G^T
 }
 
 /// How often to eliminate again with the dmu of the last time.

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <dalembert/core/analysis/islands.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/ida/vibrations.h>
-#include <dalembert/solvers/linear/saddle.h>
+#include <dalembert/solvers/linear/problem.h>
 
 #include <algorithm>
 #include <optional>
@@ -43,11 +42,12 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// Parallel rows (see ActiveRows) take part in (5) and (6) only; in place of (3) they have mu = 0.
 ///
 /// At first dmu is neglected in (5) and (6). A predictor leaves the manifold by c b4 - b3, dmu is as
-/// large, and neglecting it does harm where it is multiplied by much: in D p where damping is strong, in
-/// A p where nonholonomic rows meet holonomic ones (A M^-1 G^T not 0), in C dmu. Each iteration would mend
-/// that error of the last in the multipliers by one as large. There (5) to (7) are solved again with the dmu
-/// and p found, which leaves of the error a part of order psi_q/c; with C a third time. (With C dlambda = C
-/// (dnu - c dmu) and the same dmu in (6) and (7), the matrix of (7) is that of a rigid scene.)
+/// large, and neglecting it spoils convergence where it is multiplied by much: in D p where damping is
+/// strong, in A p where nonholonomic rows are coupled to holonomic ones (A M^-1 G^T not 0), in C dmu. Each
+/// iteration would correct that error of the last in the multipliers by one as large. There (5) to (7) are
+/// solved again with the dmu and p found, which leaves of the error a part of order psi_q/c; with C a third
+/// time. (With C dlambda = C (dnu - c dmu) and the same dmu in (6) and (7), the matrix of (7) is that of a
+/// rigid scene.)
 ///
 /// In steps that resolve the vibration of a compliant row, c^2 C > w M^-1 w, dlambda would be the small
 /// difference of dnu and c dmu: there the unknown in (5) and (6) is dlambda itself, and c G^T dmu, with the
@@ -56,7 +56,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// Where forces read multipliers, W^T in (2) and (5) is W^T + F_lambda, and -c F_lambda dmu joins the right
 /// of (5).
 ///
-/// Where forces are soft against the inertia that a step feels, |H|/c^2 + |D|/c small against M, H and D
+/// Where forces are soft against the inertia in a step, |H|/c^2 + |D|/c small against M, H and D
 /// are left out. Of the forces' own stiffness |H| T/c must be small as well, with the scene's time T: IDA
 /// measures a first correction dq by L, the H dq/(c M) that it leaves to the second by L/T, and would take
 /// the second for divergence. Where besides no row is nonholonomic or compliant, both matrices are the same,
@@ -66,7 +66,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 class NewtonMatrix {
  public:
   /// `time` is the scene's own, as in Scales.
-  NewtonMatrix(const System& system, const ActiveRows& rows, double time);
+  NewtonMatrix(const Problem& problem, const ActiveRows& rows, double time);
 
   /// Factors at a state, with the equations there; `lambda` has one number per row of the system.
   /// False if singular. Throws EquationFault.
@@ -95,10 +95,9 @@ class NewtonMatrix {
  private:
   /// The matrix of (5) and (6) for some of the islands.
   struct Stiff {
-    std::vector<std::size_t> coordinates;
     std::vector<std::size_t> active;  // its rows, by their place among all active ones
     std::vector<char> islands;
-    KktMatrix matrix;
+    SaddleMatrix matrix;
     std::vector<double> x;
   };
 
@@ -120,18 +119,18 @@ class NewtonMatrix {
     std::size_t entry, coordinate, active;
   };
 
-  const System* system_;
+  Problem problem_;
+  const System* system_;  // its own
   ActiveRows rows_;
   double time_;
   double still_soft_ = constants.soft;
-  Islands islands_;
   std::vector<char> needs_k1_;  // per island: nonholonomic or compliant rows, or friction
   std::vector<char> stiff_;     // per island: forces that a step feels
   std::vector<Friction> friction_;
   System::Linearisation linear_;
   std::vector<double> w_, lower_, s_;
   std::optional<Stiff> k1_;
-  std::vector<std::size_t> carrying_;  // mu: places in rows_
+  std::vector<std::size_t> with_mu_;  // mu: places in rows_
   SaddleMatrix k2_;
   std::vector<double> x1_, x2_, p_, dmu_;
   std::vector<char> yields_;  // per holonomic active row, see above

@@ -8,23 +8,36 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// A sparse unsymmetric matrix with a fixed pattern, factored by SuiteSparse's KLU: ordered once,
-/// pivoted at the first factorisation and again whenever the pivots have become bad, refactored
-/// with the same pivots otherwise.
-///
-/// The pattern is given as a list of entries; values are added up per place, so that several
-/// entries may share one.
-class SparseLU {
+/// The places of a sparse unsymmetric matrix, ordered once by SuiteSparse's KLU for all matrices that have
+/// them.
+class LuPattern {
  public:
   struct Entry {
     std::size_t row, column;
   };
 
-  SparseLU(std::size_t size, std::span<const Entry> entries);
+  /// As a list of entries; several may share a place.
+  LuPattern(std::size_t size, std::span<const Entry> entries);
+  LuPattern(LuPattern&&) noexcept;
+  ~LuPattern();
+
+  [[nodiscard]] std::size_t size() const;
+
+ private:
+  friend class SparseLU;
+  struct State;
+  std::unique_ptr<const State> state_;
+};
+
+/// A matrix of such a pattern, factored by KLU: pivoted at the first factorisation and again whenever the
+/// pivots have become bad, refactored with the same pivots otherwise. Values are added up per place.
+class SparseLU {
+ public:
+  /// The pattern must outlive it.
+  explicit SparseLU(const LuPattern& pattern);
   SparseLU(SparseLU&&) noexcept;
   ~SparseLU();
 
-  [[nodiscard]] std::size_t size() const;
   void set_zero();
   /// Adds to the k-th entry of the list.
   void add(std::size_t k, double value);
@@ -35,7 +48,6 @@ class SparseLU {
   void solve(std::span<double> x);
   /// Of the last factorisation: -1, 0 or 1.
   [[nodiscard]] int sign_of_determinant();
-  [[nodiscard]] long factorisations() const;
 
  private:
   struct State;

@@ -7,7 +7,7 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// w M^-1 w^T of a row: the inverse of the mass that its multiplier moves.
+/// w M^-1 w^T of a row: the inverse effective mass of its multiplier.
 [[nodiscard]] double inverse_effective_mass(const System& system, std::span<const double> w, std::size_t row);
 /// |w| of a row; `lengths` turns each coordinate into a length: 1, or the scene's length for an angle.
 [[nodiscard]] double gradient_length(const System& system, std::span<const double> w,

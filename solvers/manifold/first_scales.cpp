@@ -1,8 +1,9 @@
 #include "dalembert/solvers/manifold/first_scales.h"
 
+#include <dalembert/solvers/base/numbers.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace dalembert {
 
@@ -69,7 +70,7 @@ void set_length(const System& system, const Instant& at, const System::Evaluatio
       !system.compliant() && scales.length < radius && std::ranges::find(lengths, 1.0) != lengths.end();
   if (std::isinf(radius) && v > 0.0 && a > 0.0) scales.length = v * v / a;
   if (scales.of_path) {
-    const double rounding = std::numeric_limits<double>::epsilon() * scales.length;
+    const double rounding = epsilon * scales.length;
     scales.length = std::min(scales.length, std::max(nearest_contact, rounding));
   }
   scales.forced = a;

@@ -1,6 +1,7 @@
 #include "dalembert/solvers/manifold/friction.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/numbers.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,23 +21,17 @@ constexpr int most_steps = 30;
 /// roundings of the user's law.
 constexpr double same = 1e-13;
 
-double largest(std::span<const double> x) {
-  double most = 0.0;
-  for (const double value : x) most = std::max(most, std::abs(value));
-  return most;
-}
-
 }  // namespace
 
-FrictionSolver::FrictionSolver(const System& system, const ActiveRows& rows)
-    : system_(&system),
+FrictionSolver::FrictionSolver(const Problem& problem, const ActiveRows& rows)
+    : system_(&problem.system()),
       rows_(rows),
-      matrix_(system, rows, KktMatrix::Forces::friction),
+      matrix_(problem.pattern(rows.rows), SaddleValues::Blocks::slope),
       given_(matrix_.size()),
-      lambda_(system.rows()),
-      slope_(system.friction_pattern().size()),
+      lambda_(system_->rows()),
+      slope_(system_->friction_pattern().size()),
       slope_mirrored_(slope_.size()),
-      force_(system.coordinates()),
+      force_(system_->coordinates()),
       predicted_(force_.size()) {}
 
 void FrictionSolver::add_slope(double factor, std::span<const double> x, std::span<double> y) const {
@@ -55,7 +50,7 @@ bool FrictionSolver::settled() const {
 
 /// The multipliers that the motion would have without friction.
 bool FrictionSolver::begin(std::span<const double> w, std::span<const double> s) {
-  if (!matrix_.factorise(w, s)) return false;
+  if (!matrix_.factorise({.w = w, .s = s})) return false;
   without_.assign(given_.begin(), given_.end());
   matrix_.solve(without_);
   std::ranges::fill(lambda_, 0.0);
@@ -74,8 +69,8 @@ FrictionSolver::Outcome FrictionSolver::iterate(const Instant& at, std::span<con
   system_->add_friction(at, lambda_, force_);
   for (int step = 0; step < most_steps; ++step) {
     system_->friction_slope(at, lambda_, slope_);
-    if (!matrix_.factorise_with_friction(w, s, slope_))
-      return matrix_.factorise(w, s) ? Outcome::none : Outcome::singular;
+    if (!matrix_.factorise({.w = w, .s = s, .slope = slope_}))
+      return matrix_.factorise({.w = w, .s = s}) ? Outcome::none : Outcome::singular;
     // F_f(lambda) - slope lambda: what stands on the right of (2), and with slope times the new lambda
     // the force predicted there.
     std::ranges::copy(force_, predicted_.begin());
@@ -127,8 +122,8 @@ bool FrictionSolver::mirrored_slope(const Instant& at) try {
 void FrictionSolver::require_unique(const Instant& at, std::span<const double> w, std::span<const double> s) {
   mirrored_.clear();
   if (!mirrored_slope(at) || slope_mirrored_ == slope_) return;
-  require_regular(matrix_.factorise_with_friction(w, s, slope_mirrored_) && matrix_.sign_of_determinant() > 0,
-                  at.t);
+  const bool regular = matrix_.factorise({.w = w, .s = s, .slope = slope_mirrored_});
+  require_regular(regular && matrix_.sign_of_determinant() > 0, at.t);
 }
 
 void FrictionSolver::find_what_is_read(const Instant& at) {
@@ -163,8 +158,8 @@ void FrictionSolver::require_determined(const Instant& at, std::span<const char>
     if (determined[row] || (!reads_[k] && slope_[k] == 0.0)) continue;
     throw InconsistentStart(system_->force_of_friction(k) + " reads the multiplier of " +
                             system_->row_label(row) +
-                            ", which the motion does not determine: other constraints repeat that one; "
-                            "remove what is redundant");
+                            ", which the motion does not determine: that constraint is redundant; "
+                            "remove what repeats it");
   }
 }
 
@@ -181,8 +176,9 @@ void FrictionSolver::refuse(double t) const {
   what.precision(10);
   what << system_->force_of_friction(steepest) << " changes the multiplier of "
        << system_->row_label(system_->friction_pattern()[steepest].column)
-       << " that it reads so much that no or no unique acceleration exists (Painleve's paradox; t = " << t
-       << "); make the friction smaller, or end the run before";
+       << " that it reads so strongly that there is no acceleration, or no unique one (Painleve's paradox; t "
+          "= "
+       << t << "); make the friction smaller, or end the run before";
   throw EquationFault(what.str());
 }
 

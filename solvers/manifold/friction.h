@@ -1,7 +1,7 @@
 #pragma once
 
 #include <dalembert/solvers/base/hidden.h>
-#include <dalembert/solvers/linear/kkt.h>
+#include <dalembert/solvers/linear/problem.h>
 
 #include <span>
 #include <string>
@@ -21,19 +21,19 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///
 /// Coulomb's law is linear in lambda as long as that keeps its sign: one or two steps solve (1) to
 /// round-off, however strongly friction couples back. Iterating on lambda with the factors of the matrix
-/// in (1) would need no matrix (2), but would converge as a power of that coupling, and would refuse, at
+/// in (1) would need no matrix (2), but would converge as a power of that coupling, and would reject, at
 /// a coupling below -1, problems that have exactly one solution.
 ///
-/// Without friction the determinant of (2) is positive. Friction that turns its sign has passed the value
+/// Without friction the determinant of (2) is positive. Friction that changes its sign has passed the value
 /// at which no acceleration or many exist (Painleve): the solution of (1) is then not the motion. Of a law
 /// in |lambda| a second solution may lie where multipliers have the other sign: `require_unique` asks for
 /// the sign of (2) at -lambda, which settles that for one multiplier and catches for several those that
 /// change their signs together.
 class FrictionSolver {
  public:
-  FrictionSolver(const System& system, const ActiveRows& rows);
+  FrictionSolver(const Problem& problem, const ActiveRows& rows);
 
-  /// In place: (F, b) becomes (v', lambda), n and then one number per active row; w and s as in KktMatrix.
+  /// In place: (F, b) becomes (v', lambda), n and then one number per active row; w and s as in SaddleValues.
   /// False if W is singular. Throws EquationFault, naming the force, if there is no solution.
   [[nodiscard]] bool solve(const Instant& at, std::span<const double> w, std::span<const double> s,
                            std::span<double> x);
@@ -65,7 +65,7 @@ class FrictionSolver {
 
   const System* system_;
   ActiveRows rows_;
-  KktMatrix matrix_;
+  SaddleMatrix matrix_;
   bool begun_ = false;  // lambda_ solved (1) the last time
   std::vector<double> given_, without_, lambda_, mirrored_, slope_, slope_mirrored_;
   std::vector<double> force_, predicted_;

@@ -1,8 +1,9 @@
 #include "dalembert/solvers/manifold/manifold.h"
 
+#include <dalembert/solvers/base/numbers.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace dalembert {
 
@@ -10,8 +11,7 @@ namespace {
 
 /// s over the inverse_effective_mass w M^-1 w of a row whose multiplier is given: what it still yields is
 /// round-off of round-off.
-constexpr double rigid =
-    1.0 / (std::numeric_limits<double>::epsilon() * std::numeric_limits<double>::epsilon());
+constexpr double rigid = 1.0 / (epsilon * epsilon);
 
 Violation largest(const System& system, std::span<const double> residual, std::span<const double> w,
                   std::span<const double> lengths) {
@@ -36,21 +36,22 @@ Violation velocity_violation(const System& system, const System::Evaluation& e,
   return largest(system, e.psi, e.w, lengths);
 }
 
-Manifold::Manifold(const System& system, const ActiveRows& rows, std::vector<double> lengths)
-    : system_(&system),
+Manifold::Manifold(const Problem& problem, const ActiveRows& rows, std::vector<double> lengths)
+    : problem_(problem),
+      system_(&problem_.system()),
       rows_(rows),
       lengths_(std::move(lengths)),
-      e_(system.evaluation()),
-      gamma_(system.rows()),
-      kkt_(system, rows),
-      minimum_norm_(system, rows, lengths_),
-      weakest_(system) {
+      e_(system_->evaluation()),
+      gamma_(system_->rows()),
+      kkt_(problem.pattern(rows.rows)),
+      minimum_norm_(*system_, rows, lengths_),
+      weakest_(*system_) {
   x_.resize(kkt_.size());
-  q_before_.resize(system.coordinates());
-  if (system.frictional()) friction_.emplace(system, rows);
-  if (!system.compliant()) return;
-  s_.resize(system.rows(), 0.0);
-  springs_before_ = springs_ = Springs(system.rows());
+  q_before_.resize(system_->coordinates());
+  if (system_->frictional()) friction_.emplace(problem, rows);
+  if (!system_->compliant()) return;
+  s_.resize(system_->rows(), 0.0);
+  springs_before_ = springs_ = Springs(system_->rows());
 }
 
 void Manifold::follow(const Springs& springs) {
@@ -85,7 +86,8 @@ double Manifold::sine(const Instant& at) {
   return factorise() ? sine() : 0.0;
 }
 
-void Manifold::weakest_directions(const Islands& islands, std::span<double> n, std::span<double> response) {
+void Manifold::weakest_directions(std::span<double> n, std::span<double> response) {
+  const Islands& islands = problem_.islands();
   weakest_.find(kkt_, rows_, e_.w, islands);
   std::vector<double> largest(islands.count);
   for (std::size_t i = 0; i < n.size(); ++i) {
@@ -107,7 +109,7 @@ void Manifold::weakest_directions(const Islands& islands, std::span<double> n, s
 
 bool Manifold::factorise() {
   weigh_springs();
-  return kkt_.factorise(e_.w, s_);
+  return kkt_.factorise({.w = e_.w, .s = s_});
 }
 
 template <class F>
@@ -205,7 +207,8 @@ bool Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
   return true;
 }
 
-bool Manifold::strike(double t, std::span<const double> q, std::span<double> v, std::span<double> impulses) {
+bool Manifold::project_impulsively(double t, std::span<const double> q, std::span<double> v,
+                                   std::span<double> impulses) {
   evaluate({t, q, v});
   if (!factorise()) return false;
   correct_velocities(v);

@@ -2,7 +2,7 @@
 
 #include <dalembert/core/autodiff/branches.h>
 #include <dalembert/solvers/base/hidden.h>
-#include <dalembert/solvers/linear/saddle.h>
+#include <dalembert/solvers/linear/problem.h>
 #include <dalembert/solvers/manifold/friction.h>
 #include <dalembert/solvers/manifold/minimum_norm.h>
 #include <dalembert/solvers/manifold/springs.h>
@@ -25,7 +25,7 @@ struct Violation {
 [[nodiscard]] Violation velocity_violation(const System& system, const System::Evaluation& e,
                                            std::span<const double> lengths);
 
-/// The set of states that obey the constraints: puts a state onto it, and finds the accelerations
+/// The set of states that obey the constraints: projects a state onto it, and finds the accelerations
 /// and multipliers there.
 ///
 /// Position: Newton's iteration for the least mass-weighted change, with q0 the given state,
@@ -48,7 +48,7 @@ struct Violation {
 /// -g/C, the limit of large s.
 class Manifold {
  public:
-  Manifold(const System& system, const ActiveRows& rows, std::vector<double> lengths);
+  Manifold(const Problem& problem, const ActiveRows& rows, std::vector<double> lengths);
 
   /// From here on the multipliers of compliant rows are these, and projected with the state.
   void follow(const Springs& springs);
@@ -57,16 +57,16 @@ class Manifold {
   /// (1), with steps halved until they bring the state closer, until the distance is at most
   /// `tolerance` or no longer shrinks. Returns what is left. Throws EquationFault.
   Violation project_positions(double t, std::span<double> q, std::span<const double> v, double tolerance);
-  /// (2) and (3) at positions that obey the constraints. False if the matrix is singular there.
+  /// (2) and (3) at positions that satisfy the constraints. False if the matrix is singular there.
   /// `lambda` has one number per row of the system; where rows depend on each other the forces are
-  /// the smallest that do (see MinimumNorm).
+  /// those of least norm (see MinimumNorm).
   [[nodiscard]] bool solve_motion(double t, std::span<const double> q, std::span<double> v,
                                   std::span<double> a, std::span<double> lambda);
 
   /// (2) alone, where it takes more than a correction: the impulses that put v onto the constraints, one per
   /// row of the system. False if singular.
-  [[nodiscard]] bool strike(double t, std::span<const double> q, std::span<double> v,
-                            std::span<double> impulses);
+  [[nodiscard]] bool project_impulsively(double t, std::span<const double> q, std::span<double> v,
+                                         std::span<double> impulses);
 
   /// (3) alone, at any state: the accelerations of the constrained motion. False if singular.
   [[nodiscard]] bool accelerate(const Instant& at, std::span<double> a);
@@ -79,11 +79,11 @@ class Manifold {
   [[nodiscard]] double sine(const Instant& at);
   [[nodiscard]] double sine() const { return kkt_.sine(); }
   /// Where the matrix was factored last, in each island the direction of the coordinates that its constraints
-  /// hold least, with the largest entry 1 (as lengths), and the largest violation, as a length, of a unit of
-  /// it: 0, as n is, where there are no constraints.
-  void weakest_directions(const Islands& islands, std::span<double> n, std::span<double> response);
+  /// constrain least, with the largest entry 1 (as lengths), and the largest violation, as a length, of a
+  /// unit of it: 0, as n is, where there are no constraints.
+  void weakest_directions(std::span<double> n, std::span<double> response);
 
-  /// From here on comparisons that the constraints make are heard.
+  /// From here on comparisons that the constraints make are recorded.
   void listen() { listening_ = true; }
   /// Those of the last `accelerate` or `project`.
   [[nodiscard]] const Branches::Outcomes& heard() const { return heard_; }
@@ -114,7 +114,8 @@ class Manifold {
   void correct_velocities(std::span<double> v);
   [[nodiscard]] bool solve_for_accelerations(const Instant& at, std::span<double> a);
 
-  const System* system_;
+  Problem problem_;
+  const System* system_;  // its own
   ActiveRows rows_;
   std::vector<double> lengths_;
   System::Evaluation e_;

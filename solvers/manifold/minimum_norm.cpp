@@ -1,15 +1,16 @@
 #include "dalembert/solvers/manifold/minimum_norm.h"
 
+#include <dalembert/solvers/base/numbers.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 
 namespace dalembert {
 
 namespace {
 
-constexpr double round_off = std::numeric_limits<double>::epsilon();
+constexpr double round_off = epsilon;
 
 /// The worst change of the positions is some times worse than the one that is tried.
 constexpr double margin = 10.0;
@@ -133,7 +134,7 @@ void MinimumNorm::find_null_space(const Solve& solve, std::span<const double> w)
   }
 }
 
-/// M x - W_a^T y = W^T N_j,  W_a x = 0: then y is what N_j lacks.
+/// M x - W_a^T y = W^T N_j,  W_a x = 0: then y is the correction of N_j.
 void MinimumNorm::solve_for_correction(const Solve& solve, std::span<const double> w, Eigen::Index j) {
   std::ranges::fill(x_, 0.0);
   for (Eigen::Index r = 0; r < N_.rows(); ++r) {

@@ -20,7 +20,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///   |D (lambda_0 + N z)| = min               least squares, by QR                              (3)
 ///
 /// D gives the forces at the points that the user stated the constraints for (detail::forces_at_points), and
-/// nothing for the rods inside bodies. So the forces of the stated constraints are the smallest that do, and
+/// nothing for the rods inside bodies. So the forces of the stated constraints are those of least norm, and
 /// neither the choice of a, nor how equations are scaled, nor what bodies are made of shows in them.
 ///
 /// A multiplier is determined by the motion if its row of N is zero, which is asked as exactly as the

@@ -28,13 +28,13 @@ Moment::Moment(const System& system, const Start& start, bool changes)
     unique.resize(lambda.size());
 }
 
-Recovery::Recovery(const System& system, const Start& start, double tolerance)
-    : system_(&system),
+Recovery::Recovery(const Problem& problem, const Start& start, double tolerance)
+    : problem_(problem),
+      system_(&problem_.system()),
       scales_(start.scales),
       lengths_(start.scales.lengths()),
       tolerance_(tolerance),
-      islands_(islands(system)),
-      left_out_(islands_.count),
+      left_out_(problem.islands().count),
       q_given_(start.q.size()),
       v_given_(start.q.size()),
       q_(start.q),
@@ -42,8 +42,8 @@ Recovery::Recovery(const System& system, const Start& start, double tolerance)
       a_(start.q),
       lambda_(start.lambda),
       n_(start.q.size()),
-      w_(system.w_columns().size()),
-      response_(islands_.count) {}
+      w_(system_->w_columns().size()),
+      response_(problem.islands().count) {}
 
 /// A state moved by more than the tolerance is not better for it.
 void Recovery::find_moved_too_far(const Moment& m) {
@@ -51,11 +51,11 @@ void Recovery::find_moved_too_far(const Moment& m) {
     const double speed = scales_.coordinate[i] / scales_.time + std::abs(v_given_[i]);
     if (std::abs(m.q[i] - q_given_[i]) > scales_.position_error(i, q_given_[i], tolerance_) ||
         std::abs(m.v[i] - v_given_[i]) > tolerance_ * speed)
-      left_out_[islands_.of_coordinate[i]] = 1;
+      left_out_[problem_.islands().of_coordinate[i]] = 1;
   }
 }
 
-/// What the constraints do not tell here stays as it was given.
+/// What the constraints do not determine here stays as it was given.
 void Recovery::project(Manifold& manifold, Moment& m) {
   const double L = scales_.length;
   std::ranges::copy(m.q, q_given_.begin());
@@ -69,7 +69,7 @@ void Recovery::project(Manifold& manifold, Moment& m) {
     find_moved_too_far(m);
   }
   for (std::size_t i = 0; i < m.q.size(); ++i) {
-    if (!left_out_[islands_.of_coordinate[i]]) continue;
+    if (!left_out_[problem_.islands().of_coordinate[i]]) continue;
     m.q[i] = q_given_[i];
     m.v[i] = v_given_[i];
   }
@@ -91,7 +91,7 @@ void Recovery::require_finite(const Moment& m) const {
   bool finite = std::isfinite(m.energy);
   for (std::size_t slot = 0; slot < coordinates.size(); ++slot) {
     const auto i = static_cast<std::size_t>(coordinates[slot]);
-    finite = finite && (left_out_[islands_.of_coordinate[i]] || std::isfinite(m.forces[slot]));
+    finite = finite && (left_out_[problem_.islands().of_coordinate[i]] || std::isfinite(m.forces[slot]));
   }
   if (finite) return;
   throw StepFailure{
@@ -102,11 +102,13 @@ void Recovery::require_finite(const Moment& m) const {
 
 /// Those of the islands that are left out.
 void Recovery::leave_forces_out(Moment& m) const {
-  const auto coordinate = [this](std::size_t i) { return left_out_[islands_.of_coordinate[i]] != 0; };
+  const auto coordinate = [this](std::size_t i) {
+    return left_out_[problem_.islands().of_coordinate[i]] != 0;
+  };
   for (std::size_t i = 0; i < m.a.size(); ++i)
     if (coordinate(i)) m.a[i] = undetermined;
   for (std::size_t r = 0; r < m.lambda.size(); ++r)
-    if (left_out_[islands_.of_row(*system_, r)]) m.lambda[r] = undetermined;
+    if (left_out_[problem_.islands().of_row(*system_, r)]) m.lambda[r] = undetermined;
   for (std::size_t slot = 0; slot < m.forces.size(); ++slot) {
     if (coordinate(static_cast<std::size_t>(system_->layout()->slot_coordinate[slot])))
       m.forces[slot] = undetermined;
@@ -131,10 +133,10 @@ void Recovery::mark_accelerations(Moment& m) const {
 /// Compares with a second state, see above.
 void Recovery::mark_undetermined(Manifold& manifold, Moment& m) {
   std::ranges::copy(manifold.equations().w, w_.begin());
-  manifold.weakest_directions(islands_, n_, response_);
+  manifold.weakest_directions(n_, response_);
   const double untold = std::max(m.position.size, scales_.rounding(m.q));
   for (std::size_t i = 0; i < n_.size(); ++i) {
-    const double response = response_[islands_.of_coordinate[i]];
+    const double response = response_[problem_.islands().of_coordinate[i]];
     q_[i] = m.q[i] + (response > 0.0 ? untold / response * n_[i] : 0.0);
     v_[i] = m.v[i];
   }
@@ -154,7 +156,7 @@ void Recovery::mark_undetermined(Manifold& manifold, Moment& m) {
 }
 
 /// Those that differ by as much as a force may not, relative to the largest that is determined: of a linkage
-/// in line forces without bound excuse nothing. Whether there are any.
+/// in line unbounded forces are no reference. Whether there are any.
 bool Recovery::mark_multipliers(Moment& m) const {
   const auto force = [&](std::size_t r, double lambda) {
     return std::abs(lambda) * gradient_length(*system_, w_, lengths_, r);
@@ -163,12 +165,11 @@ bool Recovery::mark_multipliers(Moment& m) const {
   for (std::size_t r = 0; r < lambda_.size(); ++r) largest = std::max(largest, force(r, m.lambda[r]));
   bool any = false;
   for (const Layout::Constraint& c : system_->layout()->constraints) {
-    for (int k = 0; k < c.rows; ++k) {
-      const auto r = static_cast<std::size_t>(c.first_row + k);
+    for (const std::size_t r : c.places()) {
       if (std::isnan(m.lambda[r]) || force(r, lambda_[r] - m.lambda[r]) <= std::sqrt(tolerance_) * largest)
         continue;
       m.lambda[r] = undetermined;
-      std::fill_n(m.forces.begin() + c.first_slot, c.width, undetermined);
+      std::ranges::fill(c.slots().in(std::span(m.forces)), undetermined);
       any = true;
     }
   }
@@ -190,13 +191,12 @@ void Recovery::mark_springs(const Manifold& manifold, Moment& m, long steps) con
   for (std::size_t i = 0; i < m.a.size(); ++i)
     largest = std::max(largest, system_->masses()[i] * std::abs(m.a[i]) / lengths_[i]);
   for (const Layout::Constraint& c : system_->layout()->constraints) {
-    for (int k = 0; k < c.rows; ++k) {
-      const auto r = static_cast<std::size_t>(c.first_row + k);
+    for (const std::size_t r : c.places()) {
       if (C[r] == 0.0) continue;
       const double gradient = gradient_length(*system_, w, lengths_, r);
       if (gradient * gradient * dx <= std::sqrt(tolerance_) * largest * C[r]) continue;
       m.lambda[r] = undetermined;
-      std::fill_n(m.forces.begin() + c.first_slot, c.width, undetermined);
+      std::ranges::fill(c.slots().in(std::span(m.forces)), undetermined);
       for (const std::size_t j : system_->row(r)) m.a[system_->w_columns()[j]] = undetermined;
     }
   }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <dalembert/core/analysis/islands.h>
 #include <dalembert/core/results/sample.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/manifold/manifold.h>
@@ -26,7 +25,7 @@ struct Moment {
   [[nodiscard]] FlatSample flat() const { return {t, q, v, a, lambda, forces, energy, unique}; }
 };
 
-/// Puts a stepper's state onto the constraints and finds the forces of constraint there.
+/// Projects a stepper's state onto the constraint manifold and finds the forces of constraint there.
 ///
 /// A state that is right to the tolerance is moved by about as much, except where the constraints are so
 /// close to dependent that they turn its error e into e/sin: there the stepper's own state is the better one
@@ -34,16 +33,16 @@ struct Moment {
 /// force does not depend on a linkage beside it.
 ///
 /// Where they are close to dependent the forces of a state on the constraints, too, may be those of its
-/// round-off. What the constraints of an island hold least is one direction n (see
-/// Manifold::weakest_directions). A second state, as far off along n as they cannot tell, shows what that
+/// round-off. What the constraints of an island constrain least is one direction n (see
+/// Manifold::weakest_directions). A second state, as far off along n as they do not resolve, shows what that
 /// does: a multiplier that differs by more than the root of the tolerance, relative to the largest
-/// determined, is not determined. It is NaN here, and Sample refuses to read it. So are accelerations.
+/// determined, is not determined. It is NaN here, and Sample throws where it is read. So are accelerations.
 ///
 /// Nor is that of a compliant constraint if it is read from positions, lambda = -g/C, and C is so small that
-/// these do not tell it.
+/// these do not determine it.
 class Recovery {
  public:
-  Recovery(const System& system, const Start& start, double tolerance);
+  Recovery(const Problem& problem, const Start& start, double tolerance);
 
   /// At m.t, from the stepper's m.q and m.v after so many steps. Throws StepFailure, EquationFault.
   void recover(Manifold& manifold, Moment& m, long steps);
@@ -60,11 +59,11 @@ class Recovery {
   void require_finite(const Moment& m) const;
   void leave_forces_out(Moment& m) const;
 
-  const System* system_;
+  Problem problem_;
+  const System* system_;  // its own
   Scales scales_;
   std::vector<double> lengths_;
   double tolerance_;
-  Islands islands_;
   std::vector<char> left_out_;                  // per island, whether its state stays as it is
   std::vector<double> q_given_, v_given_;       // before projection
   std::vector<double> q_, v_, a_, lambda_, n_;  // of the second state

@@ -1,6 +1,7 @@
 #include "dalembert/solvers/manifold/scales.h"
 
 #include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/base/numbers.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,7 @@ double Scales::largest_rounding(std::span<const double> q) const {
   double farthest = 0.0;
   for (std::size_t i = 0; i < q.size(); ++i)
     farthest = std::max(farthest, std::abs(q[i]) * length / coordinate[i]);
-  return std::numeric_limits<double>::epsilon() * farthest;
+  return epsilon * farthest;
 }
 
 double Scales::rounding(std::span<const double> q) const { return 10.0 * largest_rounding(q); }
@@ -28,7 +29,7 @@ std::vector<double> Scales::lengths() const {
 /// by eps a h^2, in the positions themselves by eps |q|: that must not count against the tolerance, so the
 /// distance is at least some of these over the tolerance.
 Way Scales::further(std::span<const double> q, std::span<const double> v, double h, double tolerance) const {
-  const double rounding = constants.roundings_of_path * std::numeric_limits<double>::epsilon();
+  const double rounding = constants.roundings_of_path * epsilon;
   const double noise = std::max(rounding / tolerance * forced * h, least);
   double least_length = std::max(noise * h, least);
   for (std::size_t i = 0; i < q.size(); ++i)

@@ -1,13 +1,13 @@
 #include "dalembert/solvers/manifold/start.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/manifold/first_scales.h>
 #include <dalembert/solvers/manifold/manifold.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 namespace dalembert {
@@ -17,7 +17,7 @@ namespace {
 /// What Newton's iteration leaves when it has converged; a few units of round-off.
 constexpr double converged = 1e-14;
 
-/// The equations at a state whose springs are as long as it says: compliant rows are obeyed there.
+/// The equations at a state whose springs are as long as it says: compliant rows are satisfied there.
 void evaluate_relaxed(const System& system, const Instant& at, System::Evaluation& e) {
   system.evaluate(at, e);
   for (std::size_t r = 0; r < e.g.size(); ++r) {
@@ -54,7 +54,7 @@ void require_size(double length) {
 }
 
 /// Dropped rows follow from the others in position and velocity once they hold at the start. In
-/// acceleration they must agree too: two drives of one point may meet and yet contradict each other.
+/// acceleration they must agree too: two drives of one point may coincide and yet contradict each other.
 ///
 /// Where nothing moves, whatever speeds were given, or all move alike, the terms are round-off and agree in
 /// nothing: they are known to the round-off of a term of those speeds, v^2/L. A row's terms are divided by
@@ -63,7 +63,7 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
                                       std::span<const double> given, double t) {
   const auto& unit = start.scales.coordinate;
   const double speed = std::max(largest_scaled(given, unit), largest_scaled(start.v, unit));
-  const double rounding = std::numeric_limits<double>::epsilon() * speed * speed * start.scales.length;
+  const double rounding = epsilon * speed * speed * start.scales.length;
   std::vector<double> residual(system.rows());
   system.bias({t, start.q, start.v}, residual);
   const auto& w = manifold.equations().w;
@@ -98,16 +98,18 @@ double speed_of(const System& system, const System::Evaluation& e, const Start& 
 }
 
 /// After projection: what is left is a contradiction.
-void require_met(const System& system, const Violation& left, double bound, double t, const char* what) {
+void require_satisfied(const System& system, const Violation& left, double bound, double t,
+                       const char* what) {
   if (left.size <= bound) return;
   const std::string quantity =
-      std::string("cannot be met together with the other constraints: remaining ") + what;
+      std::string("cannot be satisfied together with the other constraints: remaining ") + what;
   refuse(system, left, t, quantity.c_str(),
          "check lengths and fixed points, or start closer to the intended configuration");
 }
 
-void start_positions(const System& system, Start& start, const System::Evaluation& e,
+void start_positions(const Problem& problem, Start& start, const System::Evaluation& e,
                      const Options& options) {
+  const System& system = problem.system();
   const double L = start.scales.length;
   const auto lengths = start.scales.lengths();
   const double bound = rounding_of_the_user * L + start.scales.rounding(start.q);
@@ -119,9 +121,9 @@ void start_positions(const System& system, Start& start, const System::Evaluatio
   // Rows are told apart only as well as the given state is known: rows that depend on each other on
   // the constraints do so only roughly nearby, and must not be solved against each other.
   const double known = std::max(rank_threshold, std::min(10.0 * given.size / L, 1e-3));
-  Manifold manifold(system, independent_rows(system, e.w, known), lengths);
-  require_met(system, manifold.project_positions(options.t_start, start.q, start.v, converged * L), bound,
-              options.t_start, "distance");
+  Manifold manifold(problem, independent_rows(system, e.w, known), lengths);
+  require_satisfied(system, manifold.project_positions(options.t_start, start.q, start.v, converged * L),
+                    bound, options.t_start, "distance");
 }
 
 void start_velocities(const System& system, const Start& start, const System::Evaluation& e,
@@ -135,8 +137,9 @@ void start_velocities(const System& system, const Start& start, const System::Ev
 
 }  // namespace
 
-Start consistent_start(const System& system, std::span<const double> q, std::span<const double> v,
+Start consistent_start(const Problem& problem, std::span<const double> q, std::span<const double> v,
                        const Options& options, double nearest_contact) {
+  const System& system = problem.system();
   const double t = options.t_start;
   const double duration = options.t_end - options.t_start;
   Start start{{q.begin(), q.end()},
@@ -154,17 +157,17 @@ Start consistent_start(const System& system, std::span<const double> q, std::spa
     start.scales.coordinate = system.coordinate_scales(start.scales.length);
     start.scales.is_angle = system.coordinate_scales(0.0);
 
-    start_positions(system, start, e, options);
+    start_positions(problem, start, e, options);
     evaluate_relaxed(system, {t, start.q, start.v}, e);
     start_velocities(system, start, e, options);
 
     start.scales.origin = start.q;
     start.rows = independent_rows(system, e.w);
-    Manifold manifold(system, start.rows, start.scales.lengths());
+    Manifold manifold(problem, start.rows, start.scales.lengths());
     const auto left = [&] {
       if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda)) {
         throw InconsistentStart(
-            "The constraints of this scene are singular at the start, though none repeats another");
+            "The constraints of this scene are singular at the start, though none is redundant");
       }
       return velocity_violation(system, manifold.equations(), start.scales.lengths());
     };
@@ -173,8 +176,8 @@ Start consistent_start(const System& system, std::span<const double> q, std::spa
       std::ranges::fill(start.v, 0.0);  // the constraints took away all but round-off of what was given
       violation = left();
     }
-    require_met(system, violation, rounding_of_the_user * speed_of(system, manifold.equations(), start), t,
-                "speed");
+    require_satisfied(system, violation, rounding_of_the_user * speed_of(system, manifold.equations(), start),
+                      t, "speed");
     require_consistent_accelerations(system, manifold, start, v, t);
     start.scales.time = time_scale(system, manifold.equations(), start, duration);
   } catch (const EquationFault& fault) {
@@ -184,8 +187,9 @@ Start consistent_start(const System& system, std::span<const double> q, std::spa
   return start;
 }
 
-Start begin_changed(const System& system, const Start& before, double t, std::span<const double> q,
+Start begin_changed(const Problem& problem, const Start& before, double t, std::span<const double> q,
                     std::span<const double> v, double known) {
+  const System& system = problem.system();
   Start start = before;
   start.q.assign(q.begin(), q.end());
   start.v.assign(v.begin(), v.end());
@@ -193,17 +197,18 @@ Start begin_changed(const System& system, const Start& before, double t, std::sp
   system.evaluate({t, q, v}, e);
   const auto lengths = start.scales.lengths();
   const ActiveRows apart = independent_rows(system, e.w, std::max(rank_threshold, known));
-  Manifold(system, apart, lengths).project_positions(t, start.q, start.v, converged * start.scales.length);
+  Manifold(problem, apart, lengths).project_positions(t, start.q, start.v, converged * start.scales.length);
   system.evaluate({t, start.q, start.v}, e);
   start.rows = independent_rows(system, e.w);
-  Manifold manifold(system, start.rows, lengths);
+  Manifold manifold(problem, start.rows, lengths);
   if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda))
-    throw StepFailure{"the constraints became dependent on each other", t};
+    throw StepFailure{"the constraints became linearly dependent", t};
   return start;
 }
 
-std::vector<double> take_over(const System& system, const Scales& scales, double t, std::span<const double> q,
-                              std::span<double> v, double known) {
+std::vector<double> take_over(const Problem& problem, const Scales& scales, double t,
+                              std::span<const double> q, std::span<double> v, double known) {
+  const System& system = problem.system();
   const auto lengths = scales.lengths();
   auto e = system.evaluation();
   evaluate_relaxed(system, {t, q, v}, e);
@@ -219,9 +224,9 @@ std::vector<double> take_over(const System& system, const Scales& scales, double
   std::vector<double> impulses(system.rows()), a(q.size()), lambda(system.rows());
   double fastest = scales.speed();
   for (std::size_t i = 0; i < v.size(); ++i) fastest = std::max(fastest, std::abs(v[i]) * lengths[i]);
-  Manifold manifold(system, independent_rows(system, e.w), lengths);
-  if (!manifold.strike(t, q, v, impulses) || !manifold.solve_motion(t, q, v, a, lambda))
-    throw StepFailure{"the constraints became dependent on each other", t};
+  Manifold manifold(problem, independent_rows(system, e.w), lengths);
+  if (!manifold.project_impulsively(t, q, v, impulses) || !manifold.solve_motion(t, q, v, a, lambda))
+    throw StepFailure{"the constraints became linearly dependent", t};
   const Violation left = velocity_violation(system, manifold.equations(), lengths);
   if (left.size > least * fastest)
     refuse(left, " contradicts the other constraints from here on: its speed is off by ");
@@ -234,18 +239,19 @@ std::vector<double> take_over(const System& system, const Scales& scales, double
   return impulses;
 }
 
-Start begin_anew(const System& system, const Start& before, double t, std::span<const double> q,
+Start begin_anew(const Problem& problem, const Start& before, double t, std::span<const double> q,
                  std::span<const double> v) {
+  const System& system = problem.system();
   Start start = before;
   start.q.assign(q.begin(), q.end());
   start.v.assign(v.begin(), v.end());
   auto e = system.evaluation();
   system.evaluate({t, q, v}, e);
   start.rows = independent_rows(system, e.w, before.rows);
-  Manifold manifold(system, start.rows, start.scales.lengths());
+  Manifold manifold(problem, start.rows, start.scales.lengths());
   manifold.project_positions(t, start.q, start.v, converged * start.scales.length);
   if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda))
-    throw StepFailure{"the constraints became dependent on each other", t};
+    throw StepFailure{"the constraints became linearly dependent", t};
   return start;
 }
 

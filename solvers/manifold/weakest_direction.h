@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/core/analysis/islands.h>
+#include <dalembert/core/analysis/rank.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/linear/saddle.h>
 
@@ -8,7 +9,7 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// In each island the direction n of the coordinates that its constraints hold least: the right singular
+/// In each island the direction n of the coordinates that its constraints constrain least: the right singular
 /// vector of the smallest singular value of W M^-1/2 with rows of unit length, by inverse iteration with
 ///
 ///   [ M  -W^T ] [ x ]   [  0  ]

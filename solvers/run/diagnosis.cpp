@@ -1,10 +1,10 @@
 #include "dalembert/solvers/run/diagnosis.h"
 
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/linear/rows.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <sstream>
 
@@ -40,7 +40,7 @@ std::string unbounded_multiplier(const System& system, const Scales& scales, std
 }
 
 std::string coarse_time(const Scales& scales, double time) {
-  const double resolution = std::numeric_limits<double>::epsilon() * std::abs(time);
+  const double resolution = epsilon * std::abs(time);
   if (resolution <= too_coarse * scales.time) return {};
   std::ostringstream what;
   what << "double precision resolves times here only to " << resolution

@@ -1,5 +1,6 @@
 #include "dalembert/solvers/run/event_watch.h"
 
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/base/root.h>
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/contact/round_off.h>
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace dalembert {
 
@@ -145,7 +145,7 @@ void EventWatch::find(std::size_t event, const Read& read, const std::vector<dou
     }
     if (after == before) continue;
     // It is 0 at b, or in between; where it was 0 at a that has been found.
-    const double exact = 4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(a), std::abs(b));
+    const double exact = 4.0 * epsilon * std::max(std::abs(a), std::abs(b));
     side_[event] = after == 0 ? -before : after;
     if (f_a == 0.0) continue;
     if (wanted(events_[event].crossing, before))

@@ -85,7 +85,7 @@ void KeptSteps::read(std::span<const double> times, Record& out) const {
     const auto number = static_cast<std::size_t>(&step - steps_.data());
     const Segment& own = *std::prev(std::ranges::upper_bound(segments_, number, {}, &Segment::first_step));
     if (std::exchange(segment, &own) != &own) {
-      reader.emplace(*own.system, own.start, own.t, tolerance_);
+      reader.emplace(Problem(own.system), own.start, own.t, tolerance_);
       now.emplace(*own.system, own.start);
       out.go_on_with(own.system->layout());
     }

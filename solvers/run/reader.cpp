@@ -16,13 +16,13 @@ void add_counts(const Manifold& manifold, Statistics& statistics) {
 
 }  // namespace
 
-Reader::Reader(const System& system, const Start& start, double t, double tolerance)
-    : system_(&system),
+Reader::Reader(const Problem& problem, const Start& start, double t, double tolerance)
+    : problem_(problem),
       rows_(start.rows),
       lengths_(start.scales.lengths()),
-      manifold_(system, rows_, lengths_),
-      recovery_(system, start, tolerance),
-      redundant_(rows_.size() < system.rows_in_force()) {
+      manifold_(problem, rows_, lengths_),
+      recovery_(problem, start, tolerance),
+      redundant_(rows_.size() < problem.system().rows_in_force()) {
   if (redundant_) best_sine_ = manifold_.sine({t, start.q, start.v});
 }
 
@@ -30,8 +30,8 @@ std::optional<ActiveRows> Reader::better_rows(const Instant& at) {
   if (!redundant_) return std::nullopt;
   const double own = manifold_.sine(at);
   if (own >= constants.worn * best_sine_) return std::nullopt;
-  ActiveRows rows = independent_rows(*system_, manifold_.equations().w, rows_);
-  const double best = Manifold(*system_, rows, lengths_).sine(at);
+  ActiveRows rows = independent_rows(problem_.system(), manifold_.equations().w, rows_);
+  const double best = Manifold(problem_, rows, lengths_).sine(at);
   if (own < constants.worn * best) return rows;
   best_sine_ = std::max(own, best);
   return std::nullopt;
@@ -41,7 +41,7 @@ void Reader::read(Moment& m, const Springs* springs, long steps) {
   if (springs != nullptr) manifold_.follow(*springs);
   const auto rows = better_rows({m.t, m.q, m.v});
   if (!rows) return recovery_.recover(manifold_, m, steps);
-  Manifold other(*system_, *rows, lengths_);
+  Manifold other(problem_, *rows, lengths_);
   if (springs != nullptr) other.follow(*springs);
   recovery_.recover(other, m, steps);
   add_counts(other, others_);

@@ -16,8 +16,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// there, by the rows in use or, where these have come to depend on each other, by others.
 class Reader {
  public:
-  /// For the states of a run that begins, or begins anew, with `start` at time t. The system must outlive it.
-  Reader(const System& system, const Start& start, double t, double tolerance);
+  /// For the states of a run that begins, or begins anew, with `start` at time t.
+  Reader(const Problem& problem, const Start& start, double t, double tolerance);
 
   /// Of the rows in use.
   [[nodiscard]] Manifold& manifold() { return manifold_; }
@@ -33,7 +33,7 @@ class Reader {
   void count(Statistics& statistics) const;
 
  private:
-  const System* system_;
+  Problem problem_;
   ActiveRows rows_;
   std::vector<double> lengths_;  // see Scales
   Manifold manifold_;

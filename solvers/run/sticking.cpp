@@ -46,10 +46,10 @@ std::string Sticking::would_stick(std::size_t friction) const {
          "direction of v, or end the run here";
 }
 
-Sticking::Sticking(const System& system, const Start& start, double t_start, double tolerance)
-    : system_(&system),
-      manifold_(system, start.rows, start.scales.lengths()),
-      switches_(system, {t_start, start.q, start.v}, start.lambda),
+Sticking::Sticking(const Problem& problem, const Start& start, double t_start, double tolerance)
+    : system_(&problem.system()),
+      manifold_(problem, start.rows, start.scales.lengths()),
+      switches_(*system_, {t_start, start.q, start.v}, start.lambda),
       time_(start.scales.time),
       // The square of this, of the scene's time, is what the time of sticking may be wrong by.
       soon_(std::sqrt(tolerance) * time_),

@@ -35,7 +35,7 @@ struct Departure {
 /// reverses.
 class Sticking {
  public:
-  Sticking(const System& system, const Start& start, double t_start, double tolerance);
+  Sticking(const Problem& problem, const Start& start, double t_start, double tolerance);
 
   /// Of a state with the accelerations a; `side` is the one that the motion begins on.
   [[nodiscard]] Departure leave(const Instant& at, std::span<const double> a, Side& side);

@@ -44,7 +44,7 @@ double largest(std::span<const double> x) {
 System in_force(const System& system, const FlatSample& sample) {
   std::vector<std::size_t> idle = system.rough();
   for (const std::size_t c : system.contacts()) {
-    const auto row = static_cast<std::size_t>(system.layout()->constraints[c].first_row);
+    const auto row = system.layout()->constraints[c].places().front();
     if (sample.lambda[row] == 0.0) idle.push_back(c);
   }
   return system.without(idle);

@@ -74,7 +74,7 @@ struct Distances {
 template <int D>
 double full_steps(const Draft<D>& draft, const Ending<D>& ending) {
   const auto steps = static_cast<double>(ending.run->statistics().steps);
-  return draft.plan.options.stepper == Stepper::ida ? steps / 20.0 : steps;
+  return tolerance_of_a_step(draft.plan.options.stepper, steps);
 }
 
 template <int D>

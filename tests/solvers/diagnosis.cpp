@@ -12,7 +12,7 @@ namespace {
 TEST(Diagnosis, NamesAMultiplierOnlyIfItHasGrown) {
   const Pendulum pendulum;
   const System system = pendulum.scene.system();
-  const Start start = consistent_start(system, pendulum.scene.initial_positions(),
+  const Start start = consistent_start(Problem(system), pendulum.scene.initial_positions(),
                                        pendulum.scene.initial_velocities(), {.t_end = 1.0});
   auto e = system.evaluation();
   system.evaluate({0.0, start.q, start.v}, e);

@@ -125,7 +125,7 @@ class NewtonMatrixTest : public testing::Test {
     ASSERT_LT(condition, 1e5) << "the state is too close to singular to test anything";
     const double bound = static_cast<double>(J.rows()) * std::numeric_limits<double>::epsilon() * condition;
 
-    NewtonMatrix newton(system, all_rows(system), 1.0);
+    NewtonMatrix newton(Problem(system), all_rows(system), 1.0);
     ASSERT_TRUE(newton.factorise(state.instant(), equations(system, state.instant()),
                                  {lambda.data(), static_cast<std::size_t>(m)}, rate));
     Eigen::VectorXd found = J * x;
@@ -168,7 +168,7 @@ TEST_F(NewtonMatrixTest, ConvergesToTheFullSystemWithFrictionAndAnyMu) {
   const Eigen::VectorXd lambda = Eigen::Vector2d(5.0, -3.0);
   const Eigen::MatrixXd J = full_jacobian(system, state, lambda, rate);
   const Eigen::VectorXd x = correction(system), b = J * x;
-  NewtonMatrix newton(system, all_rows(system), 1.0);
+  NewtonMatrix newton(Problem(system), all_rows(system), 1.0);
   ASSERT_TRUE(
       newton.factorise(state.instant(), equations(system, state.instant()), {lambda.data(), 2}, rate));
   EXPECT_FALSE(newton.soft());
@@ -191,7 +191,7 @@ TEST_F(NewtonMatrixTest, NeglectsWhatMultipliesMuAndNothingElse) {
   const Eigen::VectorXd lambda = Eigen::VectorXd::Ones(index(system.rows()));
   Eigen::VectorXd x = correction(system);
   Eigen::VectorXd found = full_jacobian(system, state, lambda, rate) * x;
-  NewtonMatrix newton(system, all_rows(system), 1.0);
+  NewtonMatrix newton(Problem(system), all_rows(system), 1.0);
   ASSERT_TRUE(newton.factorise(state.instant(), equations(system, state.instant()),
                                {lambda.data(), system.rows()}, rate));
   newton.solve(rate, {found.data(), static_cast<std::size_t>(found.size())});
@@ -213,7 +213,7 @@ TEST_F(NewtonMatrixTest, ConvergesToTheFullSystemWithCompliantRows) {
     const Eigen::VectorXd lambda = Eigen::Vector2d(5.0, -3.0);
     const Eigen::MatrixXd J = full_jacobian(system, state, lambda, rate);
     const Eigen::VectorXd x = correction(system), b = J * x;
-    NewtonMatrix newton(system, all_rows(system), 1.0);
+    NewtonMatrix newton(Problem(system), all_rows(system), 1.0);
     ASSERT_TRUE(
         newton.factorise(state.instant(), equations(system, state.instant()), {lambda.data(), 2}, rate));
     Eigen::VectorXd found = Eigen::VectorXd::Zero(x.size());

@@ -12,7 +12,11 @@ namespace dalembert {
 namespace {
 
 constexpr double g = 9.81, tolerance = 1e-6;
+#ifdef NDEBUG
 constexpr int scenes = 1000;
+#else
+constexpr int scenes = 100;  // under sanitizers a thousand take minutes
+#endif
 
 class RoughScenes : public testing::TestWithParam<Stepper> {
  protected:

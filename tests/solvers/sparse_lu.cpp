@@ -10,7 +10,7 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-using Entry = SparseLU::Entry;
+using Entry = LuPattern::Entry;
 
 /// All entries of a full matrix, row by row.
 std::vector<Entry> full(std::size_t size) {
@@ -47,7 +47,8 @@ void expect_solved(const Eigen::MatrixXd& a, const Eigen::VectorXd& x, const Eig
 }
 
 TEST(SparseLU, Solves) {
-  SparseLU lu(4, full(4));
+  const LuPattern pattern(4, full(4));
+  SparseLU lu(pattern);
   set(lu, general());
   ASSERT_TRUE(lu.factorise());
   const Eigen::Vector4d b(1.0, 2.0, 3.0, 4.0);
@@ -56,7 +57,8 @@ TEST(SparseLU, Solves) {
 
 TEST(SparseLU, EntriesOfOnePlaceAddUp) {
   const std::vector<Entry> entries{{0, 0}, {1, 1}, {0, 0}, {0, 1}};
-  SparseLU lu(2, entries);
+  const LuPattern pattern(2, entries);
+  SparseLU lu(pattern);
   lu.set_zero();
   lu.add(0, 1.5);
   lu.add(1, 4.0);
@@ -67,7 +69,8 @@ TEST(SparseLU, EntriesOfOnePlaceAddUp) {
 }
 
 TEST(SparseLU, ARefactorisationIsAsGoodAsAFreshOne) {
-  SparseLU reused(4, full(4));
+  const LuPattern pattern(4, full(4));
+  SparseLU reused(pattern);
   set(reused, general());
   ASSERT_TRUE(reused.factorise());
   const Eigen::MatrixXd next = general() + Eigen::MatrixXd::Constant(4, 4, 0.01);
@@ -75,12 +78,25 @@ TEST(SparseLU, ARefactorisationIsAsGoodAsAFreshOne) {
   ASSERT_TRUE(reused.factorise());
   const Eigen::Vector4d b(1.0, 2.0, 3.0, 4.0);
   expect_solved(next, solution(reused, b), b);
-  EXPECT_EQ(reused.factorisations(), 2);
+}
+
+TEST(SparseLU, MatricesOfOnePatternHaveValuesAndFactorsOfTheirOwn) {
+  const LuPattern pattern(4, full(4));
+  SparseLU one(pattern), other(pattern);
+  const Eigen::MatrixXd transposed = general().transpose();
+  set(one, general());
+  set(other, transposed);
+  ASSERT_TRUE(one.factorise());
+  ASSERT_TRUE(other.factorise());
+  const Eigen::Vector4d b(1.0, 2.0, 3.0, 4.0);
+  expect_solved(general(), solution(one, b), b);
+  expect_solved(transposed, solution(other, b), b);
 }
 
 // The pivots of the first matrix stand on entries that vanish in the second.
-TEST(SparseLU, PivotsAgainWhenThePivotsHaveBecomeBad) {
-  SparseLU lu(2, full(2));
+TEST(SparseLU, PivotsAgainWhenThePivotsHaveBecomeUnstable) {
+  const LuPattern pattern(2, full(2));
+  SparseLU lu(pattern);
   set(lu, (Eigen::Matrix2d() << 1.0, 0.1, 0.1, 1.0).finished());
   ASSERT_TRUE(lu.factorise());
   const Eigen::Matrix2d next = (Eigen::Matrix2d() << 1e-14, 1.0, 1.0, 1e-14).finished();
@@ -91,14 +107,16 @@ TEST(SparseLU, PivotsAgainWhenThePivotsHaveBecomeBad) {
 }
 
 TEST(SparseLU, RecognisesASingularMatrix) {
-  SparseLU lu(2, full(2));
+  const LuPattern pattern(2, full(2));
+  SparseLU lu(pattern);
   set(lu, (Eigen::Matrix2d() << 1.0, 2.0, 2.0, 4.0).finished());
   EXPECT_FALSE(lu.factorise());
 }
 
 TEST(SparseLU, RecognisesAMatrixThatIsSingularByItsPattern) {
   const std::vector<Entry> entries{{0, 0}, {1, 0}};
-  SparseLU lu(2, entries);
+  const LuPattern pattern(2, entries);
+  SparseLU lu(pattern);
   lu.set_zero();
   lu.add(0, 1.0);
   lu.add(1, 1.0);
@@ -116,7 +134,8 @@ TEST(SparseLU, KnowsTheSignOfItsDeterminant) {
         Eigen::Matrix4d b;
         for (int i = 0; i < 4; ++i) b.row(i) = a.row(order[i]);
         b.row(2) *= scale;
-        SparseLU lu(4, full(4));
+        const LuPattern pattern(4, full(4));
+        SparseLU lu(pattern);
         set(lu, b);
         ASSERT_TRUE(lu.factorise());
         EXPECT_EQ(lu.sign_of_determinant(), b.determinant() > 0.0 ? 1 : -1) << b;
@@ -129,7 +148,8 @@ TEST(SparseLU, KnowsTheSignOfItsDeterminant) {
 }
 
 TEST(SparseLU, RecoversFromASingularMatrix) {
-  SparseLU lu(4, full(4));
+  const LuPattern pattern(4, full(4));
+  SparseLU lu(pattern);
   set(lu, general());
   ASSERT_TRUE(lu.factorise());
   set(lu, Eigen::MatrixXd::Ones(4, 4));

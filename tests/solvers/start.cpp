@@ -88,7 +88,7 @@ TEST(Start, RodsThatCannotSpanTheirGapAreAnError) {
   scene.add(Distance{Fixed<2>{{2.0, 0.0}}, joint, 0.5}, "right rod");
   EXPECT_THAT(
       [&] { (void)simulate(scene, {.t_end = 1.0, .assemble = true}); },
-      ThrowsMessage<InconsistentStart>(AllOf(HasSubstr(" rod\" cannot be met"),
+      ThrowsMessage<InconsistentStart>(AllOf(HasSubstr(" rod\" cannot be satisfied"),
                                              HasSubstr("other constraints"), HasSubstr("check lengths"))));
 }
 

@@ -1,4 +1,4 @@
-#include "dalembert/solvers/linear/schur.h"
+#include "dalembert/solvers/linear/complement.h"
 
 #include <algorithm>
 
@@ -12,7 +12,7 @@ struct Place {
 
 }  // namespace
 
-std::size_t SchurComplement::products(const System& system, std::span<const std::size_t> rows) {
+std::size_t ComplementPattern::products(const System& system, std::span<const std::size_t> rows) {
   std::vector<std::size_t> count(system.coordinates(), 0);
   for (const std::size_t r : rows) {
     for (const std::size_t k : system.row(r)) ++count[system.w_columns()[k]];
@@ -24,7 +24,7 @@ std::size_t SchurComplement::products(const System& system, std::span<const std:
 
 /// Pairs up the entries of W that share a coordinate; pairs that continue one another become one
 /// product.
-SchurComplement::Plan SchurComplement::plan(const System& system, std::span<const std::size_t> rows) {
+ComplementPattern::Plan ComplementPattern::plan(const System& system, std::span<const std::size_t> rows) {
   Plan plan;
   std::vector<std::vector<Place>> by_coordinate(system.coordinates());
   std::size_t own = 0;
@@ -70,10 +70,10 @@ SchurComplement::Plan SchurComplement::plan(const System& system, std::span<cons
   return plan;
 }
 
-SchurComplement::SchurComplement(const System& system, std::span<const std::size_t> rows)
-    : SchurComplement(system, plan(system, rows)) {}
+ComplementPattern::ComplementPattern(const System& system, std::span<const std::size_t> rows)
+    : ComplementPattern(system, plan(system, rows)) {}
 
-SchurComplement::SchurComplement(const System& system, Plan plan)
+ComplementPattern::ComplementPattern(const System& system, Plan plan)
     : rows_(std::move(plan.rows)),
       products_(std::move(plan.products)),
       compliant_(std::move(plan.compliant)),
@@ -82,50 +82,53 @@ SchurComplement::SchurComplement(const System& system, Plan plan)
   for (const Row& row : rows_) {
     for (std::size_t k = row.first; k < row.last; ++k) column_.push_back(system.w_columns()[k]);
   }
-  w_.resize(column_.size());
-  v_.resize(column_.size());
   for (std::size_t k = 0; k < products_.size(); ++k) products_[k].place = ldl_.place(k);
   std::ranges::stable_sort(products_, {}, &Product::place);
   for (Diagonal& d : compliant_) d.place = ldl_.place(d.place);
 }
 
-bool SchurComplement::factorise(std::span<const double> w, std::span<const double> s) {
-  for (const Row& row : rows_) {
+SchurComplement::SchurComplement(const ComplementPattern& pattern)
+    : pattern_(&pattern), w_(pattern.column_.size()), v_(w_.size()), ldl_(pattern.ldl_) {}
+
+bool SchurComplement::factorise(const SaddleValues& values) {
+  const ComplementPattern& p = *pattern_;
+  for (const auto& row : p.rows_) {
     std::size_t own = row.own;
     for (std::size_t k = row.first; k < row.last; ++k, ++own) {
-      w_[own] = w[k];
-      v_[own] = w[k] * inverse_mass_[column_[own]];
+      w_[own] = values.w[k];
+      v_[own] = values.w[k] * p.inverse_mass_[p.column_[own]];
     }
   }
-  const auto values = ldl_.values();
-  const Product* before = nullptr;
-  for (const Product& p : products_) {
+  const auto S = ldl_.values();
+  const ComplementPattern::Product* before = nullptr;
+  for (const auto& product : p.products_) {
     double sum = 0.0;
-    for (std::size_t k = 0; k < p.count; ++k) sum += w_[p.a + k] * v_[p.b + k];
-    double& value = values[p.place];
-    value = before != nullptr && before->place == p.place ? value + sum : sum;
-    before = &p;
+    for (std::size_t k = 0; k < product.count; ++k) sum += w_[product.a + k] * v_[product.b + k];
+    double& value = S[product.place];
+    value = before != nullptr && before->place == product.place ? value + sum : sum;
+    before = &product;
   }
-  if (!s.empty()) {
-    for (const Diagonal& d : compliant_) values[d.place] += s[d.row];
+  if (!values.s.empty()) {
+    for (const auto& d : p.compliant_) S[d.place] += values.s[d.row];
   }
   return ldl_.factorise();
 }
 
 void SchurComplement::solve(std::span<double> x) {
-  const std::size_t n = inverse_mass_.size();
+  const ComplementPattern& p = *pattern_;
+  const std::size_t n = p.inverse_mass_.size();
   const auto y = x.subspan(n);
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    const std::size_t end = rows_[r].own + rows_[r].last - rows_[r].first;
+  for (std::size_t r = 0; r < p.rows_.size(); ++r) {
+    const std::size_t end = p.rows_[r].own + p.rows_[r].last - p.rows_[r].first;
     double sum = 0.0;
-    for (std::size_t k = rows_[r].own; k < end; ++k) sum += v_[k] * x[column_[k]];
+    for (std::size_t k = p.rows_[r].own; k < end; ++k) sum += v_[k] * x[p.column_[k]];
     y[r] -= sum;
   }
   ldl_.solve(y);
-  for (std::size_t i = 0; i < n; ++i) x[i] *= inverse_mass_[i];
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    const std::size_t end = rows_[r].own + rows_[r].last - rows_[r].first;
-    for (std::size_t k = rows_[r].own; k < end; ++k) x[column_[k]] += v_[k] * y[r];
+  for (std::size_t i = 0; i < n; ++i) x[i] *= p.inverse_mass_[i];
+  for (std::size_t r = 0; r < p.rows_.size(); ++r) {
+    const std::size_t end = p.rows_[r].own + p.rows_[r].last - p.rows_[r].first;
+    for (std::size_t k = p.rows_[r].own; k < end; ++k) x[p.column_[k]] += v_[k] * y[r];
   }
 }
 

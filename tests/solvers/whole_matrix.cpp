@@ -2,7 +2,7 @@
 #include <dalembert/constraints/distance.h>
 #include <dalembert/constraints/nonholonomic.h>
 #include <dalembert/core/scene/scene.h>
-#include <dalembert/solvers/linear/kkt.h>
+#include <dalembert/solvers/linear/whole.h>
 
 #include <gtest/gtest.h>
 
@@ -21,9 +21,10 @@ System system_with_everything() {
   return scene.system();
 }
 
-class KktMatrixTest : public testing::Test {
+class WholeMatrixTest : public testing::Test {
  protected:
   System system = system_with_everything();
+  std::vector<std::size_t> both{0, 1}, coordinates{0, 1, 2, 3};
   State state{0.4, Eigen::Vector4d(0.8, -0.5, 0.4, 1.4), Eigen::Vector4d(-0.3, 1.2, 0.7, 0.9)};
   System::Evaluation e = system.evaluation();
   System::Linearisation d = system.linearisation();
@@ -33,9 +34,9 @@ class KktMatrixTest : public testing::Test {
     system.evaluate(state.instant(), e);
     system.linearise(state.instant(), std::vector<double>{2.0, -3.0}, d);
   }
-  Eigen::VectorXd solution(KktMatrix& kkt) const {
+  Eigen::VectorXd solution(WholeMatrix& matrix) const {
     Eigen::VectorXd x = b;
-    kkt.solve({x.data(), 6});
+    matrix.solve({x.data(), 6});
     return x;
   }
   /// Backward stability: |K x - b| <= c n eps |K| |x|.
@@ -50,39 +51,42 @@ class KktMatrixTest : public testing::Test {
   [[nodiscard]] Eigen::MatrixXd masses() const { return vector(system.masses()).asDiagonal(); }
 };
 
-TEST_F(KktMatrixTest, HoldsMassesAndConstraints) {
-  KktMatrix kkt(system, {{0, 1}, 1}, KktMatrix::Forces::none);
-  ASSERT_EQ(kkt.size(), 6);
-  ASSERT_TRUE(kkt.factorise(e.w));
-  expect_solved(masses(), by_rows(system, e.w), solution(kkt));
+TEST_F(WholeMatrixTest, HoldsMassesAndConstraints) {
+  const WholePattern pattern(system, both, coordinates, SaddleValues::Blocks::symmetric);
+  WholeMatrix matrix(pattern);
+  ASSERT_TRUE(matrix.factorise({.w = e.w}));
+  expect_solved(masses(), by_rows(system, e.w), solution(matrix));
 }
 
-TEST_F(KktMatrixTest, HoldsStiffnessAndDampingWithTheirFactors) {
-  KktMatrix kkt(system, {{0, 1}, 1}, KktMatrix::Forces::linearised);
+TEST_F(WholeMatrixTest, HoldsStiffnessAndDampingWithTheirFactors) {
+  const WholePattern pattern(system, both, coordinates, SaddleValues::Blocks::all);
+  WholeMatrix matrix(pattern);
   constexpr double h = 0.3, c = 0.7;
   std::vector<double> lower(e.w);
   for (std::size_t k = 0; k < lower.size(); ++k) lower[k] += h * d.psi_q[k];
-  ASSERT_TRUE(kkt.factorise(e.w, lower, d, h, c));
+  ASSERT_TRUE(matrix.factorise({.w = e.w, .lower = lower, .forces = &d, .h = h, .d = c}));
   const Eigen::MatrixXd H = -by_entries(4, system.stiffness_pattern(), d.stiffness);
   const Eigen::MatrixXd D = -by_entries(4, system.damping_pattern(), d.damping);
-  expect_solved(masses() + h * H + c * D, by_rows(system, lower), solution(kkt));
+  expect_solved(masses() + h * H + c * D, by_rows(system, lower), solution(matrix));
 }
 
-TEST_F(KktMatrixTest, LeavesOutRowsThatAreNotActive) {
-  KktMatrix kkt(system, {{1}, 0}, KktMatrix::Forces::none);
-  ASSERT_EQ(kkt.size(), 5);
-  ASSERT_TRUE(kkt.factorise(e.w));
+TEST_F(WholeMatrixTest, LeavesOutRowsThatAreNotActive) {
+  const WholePattern pattern(system, std::vector<std::size_t>{1}, coordinates,
+                             SaddleValues::Blocks::symmetric);
+  WholeMatrix matrix(pattern);
+  ASSERT_TRUE(matrix.factorise({.w = e.w}));
   Eigen::VectorXd x = b.head(5);
-  kkt.solve({x.data(), 5});
+  matrix.solve({x.data(), 5});
   const Eigen::RowVectorXd blade = by_rows(system, e.w).row(1);
   const double round_off = 100.0 * std::numeric_limits<double>::epsilon();
   EXPECT_LE((masses() * x.head(4) - blade.transpose() * x[4] - b.head(4)).norm(), round_off * x.norm());
   EXPECT_NEAR(blade * x.head(4), b[4], round_off * x.norm());
 }
 
-TEST_F(KktMatrixTest, IsSingularForTwoEqualRows) {
-  KktMatrix kkt(system, {{0, 0}, 2}, KktMatrix::Forces::none);
-  EXPECT_FALSE(kkt.factorise(e.w));
+TEST_F(WholeMatrixTest, IsSingularForTwoEqualRows) {
+  const WholePattern pattern(system, std::vector<std::size_t>{0, 0}, coordinates,
+                             SaddleValues::Blocks::symmetric);
+  EXPECT_FALSE(WholeMatrix(pattern).factorise({.w = e.w}));
 }
 
 }  // namespace

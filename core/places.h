@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+
+namespace dalembert {
+
+/// Consecutive places in an array: `for (const std::size_t k : places)`.
+class Places {
+ public:
+  Places(std::size_t first, std::size_t last) : first_(first), last_(last) {}
+  /// So many from the first on.
+  static Places next(std::size_t first, std::size_t count) { return {first, first + count}; }
+
+  struct Iterator {
+    std::size_t k;
+    std::size_t operator*() const { return k; }
+    Iterator& operator++() {
+      ++k;
+      return *this;
+    }
+    bool operator==(const Iterator&) const = default;
+  };
+  [[nodiscard]] Iterator begin() const { return {first_}; }
+  [[nodiscard]] Iterator end() const { return {last_}; }
+  [[nodiscard]] std::size_t front() const { return first_; }
+  [[nodiscard]] std::size_t size() const { return last_ - first_; }
+  /// Those of an array.
+  [[nodiscard]] auto in(auto array) const { return array.subspan(first_, size()); }
+
+ private:
+  std::size_t first_, last_;
+};
+
+}  // namespace dalembert

@@ -1,0 +1,41 @@
+#include "dalembert/solvers/linear/problem.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace dalembert {
+
+Problem::Problem(System system) : Problem(std::make_shared<const System>(std::move(system))) {}
+
+Problem::Problem(std::shared_ptr<const System> system) {
+  Islands coupled = dalembert::islands(*system);
+  std::vector<std::size_t> coordinates(system->coordinates());
+  std::iota(coordinates.begin(), coordinates.end(), std::size_t{0});
+  shared_ = std::make_shared<Shared>(Shared{std::move(system), std::move(coupled), std::move(coordinates)});
+}
+
+std::shared_ptr<const SaddlePattern> Problem::pattern(const std::vector<std::size_t>& rows) const {
+  return pattern(rows, shared_->coordinates);
+}
+
+std::shared_ptr<const SaddlePattern> Problem::pattern(const std::vector<std::size_t>& rows,
+                                                      const std::vector<std::size_t>& coordinates) const {
+  auto& all = shared_->patterns;
+  const auto found = std::ranges::find_if(
+      all, [&](const auto& known) { return known->rows() == rows && known->coordinates() == coordinates; });
+  if (found != all.end()) return *found;
+  return all.emplace_back(std::make_shared<const SaddlePattern>(shared_->system, rows, coordinates));
+}
+
+SaddlePattern::Analyses Problem::analyses() const {
+  SaddlePattern::Analyses sum;
+  for (const auto& pattern : shared_->patterns) {
+    const auto own = pattern->analyses();
+    sum.ldl += own.ldl;
+    sum.klu += own.klu;
+  }
+  return sum;
+}
+
+}  // namespace dalembert

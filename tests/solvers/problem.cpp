@@ -1,0 +1,106 @@
+#include <dalembert/constraints/coincident.h>
+#include <dalembert/constraints/distance.h>
+#include <dalembert/constraints/nonholonomic.h>
+#include <dalembert/core/scene/scene.h>
+#include <dalembert/models/chain.h>
+#include <dalembert/solvers/stepping.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace dalembert {
+namespace {
+
+/// Of a run with 20 outputs: start, projections, both steppers, recovery of forces.
+template <int D>
+SaddlePattern::Analyses analyses(const Scene<D>& scene, Stepper stepper) {
+  const Options options{.t_end = 0.2, .stepper = stepper};
+  const auto system = std::make_shared<const System>(scene.system());
+  Stepping stepping(system, scene.initial_positions(), scene.initial_velocities(), options,
+                    std::numeric_limits<double>::infinity());
+  Moment moment(*system, stepping.start());
+  for (int i = 1; i <= 20; ++i) {
+    const double t = options.t_end * i / 20;
+    while (stepping.time() < t) stepping.step(t);
+    stepping.read(t, moment);
+  }
+  return stepping.problem().analyses();
+}
+
+void expect(const SaddlePattern::Analyses& found, int ldl, int klu) {
+  EXPECT_EQ(found.ldl, ldl);
+  EXPECT_EQ(found.klu, klu);
+}
+
+TEST(Problem, AnalysesOfAChainAreOneWhateverTheStepper) {
+  const Scene<2> chain = models::Chain{.beads = 5}.scene().scene;
+  expect(analyses(chain, Stepper::erk), 1, 0);
+  expect(analyses(chain, Stepper::ida), 1, 0);
+}
+
+/// A bob on a rod, and whatever a test adds to it.
+struct Bob {
+  Scene<2> scene;
+  Particle<2> bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
+
+  Bob() {
+    scene.add(UniformGravity<2>{{0.0, -9.81}});
+    scene.add(Distance{Fixed<2>{}, bob, 1.0});
+  }
+};
+
+/// With its H Newton's matrix is not symmetric.
+TEST(Problem, AForceThatVariesTakesOneMoreOfTheImplicitStepper) {
+  Bob own;
+  own.scene.add(Spring{Fixed<2>{{2.0, 0.0}}, own.bob, 5.0, 0.5});
+  expect(analyses(own.scene, Stepper::erk), 1, 0);
+  expect(analyses(own.scene, Stepper::ida), 1, 1);
+}
+
+/// Velocities are then found by the holonomic rows alone, see NewtonMatrix (7): a second choice of rows.
+TEST(Problem, SoDoesANonholonomicRow) {
+  Scene<2> blade;
+  const auto p = blade.add_particle({.mass = 1.0, .velocity = {1.0, 0.0}});
+  blade.add(UniformGravity<2>{{0.0, -9.81}});
+  blade.add(nonholonomic(points(p), [](auto r, auto v) { return v.y() - r.x() * v.x(); }));
+  expect(analyses(blade, Stepper::erk), 1, 0);
+  expect(analyses(blade, Stepper::ida), 2, 1);
+}
+
+/// Explicitly its matrix holds dF_f/dlambda, implicitly H and D as well: two patterns.
+TEST(Problem, AForceThatReadsMultipliersTakesOneOfEachKind) {
+  Bob own;
+  const auto q = own.scene.add_particle({.mass = 1.0, .position = {2.0, 0.0}, .velocity = {0.0, 1.0}});
+  const auto rod = own.scene.add(Distance{own.bob, q, 1.0});
+  own.scene.add(friction_law(rod, points(q), [](auto lambda, auto, auto v) {
+    return std::tuple{(-0.1 * sqrt(lambda * lambda + 1.0) * v).eval()};
+  }));
+  expect(analyses(own.scene, Stepper::erk), 1, 1);
+  expect(analyses(own.scene, Stepper::ida), 1, 2);
+}
+
+/// 60 rods from one hub, whose complement would be full.
+TEST(Problem, WhereManyConstraintsShareAParticleNoComplementIsAnalysed) {
+  Scene<2> star;
+  const auto hub = star.add_particle({.mass = 1.0});
+  star.add(UniformGravity<2>{{0.0, -9.81}});
+  for (int i = 0; i < 60; ++i) {
+    const double phi = 0.1 * i;
+    const auto p = star.add_particle({.mass = 0.1, .position = {std::cos(phi), std::sin(phi)}});
+    star.add(Distance{hub, p, 1.0});
+  }
+  expect(analyses(star, Stepper::erk), 0, 1);
+  expect(analyses(star, Stepper::ida), 0, 1);
+}
+
+/// A rod stated twice: one of the two is chosen at the start, and stays.
+TEST(Problem, RedundantRowsTakeNoMore) {
+  Bob own;
+  own.scene.add(Distance{Fixed<2>{}, own.bob, 1.0}, "again");
+  expect(analyses(own.scene, Stepper::erk), 1, 0);
+}
+
+}  // namespace
+}  // namespace dalembert
