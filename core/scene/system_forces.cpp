@@ -10,9 +10,9 @@ namespace dalembert {
 void System::sort_forces() {
   std::vector<std::size_t> order(parts_.forces.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto reading = std::ranges::stable_partition(
-      order, [this](std::size_t b) { return parts_.forces[b]->shape().rows == 0; });
-  first_reading_ = order.size() - reading.size();
+  const auto reading = std::stable_partition(
+      order.begin(), order.end(), [this](std::size_t b) { return parts_.forces[b]->shape().rows == 0; });
+  first_reading_ = static_cast<std::size_t>(reading - order.begin());
   std::vector<std::shared_ptr<const ForceBatch>> batches;
   std::vector<std::vector<int>> numbers;
   for (const std::size_t b : order) {

@@ -22,7 +22,7 @@ MatrixXd stiffness(const System& system, const RotatingFrame& frame, const Insta
   MatrixXd K = MatrixXd::Zero(n, n);
   for (const auto& k : terms.stiffness) {
     const double masses = system.masses()[k.row()] * system.masses()[k.col()];
-    K(k.row(), k.col()) += k.value() / std::sqrt(masses);
+    K(static_cast<Index>(k.row()), static_cast<Index>(k.col())) += k.value() / std::sqrt(masses);
   }
   return K;
 }

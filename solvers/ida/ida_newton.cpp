@@ -9,6 +9,8 @@ namespace dalembert {
 
 namespace {
 
+constexpr int converged = 0;  // SUN_NLS_SUCCESS before SUNDIALS 7, SUN_SUCCESS since
+
 // As in IDA, see its user guide:
 /// an iteration that converges more slowly has failed;
 constexpr double slowest_rate = 0.9;
@@ -47,7 +49,7 @@ int IdaStepper::State::test_convergence(int iteration, N_Vector correction, N_Ve
   if (iteration == 0) {
     first_correction = size;
     first_of_motion = of_motion();
-    if (size <= negligible * newton_tolerance) return SUN_NLS_SUCCESS;
+    if (size <= negligible * newton_tolerance) return converged;
   } else {
     const double rate = rate_of(size, first_correction, iteration);
     if (rate > slowest_rate) {
@@ -56,7 +58,7 @@ int IdaStepper::State::test_convergence(int iteration, N_Vector correction, N_Ve
     }
     error_over_correction = rate / (1.0 - rate);
   }
-  return error_over_correction * size <= newton_tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
+  return error_over_correction * size <= newton_tolerance ? converged : SUN_NLS_CONTINUE;
 }
 
 }  // namespace dalembert
