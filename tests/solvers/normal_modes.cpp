@@ -323,8 +323,10 @@ TEST(LinearTerms, AreTheDerivativesOfTheResidual) {
 
   const auto n = static_cast<Eigen::Index>(q.size());
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n), C = K;
-  for (const auto& k : terms.stiffness) K(k.row(), k.col()) += k.value();
-  for (const auto& c : terms.damping) C(c.row(), c.col()) += c.value();
+  for (const auto& k : terms.stiffness)
+    K(static_cast<Eigen::Index>(k.row()), static_cast<Eigen::Index>(k.col())) += k.value();
+  for (const auto& c : terms.damping)
+    C(static_cast<Eigen::Index>(c.row()), static_cast<Eigen::Index>(c.col())) += c.value();
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n), unit = Eigen::VectorXd::Unit(n, i);
     Eigen::VectorXd by_position = Eigen::VectorXd::Zero(n + 3), by_rate = by_position;
