@@ -27,20 +27,20 @@ class Stepping {
   Stepping(std::shared_ptr<const System> system, std::span<const double> q, std::span<const double> v,
            const Options& options, double nearest_contact);
 
-  [[nodiscard]] double time() const { return stepper_->time(); }
-  [[nodiscard]] const Problem& problem() const { return problem_; }
+  [[nodiscard]] double time() const { return stretch_->stepper->time(); }
+  [[nodiscard]] const Problem& problem() const { return stretch_->problem; }
   /// The one whose equations are stepped.
-  [[nodiscard]] const System& system() const { return problem_.system(); }
+  [[nodiscard]] const System& system() const { return problem().system(); }
   [[nodiscard]] const std::shared_ptr<const System>& shared_system() const {
-    return problem_.shared_system();
+    return problem().shared_system();
   }
   /// See TimeStepper.
-  [[nodiscard]] int degree() const { return stepper_->degree(); }
+  [[nodiscard]] int degree() const { return stretch_->stepper->degree(); }
   [[nodiscard]] double tolerance() const { return options_.tolerance; }
   /// Throws StepFailure, EquationFault.
   void step(double wanted);
   /// Begins anew at a time inside the last step, with constraints that changed and velocities that may have.
-  /// Throws StepFailure, EquationFault.
+  /// Throws StepFailure, EquationFault, and then it has not begun.
   void begin_changed(double t, std::shared_ptr<const System> system, std::span<const double> q,
                      std::span<const double> v);
   /// Everything at a time inside the last step (or at the start, before the first). Throws StepFailure,
@@ -48,7 +48,7 @@ class Stepping {
   void read(double t, Moment& m);
 
   /// What it began from, or last began anew from.
-  [[nodiscard]] const Start& start() const { return start_; }
+  [[nodiscard]] const Start& start() const { return stretch_->start; }
   /// The constraint whose force has grown without bound where the last step ended, in words; empty if there
   /// is none.
   [[nodiscard]] std::string unbounded_multiplier();
@@ -58,6 +58,15 @@ class Stepping {
   [[nodiscard]] Statistics statistics() const;
 
  private:
+  /// What each beginning makes anew.
+  struct Stretch {
+    Problem problem;
+    Start start;
+    bool handed_over;  // to the explicit stepper, close to a singular position
+    Reader reader;
+    std::unique_ptr<TimeStepper> stepper;
+    std::optional<Sticking> sticking;  // for the implicit stepper, if there is friction
+  };
   /// A state of the stepper's own, not put onto the constraints.
   struct State {
     std::vector<double> q, v;
@@ -65,7 +74,9 @@ class Stepping {
   const State& interpolate(double t);
   [[nodiscard]] const Springs* springs_at(double t);
 
-  void begin(const Options& options);
+  [[nodiscard]] std::unique_ptr<Stretch> stretch(const Problem& problem, Start start, double t,
+                                                 bool handed_over = false) const;
+  void go_on_with(std::unique_ptr<Stretch> next);
   [[nodiscard]] KeptSteps& own_steps();
   void keep_step();
   void exchange_rows();
@@ -73,21 +84,16 @@ class Stepping {
   void watch_sine();
   void hand_over();
   void watch_sliding();
-  void restart(Stepper kind);
+  void restart(bool handed_over);
 
-  Problem problem_;
   Options options_;
-  Start start_;
+  std::unique_ptr<Stretch> stretch_;
   std::vector<double> lambda_at_start_;
-  std::optional<Reader> reader_;
-  std::unique_ptr<TimeStepper> stepper_;
-  std::optional<Sticking> sticking_;  // for the implicit stepper, if there is friction
-  std::shared_ptr<KeptSteps> kept_;   // if the options ask for it
-  std::optional<double> unkept_;      // where a step began that is not among them yet
+  std::shared_ptr<KeptSteps> kept_;  // if the options ask for it
+  std::optional<double> unkept_;     // where a step began that is not among them yet
 
   long steps_ = 0;
-  Angle angle_;               // at the last step
-  bool handed_over_ = false;  // to the explicit stepper, close to a singular position
+  Angle angle_;  // at the last step
   double sine_at_handover_ = 0.0;
 
   Springs springs_;  // of the implicit stepper's state, if any constraint is compliant

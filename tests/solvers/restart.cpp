@@ -1,4 +1,5 @@
 #include "readings.h"
+#include <dalembert/solvers/stepping.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -73,6 +74,49 @@ TEST(Restart, RefusesASampleOfSomethingElseAndAnotherTime) {
   Scene<2> more = other.scene;
   more.add_particle({.mass = 1.0});
   EXPECT_THROW((void)simulate(more, run.sample(1), {.t_end = 2.0}), InvalidArgument);
+}
+
+/// Wherever a new beginning fails, here in the n-th evaluation of a force, the run stands where it stood.
+TEST(Restart, ThatFailsLeavesTheRunAsItWas) {
+  const auto calls_left = std::make_shared<long>(std::numeric_limits<long>::max());
+  Scene<2> scene;
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
+  scene.add(Distance{Fixed<2>{}, bob, 1.0});
+  scene.add(force_law(points(bob), [calls_left](auto, auto v) {
+    if ((*calls_left)-- <= 0) throw std::runtime_error("no more");
+    return (vec(0.0, -9.81) - 0.1 * v).eval();
+  }));
+  for (const Stepper stepper : both) {
+    *calls_left = std::numeric_limits<long>::max();
+    const auto system = std::make_shared<const System>(scene.system());
+    Stepping run(system, scene.initial_positions(), scene.initial_velocities(),
+                 {.t_end = 1.0, .stepper = stepper, .dense = true}, std::numeric_limits<double>::infinity());
+    while (run.time() < 0.5) run.step(1.0);
+    const double t = run.time();
+    Moment there(*system, run.start());
+    run.read(t, there);
+    const std::string read = run.statistics().report();
+    const auto other = std::make_shared<const System>(scene.system());
+    long allowed = -1;
+    for (bool begun = false; !begun;) {
+      *calls_left = ++allowed;
+      try {
+        run.begin_changed(t, other, there.q, there.v);
+        begun = true;
+      } catch (const EquationFault&) {
+        ASSERT_EQ(run.shared_system(), system);
+        ASSERT_EQ(run.time(), t);
+        ASSERT_EQ(run.statistics().report(), read);
+      }
+    }
+    EXPECT_GT(allowed, 2);
+    *calls_left = std::numeric_limits<long>::max();
+    EXPECT_EQ(run.shared_system(), other);
+    while (run.time() < 1.0) run.step(1.0);
+    run.read(1.0, there);
+    // Energy less what the law took: m (v^2/2 + g y) falls, from 0 at the start.
+    EXPECT_LT(there.v[0] * there.v[0] / 2.0 + there.v[1] * there.v[1] / 2.0 + 9.81 * there.q[1], 0.0);
+  }
 }
 
 }  // namespace
