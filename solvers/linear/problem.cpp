@@ -6,13 +6,20 @@
 
 namespace dalembert {
 
+namespace {
+
+/// A run has one choice of rows, of rows and coordinates of an island two or three more; where redundant rows
+/// are exchanged again and again those of long ago are forgotten. Only time depends on it.
+constexpr std::size_t most_patterns = 8;
+
+}  // namespace
+
 Problem::Problem(System system) : Problem(std::make_shared<const System>(std::move(system))) {}
 
 Problem::Problem(std::shared_ptr<const System> system) {
-  Islands coupled = dalembert::islands(*system);
   std::vector<std::size_t> coordinates(system->coordinates());
   std::iota(coordinates.begin(), coordinates.end(), std::size_t{0});
-  shared_ = std::make_shared<Shared>(Shared{std::move(system), std::move(coupled), std::move(coordinates)});
+  shared_ = std::make_shared<Shared>(Shared{std::move(system), std::move(coordinates)});
 }
 
 std::shared_ptr<const SaddlePattern> Problem::pattern(const std::vector<std::size_t>& rows) const {
@@ -24,7 +31,11 @@ std::shared_ptr<const SaddlePattern> Problem::pattern(const std::vector<std::siz
   auto& all = shared_->patterns;
   const auto found = std::ranges::find_if(
       all, [&](const auto& known) { return known->rows() == rows && known->coordinates() == coordinates; });
-  if (found != all.end()) return *found;
+  if (found != all.end()) {
+    std::rotate(found, found + 1, all.end());
+    return all.back();
+  }
+  if (all.size() == most_patterns) all.erase(all.begin());
   return all.emplace_back(std::make_shared<const SaddlePattern>(shared_->system, rows, coordinates));
 }
 

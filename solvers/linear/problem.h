@@ -5,6 +5,7 @@
 #include <dalembert/solvers/linear/saddle.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace DALEMBERT_HIDDEN dalembert {
@@ -19,20 +20,25 @@ class Problem {
 
   [[nodiscard]] const System& system() const { return *shared_->system; }
   [[nodiscard]] const std::shared_ptr<const System>& shared_system() const { return shared_->system; }
-  [[nodiscard]] const Islands& islands() const { return shared_->islands; }
-  /// Of these rows, and all coordinates or those that they read. Analysed when first asked for.
+  /// Found when first asked for.
+  [[nodiscard]] const Islands& islands() const {
+    if (!shared_->islands) shared_->islands = dalembert::islands(system());
+    return *shared_->islands;
+  }
+  /// Of these rows, and all coordinates or those that they read. Analysed when first asked for, and kept
+  /// until many others have been.
   [[nodiscard]] std::shared_ptr<const SaddlePattern> pattern(const std::vector<std::size_t>& rows) const;
   [[nodiscard]] std::shared_ptr<const SaddlePattern> pattern(
       const std::vector<std::size_t>& rows, const std::vector<std::size_t>& coordinates) const;
-  /// For all that has been asked for.
+  /// For all that is kept.
   [[nodiscard]] SaddlePattern::Analyses analyses() const;
 
  private:
   struct Shared {
     std::shared_ptr<const System> system;
-    Islands islands;
     std::vector<std::size_t> coordinates;
-    std::vector<std::shared_ptr<const SaddlePattern>> patterns{};
+    std::optional<Islands> islands{};
+    std::vector<std::shared_ptr<const SaddlePattern>> patterns{};  // the last asked for stands last
   };
   std::shared_ptr<Shared> shared_;
 };

@@ -9,6 +9,8 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <vector>
 
 namespace dalembert {
 namespace {
@@ -100,6 +102,29 @@ TEST(Problem, RedundantRowsTakeNoMore) {
   Bob own;
   own.scene.add(Distance{Fixed<2>{}, own.bob, 1.0}, "again");
   expect(analyses(own.scene, Stepper::erk), 1, 0);
+}
+
+/// Of a star with more rods than patterns are kept, each choice leaves another rod out.
+TEST(Problem, KeepsTheLastOfManyChoicesOfRows) {
+  Scene<2> star;
+  for (int i = 0; i < 20; ++i)
+    star.add(Distance{Fixed<2>{}, star.add_particle({.mass = 1.0, .position = {1.0, 0.1 * i}}), 1.0});
+  const Problem problem(star.system());
+  const auto without = [&](std::size_t left_out) {
+    std::vector<std::size_t> rows;
+    for (std::size_t r = 0; r < 20; ++r) {
+      if (r != left_out) rows.push_back(r);
+    }
+    return problem.pattern(rows);
+  };
+  const auto first = without(0);
+  std::vector<std::weak_ptr<const SaddlePattern>> others;
+  for (std::size_t i = 1; i < 20; ++i) {
+    others.push_back(without(i));
+    EXPECT_EQ(without(0), first);  // what is asked for again and again stays
+  }
+  EXPECT_TRUE(others.front().expired());
+  EXPECT_FALSE(others.back().expired());
 }
 
 }  // namespace
