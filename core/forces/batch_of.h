@@ -49,6 +49,8 @@ template <AnyForce E>
 /// What Scene asks of the equation of a force.
 template <AnyForce E>
 constexpr void require_forces() {
+  static_assert(HasOwnBatch<E> || PotentialForce<E> + LawForce<E> + FrictionForce<E> == 1,
+                "a force states one of energy(r), force(r, v) and friction(lambda, r, v)");
   using Batch = typename BatchFor<E>::type;
   static_assert(!PotentialForce<E> || Batch::gives_what_it_should,
                 "a potential returns its energy, one number; of an Eigen expression its .value()");

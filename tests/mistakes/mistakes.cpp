@@ -3,6 +3,15 @@
 
 using namespace dalembert;
 
+struct TwoLaws {
+  Particle<2> p;
+  Constraint<1> rod;
+  auto points() const { return std::tuple{p}; }
+  const Constraint<1>& constraint() const { return rod; }
+  auto force(const auto&, const auto& v) const { return (-v).eval(); }
+  auto friction(const auto& lambda, const auto&, const auto& v) const { return (-lambda * v).eval(); }
+};
+
 [[maybe_unused]] const auto make = [](Scene<2>& scene) {
   const auto bead = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}}, "bead");
   [[maybe_unused]] const auto rod = scene.add(Distance{Fixed<2>{}, bead, 1.0});
@@ -41,6 +50,9 @@ using namespace dalembert;
 #endif
 #ifdef MISTAKE_force  // a force law returns one column of its point's dimension
   scene.add(force_law(points(bead), [](auto, auto v) { return vec(v.x(), v.y(), 0.0); }));
+#endif
+#ifdef MISTAKE_two_laws  // a force states one of energy(r), force(r, v) and friction(lambda, r, v)
+  scene.add(TwoLaws{bead, rod});
 #endif
 #ifdef MISTAKE_energy  // a potential returns its energy, one number
   scene.add(potential(points(bead), [](auto r) { return r; }));
