@@ -24,8 +24,6 @@ struct Sliding {
 ///
 /// where d0 is the direction and s the slowness of `Sliding`: s is below the accuracy of velocities, so that
 /// d is the direction of sliding, and defined where sliding begins.
-///
-/// The work space is its own: not for two threads at once.
 class SlidingFriction final : public ForceBatch {
  public:
   SlidingFriction(const detail::Owned<ConstraintBatch>& of, std::vector<Sliding> sliding);
@@ -51,18 +49,16 @@ class SlidingFriction final : public ForceBatch {
              std::span<double> F) const;
 
  private:
-  void evaluate(const Instant& at) const;
+  struct Work;
+  [[nodiscard]] Work& evaluate(const Instant& at) const;
   /// d of (1), and per unit of lambda the force along it.
-  void find_direction(std::size_t i) const;
-  void find_force_per_lambda(std::size_t i) const;
+  void find_direction(std::size_t i, Work& work) const;
+  void find_force_per_lambda(std::size_t i, Work& work) const;
 
   detail::Owned<ConstraintBatch> batch_;  // all others left out
   std::vector<Sliding> sliding_;
   std::vector<int> coordinates_, pressed_by_;
   std::size_t rows_, width_;
-  mutable std::vector<double> psi_, w_, psi_q_, stiffness_, sigma_;  // of the whole batch
-  mutable std::vector<double> d_, f_;                                // of one
-  mutable double speed_ = 0.0;                                       // |u + s d0|
 };
 
 }  // namespace dalembert

@@ -130,6 +130,25 @@ TEST(Threads, CopiesWithOtherParametersGiveTheBitsTheyGiveAlone) {
   }
 }
 
+/// What lies between the samples is found where it is asked for; here of two blocks that slide.
+TEST(Threads, TwoMayReadOneRunBetweenItsSamples) {
+  Scene<2> scene("slide");
+  scene.add(UniformGravity<2>{{0.0, -9.81}});
+  const Plane<2> plane{{0.0, 0.0}, {0.0, 1.0}};
+  for (const double speed : {3.0, 4.0}) {
+    const auto block = scene.add_particle({.mass = speed, .velocity = {speed, 0.0}});
+    const auto floor = scene.add(OnCurve{block, plane});
+    scene.add(coulomb(floor, Slip{block, plane}, 0.1, 0.1));
+  }
+  const auto run = simulate(scene, {.t_end = 1.0, .samples = 2, .dense = true});
+  const auto read_from = [&run](double first) {
+    std::vector<double> times;
+    for (int i = 0; i < 200; ++i) times.push_back(first + 0.004 * i);
+    return numbers(run.at(times));
+  };
+  expect_independent([&] { return read_from(0.0); }, [&] { return read_from(0.1); });
+}
+
 /// An error of one thread stays in it.
 TEST(Threads, AFailureInOneThreadDoesNotReachTheOther) {
   const auto fails = [] {
