@@ -9,7 +9,7 @@ class Places {
  public:
   Places(std::size_t first, std::size_t last) : first_(first), last_(last) {}
   /// So many from the first on.
-  static Places next(std::size_t first, std::size_t count) { return {first, first + count}; }
+  static Places from(std::size_t first, std::size_t count) { return {first, first + count}; }
 
   struct Iterator {
     std::size_t k;

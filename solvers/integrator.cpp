@@ -40,7 +40,7 @@ void require_no_force_reads(const System& system) {
   for (std::size_t k = 0; k < system.friction_pattern().size(); ++k) {
     for (const std::size_t c : system.contacts()) {
       const Layout::Constraint& contact = system.layout()->constraints[c];
-      if (system.friction_pattern()[k].column != contact.places().front()) continue;
+      if (system.friction_pattern()[k].column != contact.own_rows().front()) continue;
       throw InvalidScene(system.force_of_friction(k) + " reads the force of " + contact.label() +
                          ", which is one-sided: state it as a bilateral one, and end the run by an event "
                          "where its force vanishes");

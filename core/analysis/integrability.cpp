@@ -92,7 +92,7 @@ Forms forms(const System& system, double t, std::span<const double> q) {
 /// of freedom, and are left out.
 std::vector<std::vector<std::size_t>> connected_rows(const System& system) {
   const auto first_column = [&system](std::size_t r) { return system.w_columns()[system.row(r).front()]; };
-  const auto rigid = [&system](std::size_t r) { return !(system.compliance()[r] > 0.0); };
+  const auto rigid = [&system](std::size_t r) { return !system.law(r).yields(); };
   DisjointSets coordinates(system.coordinates());
   for (std::size_t r = 0; r < system.rows(); ++r) {
     if (!rigid(r)) continue;

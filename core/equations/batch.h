@@ -59,6 +59,14 @@ struct ConstraintShape {
   std::string_view singular;  ///< what it means if the gradient vanishes or has no value
 };
 
+/// How a row gives way to its multiplier: to g + C lambda = 0 and psi + C lambda' = 0. Rigid rows do not.
+struct RowLaw {
+  double compliance = 0.0;  ///< C [length / force, at unit gradient]
+
+  /// Whether its residuals depend on its own multiplier: an entry in the lower right block.
+  [[nodiscard]] bool yields() const { return compliance > 0.0; }
+};
+
 /// Where a constraint batch writes its part of the equations. Row r of constraint c is number
 /// `c * rows + r` and owns `width` consecutive entries of w and psi_q.
 struct ConstraintValues {
@@ -83,8 +91,8 @@ class ConstraintBatch {
   /// the size |U^T lambda|, that of the force at one of its points. See detail::forces_at_points.
   virtual void forces_at_points(std::span<const double> w, std::span<const double> lengths,
                                 std::span<double> out) const = 0;
-  /// The compliance of each row [length / force, at unit gradient]: 0 if it is rigid.
-  virtual void compliance(std::span<double> out) const = 0;
+  /// The law of each row, as `out` comes if it is rigid.
+  virtual void laws(std::span<RowLaw> /*out*/) const {}
   /// gamma = psi_q v + psi_t, so that W v' + gamma = 0 at acceleration level.
   virtual void bias(const Instant& at, std::span<double> gamma) const = 0;
   /// psi_q, and for each constraint the dense `width x width` block (rows first) of

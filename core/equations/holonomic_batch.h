@@ -62,10 +62,11 @@ class HolonomicBatch final : public ConstraintBatch {
     elements_.forces_at_points(rows, w, lengths, out);
   }
 
-  void compliance(std::span<double> out) const override {
-    std::ranges::fill(out, 0.0);
+  void laws(std::span<RowLaw> out) const override {
     if constexpr (HasCompliance<C>) {
-      for (std::size_t row = 0; row < out.size(); ++row) out[row] = elements_.all()[row / rows].compliance;
+      for (std::size_t row = 0; row < out.size(); ++row) out[row] = {elements_.all()[row / rows].compliance};
+    } else {
+      (void)out;
     }
   }
 

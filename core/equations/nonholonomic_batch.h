@@ -48,8 +48,6 @@ class NonholonomicBatch final : public ConstraintBatch {
     elements_.forces_at_points(rows, w, lengths, out);
   }
 
-  void compliance(std::span<double> out) const override { std::ranges::fill(out, 0.0); }
-
   void bias(const Instant& at, std::span<double> gamma) const override {
     using S = Dual<1, 1>;
     for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {

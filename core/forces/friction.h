@@ -87,7 +87,7 @@ struct FrictionFromLaw {
 /// where lambda changes sign.
 ///
 /// Friction that changes, through other constraints, the very multiplier that it reads has a limit
-/// beyond which no or no unique acceleration exists (Painleve); reaching it is an error that names the
+/// beyond which no acceleration exists, or no unique one (Painleve); reaching it is an error that names the
 /// force. So is reading a multiplier that the motion does not determine, of redundant constraints.
 template <int Rows, class... P, class Law>
 [[nodiscard]] auto friction_law(Constraint<Rows> of, std::tuple<P...> on, Law law) {

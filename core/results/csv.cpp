@@ -106,9 +106,9 @@ class Writer {
     });
     for (std::size_t c = 0; c < layout_.constraints.size(); ++c) {
       const auto& info = layout_.constraints[c];
-      write(info.places().in(now.lambda));
+      write(info.own_rows().in(now.lambda));
       if (!now.unique.empty()) {
-        const auto own = info.places().in(now.unique);
+        const auto own = info.own_rows().in(now.unique);
         out_ << ',' << (std::ranges::find(own, 0) == own.end() ? 1 : 0);
       }
       for (const auto& column : forces_[c]) {

@@ -45,11 +45,11 @@ struct Layout {
     Condition holds{};  ///< when, if not always
 
     /// Those of its multipliers, in lambda.
-    [[nodiscard]] Places places() const {
-      return Places::next(static_cast<std::size_t>(first_row), static_cast<std::size_t>(rows));
+    [[nodiscard]] Places own_rows() const {
+      return Places::from(static_cast<std::size_t>(first_row), static_cast<std::size_t>(rows));
     }
     [[nodiscard]] Places slots() const {
-      return Places::next(static_cast<std::size_t>(first_slot), static_cast<std::size_t>(width));
+      return Places::from(static_cast<std::size_t>(first_slot), static_cast<std::size_t>(width));
     }
     [[nodiscard]] std::string label() const { return kind + " \"" + name + '"'; }
   };

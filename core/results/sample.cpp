@@ -59,12 +59,12 @@ bool Sample<D>::unique(const Layout::Constraint& constraint, int component) cons
                           ": it has " + std::to_string(constraint.rows) + ", counted from 0");
   }
   return flat_.unique.empty() ||
-         constraint.places().in(flat_.unique)[static_cast<std::size_t>(component)] != 0;
+         constraint.own_rows().in(flat_.unique)[static_cast<std::size_t>(component)] != 0;
 }
 
 template <int D>
 bool Sample<D>::determined(const Layout::Constraint& constraint) const {
-  const auto own = constraint.places().in(flat_.lambda);
+  const auto own = constraint.own_rows().in(flat_.lambda);
   return std::ranges::none_of(own, [](double lambda) { return std::isnan(lambda); });
 }
 

@@ -61,8 +61,8 @@ void System::place_constraints() {
     const auto coordinates = batches[b]->coordinates();
     const std::size_t row_count = batches[b]->size() * static_cast<std::size_t>(shape.rows);
     constraint_places_.push_back(
-        {Places::next(row_start_.size() - 1, row_count), Places::next(w_columns_.size(), row_count * width),
-         Places::next(stiffness_pattern_.size(), batches[b]->size() * width * width), shape.holonomic});
+        {Places::from(row_start_.size() - 1, row_count), Places::from(w_columns_.size(), row_count * width),
+         Places::from(stiffness_pattern_.size(), batches[b]->size() * width * width), shape.holonomic});
     append_blocks(coordinates, width, stiffness_pattern_);
     for (std::size_t i = 0; i < batches[b]->size(); ++i) {
       auto& info = parts_.layout.constraints[static_cast<std::size_t>(parts_.constraint_numbers[b][i])];
@@ -75,19 +75,18 @@ void System::place_constraints() {
         row_start_.push_back(w_columns_.size());
       }
     }
-    compliance_.resize(row_start_.size() - 1);
-    batches[b]->compliance(std::span(compliance_).last(row_count));
+    laws_.resize(rows());
+    batches[b]->laws(std::span(laws_).last(row_count));
     if (shape.holonomic) holonomic_rows_ = rows();
   }
   rows_in_force_ = rows();
-  compliant_rows_ =
-      static_cast<std::size_t>(std::ranges::count_if(compliance_, [](double C) { return C > 0.0; }));
+  compliant_rows_ = static_cast<std::size_t>(std::ranges::count_if(laws_, &RowLaw::yields));
 }
 
-std::vector<double> System::coordinate_scales(double length) const {
-  std::vector<double> scales(parts_.masses.size(), length);
-  for (const auto& rotor : layout_->rotors) scales[static_cast<std::size_t>(rotor.coordinate)] = 1.0;
-  return scales;
+std::vector<char> System::angles() const {
+  std::vector<char> angles(coordinates(), 0);
+  for (const auto& rotor : layout_->rotors) angles[static_cast<std::size_t>(rotor.coordinate)] = 1;
+  return angles;
 }
 
 bool System::rheonomic() const {
@@ -184,7 +183,7 @@ void System::constraint_forces(std::span<const double> w, std::span<const double
                                std::span<double> slots) const {
   std::ranges::fill(slots, 0.0);
   for (const Layout::Constraint& c : layout_->constraints) {
-    for (const std::size_t r : c.places()) {
+    for (const std::size_t r : c.own_rows()) {
       std::size_t k = row_start_[r];
       for (const std::size_t slot : c.slots()) slots[slot] += lambda[r] * w[k++];
     }
@@ -198,7 +197,7 @@ double System::kinetic_energy(std::span<const double> v) const {
 
 double System::elastic_energy(std::span<const double> lambda) const {
   double V = 0.0;
-  for (std::size_t r = 0; r < lambda.size(); ++r) V += 0.5 * compliance_[r] * lambda[r] * lambda[r];
+  for (std::size_t r = 0; r < lambda.size(); ++r) V += 0.5 * laws_[r].compliance * lambda[r] * lambda[r];
   return V;
 }
 

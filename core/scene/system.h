@@ -66,14 +66,13 @@ class System {
   [[nodiscard]] std::size_t holonomic_rows() const { return holonomic_rows_; }
   /// Whether any constraint depends on time explicitly.
   [[nodiscard]] bool rheonomic() const;
-  /// C of each row: g + C lambda = 0 instead of g = 0; 0 where it is rigid.
-  [[nodiscard]] std::span<const double> compliance() const { return compliance_; }
+  [[nodiscard]] const RowLaw& law(std::size_t row) const { return laws_[row]; }
   /// Whether any row is not rigid.
   [[nodiscard]] bool compliant() const { return compliant_rows() > 0; }
   [[nodiscard]] std::size_t compliant_rows() const { return compliant_rows_; }
   [[nodiscard]] std::span<const double> masses() const { return parts_.masses; }
-  /// What one unit of each coordinate means: `length` for a length, 1 for an angle.
-  [[nodiscard]] std::vector<double> coordinate_scales(double length) const;
+  /// Whether each coordinate is an angle, and not a length.
+  [[nodiscard]] std::vector<char> angles() const;
   /// Diagonal of the box around all points, the driven ones where they are at the start of the run [length].
   [[nodiscard]] double extent(double t_start) const { return parts_.extent(t_start); }
   [[nodiscard]] const std::shared_ptr<const Layout>& layout() const { return layout_; }
@@ -229,7 +228,7 @@ class System {
   std::vector<std::size_t> w_columns_;
   std::vector<char> out_of_force_;  // empty if none is
   std::size_t rows_in_force_ = 0;
-  std::vector<double> compliance_;
+  std::vector<RowLaw> laws_;
   std::size_t compliant_rows_ = 0;
   std::vector<Entry> stiffness_pattern_;
   std::vector<Entry> damping_pattern_;

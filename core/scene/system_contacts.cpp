@@ -46,7 +46,7 @@ System System::without(std::span<const std::size_t> constraints) const {
       const auto number = static_cast<std::size_t>(numbers[i]);
       if (std::ranges::find(constraints, number) == constraints.end()) continue;
       (*other.parts_.constraints[b]).leave_out(i);
-      for (const std::size_t r : layout_->constraints[number].places()) other.out_of_force_[r] = 1;
+      for (const std::size_t r : layout_->constraints[number].own_rows()) other.out_of_force_[r] = 1;
     }
   }
   other.rows_in_force_ = static_cast<std::size_t>(std::ranges::count(other.out_of_force_, char{0}));
@@ -83,7 +83,7 @@ void System::exert_sliding(const Instant& at, std::span<double> lambda, std::spa
     for (std::size_t i = 0; i < slides_[k]->size(); ++i) {
       const Layout::Constraint& its =
           layout_->constraints[static_cast<std::size_t>(parts_.force_numbers[b][i])];
-      slides_[k]->exert(i, at, lambda[force_places_[b].first_row[i]], its.places().in(lambda),
+      slides_[k]->exert(i, at, lambda[force_places_[b].first_row[i]], its.own_rows().in(lambda),
                         its.slots().in(slots));
     }
   }

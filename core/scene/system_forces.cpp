@@ -29,14 +29,14 @@ void System::place_forces(const Layout& layout) {
     const ForceShape shape = batch.shape();
     const auto width = static_cast<std::size_t>(shape.width), rows = static_cast<std::size_t>(shape.rows);
     const std::size_t blocks = batch.size() * width * width;
-    ForcePlaces own{Places::next(friction_pattern_.size(), batch.size() * rows * width),
-                    Places::next(stiffness_pattern_.size(), blocks),
-                    Places::next(damping_pattern_.size(), shape.dissipative ? blocks : 0)};
+    ForcePlaces own{Places::from(friction_pattern_.size(), batch.size() * rows * width),
+                    Places::from(stiffness_pattern_.size(), blocks),
+                    Places::from(damping_pattern_.size(), shape.dissipative ? blocks : 0)};
     append_blocks(batch.coordinates(), width, stiffness_pattern_);
     if (shape.dissipative) append_blocks(batch.coordinates(), width, damping_pattern_);
     for (std::size_t i = 0; i < batch.constraints().size(); ++i) {
       const auto constraint = static_cast<std::size_t>(batch.constraints()[i]);
-      own.first_row.push_back(layout.constraints[constraint].places().front());
+      own.first_row.push_back(layout.constraints[constraint].own_rows().front());
       for (std::size_t r = 0; r < rows; ++r) {
         for (const int coordinate : batch.coordinates().subspan(i * width, width))
           friction_pattern_.push_back({static_cast<std::size_t>(coordinate), own.first_row[i] + r});

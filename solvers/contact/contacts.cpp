@@ -38,7 +38,7 @@ double gradient_of(const System& stated, std::size_t number, const Instant& at,
   } catch (const EquationFault&) {
     return 0.0;
   }
-  return gradient_length(alone, e.w, lengths, stated.layout()->constraints[number].places().front());
+  return gradient_length(alone, e.w, lengths, stated.layout()->constraints[number].own_rows().front());
 }
 
 }  // namespace
@@ -46,12 +46,13 @@ double gradient_of(const System& stated, std::size_t number, const Instant& at,
 double nearest_contact(const System& stated, const Instant& at) {
   std::vector<double> g(stated.rows()), rates(stated.rows());
   stated.gaps(at, g, rates);
+  const std::vector<double> ones(stated.coordinates(), 1.0);
   double farthest = 0.0;
   for (const double x : at.q) farthest = std::max(farthest, std::abs(x));
   double nearest = std::numeric_limits<double>::infinity();
   for (const std::size_t number : stated.contacts()) {
-    const double gradient = gradient_of(stated, number, at, stated.coordinate_scales(1.0));
-    const double gap = std::abs(g[stated.layout()->constraints[number].places().front()]);
+    const double gradient = gradient_of(stated, number, at, ones);
+    const double gap = std::abs(g[stated.layout()->constraints[number].own_rows().front()]);
     if (gap > round_off() * farthest * gradient) nearest = std::min(nearest, gap / gradient);
   }
   return nearest;
@@ -68,7 +69,7 @@ Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, d
   for (const std::size_t number : stated_->contacts()) {
     const Layout::Constraint& its = stated_->layout()->constraints[number];
     contacts_.push_back({.number = number,
-                         .row = its.places().front(),
+                         .row = its.own_rows().front(),
                          .sign = its.holds.contact->sign(),
                          .restitution = its.holds.contact->restitution});
   }

@@ -25,7 +25,7 @@ ActiveRows rows_besides(const System& system, const std::vector<std::size_t>& co
                         const System::Evaluation& e) {
   std::vector<double> w = e.w;
   for (const std::size_t c : contacts) {
-    const auto row = system.layout()->constraints[c].places().front();
+    const auto row = system.layout()->constraints[c].own_rows().front();
     for (const std::size_t k : system.row(row)) w[k] = 0.0;
   }
   return independent_rows(system.without(contacts), w);
@@ -44,7 +44,7 @@ Coupling::Coupling(std::shared_ptr<const System> of, const std::vector<std::size
   const auto n = static_cast<Index>(contacts.size());
   for (const std::size_t c : contacts) {
     const Layout::Constraint& its = system.layout()->constraints[c];
-    rows_.push_back(its.places().front());
+    rows_.push_back(its.own_rows().front());
     signs_.push_back(its.holds.contact->sign());
     std::vector<double> x(matrix_.size());
     for (const std::size_t k : system.row(rows_.back())) x[system.w_columns()[k]] += signs_.back() * e_.w[k];

@@ -36,7 +36,7 @@ DryFriction::DryFriction(std::shared_ptr<const System> stated, const Scales& sca
       u_(stated_->rows()) {
   for (const std::size_t number : stated_->rough()) {
     const Layout::Constraint& its = stated_->layout()->constraints[number];
-    all_.push_back({.number = number, .row = its.places().front(), .rows = its.places().size()});
+    all_.push_back({.number = number, .row = its.own_rows().front(), .rows = its.own_rows().size()});
     read_law(all_.back());
   }
   adopt(scales);
@@ -46,7 +46,7 @@ void DryFriction::read_law(Rough& rough) const {
   const auto& constraints = stated_->layout()->constraints;
   const Roughness& law = *constraints[rough.number].holds.roughness;
   const Layout::Constraint& pressing = constraints[static_cast<std::size_t>(law.pressed_by)];
-  const std::size_t row = std::exchange(rough.pressing_row, pressing.places().front());
+  const std::size_t row = std::exchange(rough.pressing_row, pressing.own_rows().front());
   rough.pressed_by = static_cast<std::size_t>(law.pressed_by);
   rough.mu = law.mu;
   rough.mu_static = law.mu_static;

@@ -106,7 +106,7 @@ void Balance::evaluate(State& s) const {
   s.off = 0.0;
   const auto lengths = scales_.lengths();
   for (std::size_t r = 0; r < s.distance.size(); ++r) {
-    s.distance[r] += system_->compliance()[r] * s.lambda[r];
+    s.distance[r] += system_->law(r).compliance * s.lambda[r];
     s.off = std::max(s.off,
                      std::abs(s.distance[r]) / gradient_length(*system_, e.w, lengths, r) / scales_.length);
   }
@@ -139,7 +139,7 @@ void Balance::measure_stiffness() {
   for (const auto& entry : terms.stiffness) {
     const auto row = entry.row(), column = entry.col();
     highest = std::max(highest, std::abs(entry.value()) / system_->masses()[row]);
-    const double rounding = 10.0 * epsilon * std::max(scales_.coordinate[column], std::abs(q0_[column]));
+    const double rounding = 10.0 * epsilon * std::max(scales_.unit(column), std::abs(q0_[column]));
     least_force_[row] += std::abs(entry.value()) * rounding / balanced;
   }
   shift_ = constants.no_stiffness * (highest > 0.0 ? highest : 1.0 / (scales_.time * scales_.time));
@@ -240,7 +240,7 @@ void Balance::descend(State& s) const {
     double power = 0.0, length = 0.0;
     for (std::size_t k = 0; k < s.q.size(); ++k) {
       power += s.force[k] * x[k];
-      length = std::max(length, std::abs(x[k]) * scales_.length / scales_.coordinate[k]);
+      length = std::max(length, std::abs(x[k]) * scales_.length / scales_.unit(k));
     }
     if (!(power > 0.0) || length > longest) continue;
     State next = s;
@@ -289,7 +289,7 @@ bool Balance::balanced_otherwise(State& s) const {
   const std::vector<double> q = s.q;
   if (!project(s) || s.size > 1e-8) return false;
   for (std::size_t i = 0; i < q.size(); ++i) {
-    if (std::abs(s.q[i] - q[i]) > 1e-8 * scales_.coordinate[i]) return false;
+    if (std::abs(s.q[i] - q[i]) > 1e-8 * scales_.unit(i)) return false;
   }
   return true;
 }

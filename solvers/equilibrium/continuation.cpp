@@ -36,7 +36,8 @@ Corrector::Corrector(std::function<PosedSystem(double)> pose, const BranchOption
   require_suited(*posed.system);
   const auto found = find_equilibrium(*posed.system, posed.guess, posed.time, posed.turning);
   const FlatSample flat = found->sample(0);
-  scale_ = Balance(Problem(posed.system), flat.q, posed.time, posed.turning).scales().coordinate;
+  const Scales scales = Balance(Problem(posed.system), flat.q, posed.time, posed.turning).scales();
+  for (std::size_t i = 0; i < flat.q.size(); ++i) scale_.push_back(scales.unit(i));
   begin_.x = Eigen::VectorXd::Zero(static_cast<Index>(scale_.size()) + 1);
   for (std::size_t i = 0; i < scale_.size(); ++i) begin_.x[static_cast<Index>(i)] = flat.q[i] / scale_[i];
   begin_.lambda.assign(flat.lambda.begin(), flat.lambda.end());
@@ -119,7 +120,7 @@ Eigen::MatrixXd Corrector::jacobian(const Here& here, const Balance::State& s, c
       A(static_cast<Index>(i), n + a) += terms.w[k];
       A(n + a, static_cast<Index>(i)) += terms.w[k] * scale_[i];
     }
-    A(n + a, n + a) = here.system->compliance()[r];
+    A(n + a, n + a) = here.system->law(r).compliance;
   }
   A.col(n + m) = slope_by_parameter(node, rows);
   return A;

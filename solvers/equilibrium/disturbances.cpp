@@ -36,7 +36,7 @@ std::vector<double> multipliers(const System& system, const FlatSample& at) {
   system.evaluate({at.time, at.q, at.v}, e);
   for (std::size_t r = 0; r < lambda.size(); ++r) {
     if (std::isfinite(lambda[r])) continue;
-    const double C = system.compliance()[r];
+    const double C = system.law(r).compliance;
     if (C == 0.0) {
       std::ostringstream what;
       what << "The force of " << system.row_label(r) << " is not determined at t = " << at.time

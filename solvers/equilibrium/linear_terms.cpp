@@ -99,7 +99,7 @@ TangentMatrix::TangentMatrix(const System& system, const ActiveRows& rows, const
       lu_.add(entry++, -terms.w[k]);
       lu_.add(entry++, terms.w[k]);
     }
-    lu_.add(entry++, system.compliance()[r]);
+    lu_.add(entry++, system.law(r).compliance);
   }
   for (const auto& value : terms.stiffness) lu_.add(entry++, value.value());
   regular_ = lu_.factorise();

@@ -168,7 +168,7 @@ bool nothing_below(const System& system, const LinearTerms& terms, double s, dou
   for (std::size_t r = 0; r < system.rows(); ++r) {
     double square = 0.0;
     for (const std::size_t k : system.row(r)) square += std::pow(terms.w[k] / root(system.w_columns()[k]), 2);
-    const double C = system.compliance()[r], weight = C > 0.0 ? 1.0 / C : rho / square;
+    const double C = system.law(r).compliance, weight = C > 0.0 ? 1.0 / C : rho / square;
     for (const std::size_t k : system.row(r)) {
       for (const std::size_t l : system.row(r)) {
         const std::size_t i = system.w_columns()[k], j = system.w_columns()[l];
@@ -202,7 +202,7 @@ void require_conservative(const System& system, const LinearTerms& terms, std::s
 void require_all(const System& system, const LinearTerms& terms, std::size_t found, std::size_t wanted) {
   const ActiveRows rows = independent_rows(system, terms.w);
   const auto rigid = static_cast<std::size_t>(
-      std::ranges::count_if(rows.rows, [&](std::size_t r) { return system.compliance()[r] == 0.0; }));
+      std::ranges::count_if(rows.rows, [&](std::size_t r) { return !system.law(r).yields(); }));
   const std::size_t there = system.coordinates() - rigid;
   if (found >= std::min(wanted, there)) return;
   throw InvalidScene("Normal modes of scene \"" + system.layout()->scene + "\": of " +

@@ -53,8 +53,8 @@ MassMetric::MassMetric(const System& system, const LinearTerms& terms,
   Index rigid = 0;
   for (const std::size_t r : rows) {
     const VectorXd w = scaled_row(system, terms.w, r, place, root);
-    if (system.compliance()[r] > 0.0) {
-      K += w * (w / system.compliance()[r]).transpose();
+    if (system.law(r).compliance > 0.0) {
+      K += w * (w / system.law(r).compliance).transpose();
       continue;
     }
     const double length = w.norm();

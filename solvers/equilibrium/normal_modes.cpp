@@ -42,7 +42,7 @@ double stiffness_along(const Balance& balance, const Balance::State& s, std::spa
   double sum = 0.0;
   for (const auto& k : terms.stiffness) sum += k.value() * u[k.row()] * u[k.col()];
   for (std::size_t r = 0; r < balance.system().rows(); ++r) {
-    const double C = balance.system().compliance()[r];
+    const double C = balance.system().law(r).compliance;
     if (C == 0.0) continue;
     double elongation = 0.0;
     for (const std::size_t k : balance.system().row(r))

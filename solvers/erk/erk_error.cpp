@@ -53,7 +53,7 @@ double ErkStepper::State::error_of_springs(std::span<const double> dq) const {
       stretch += manifold.equations().w[j] * dq[system->w_columns()[j]];
       gradient = std::max(gradient, std::abs(manifold.equations().w[j]));
     }
-    const double allowed = system->compliance()[r] * tolerance * force_of_spring[r] + gradient * rounding;
+    const double allowed = system->law(r).compliance * tolerance * force_of_spring[r] + gradient * rounding;
     most = std::max(most, std::abs(stretch) / allowed);
   }
   return most;

@@ -135,8 +135,7 @@ StepFailure ErkStepper::State::why_not_over(Node& before) {
   if (jump.size > constants.most_correction * tolerance * scales.speed())
     return {system->row_label(jump.row) +
                 " changes its gradient by a jump here: the velocity before does not satisfy it behind. That "
-                "is an "
-                "impact, which the equations do not describe; end the run here, or round it off",
+                "is an impact, which the equations do not describe; end the run here, or round it off",
             before.t};
   const std::string what = switches.others(before.side, next.side);
   return {(what.empty() ? std::string("the motion") : what) +

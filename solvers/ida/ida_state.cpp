@@ -44,7 +44,7 @@ IdaStepper::State::State(const Problem& problem, const Start& start, const Optio
   system->evaluate(instant(t, y.get()), e);
   for (std::size_t r = 0; r < m(); ++r) {
     const auto row = rows.rows[r];
-    if (system->compliance()[row] > 0.0) yp0[2 * n() + r] = -e.psi[row] / system->compliance()[row];
+    if (system->law(row).compliance > 0.0) yp0[2 * n() + r] = -e.psi[row] / system->law(row).compliance;
   }
   find_impulses();
 
@@ -57,7 +57,7 @@ void IdaStepper::State::find_impulses() {
   for (std::size_t r = 0; r < m(); ++r) {
     const auto row = rows.rows[r];
     impulse_row[r] = impulse_of_row(*system, e.w, lengths, row, scales.speed());
-    compliance_row[r] = system->compliance()[row] / gradient_length(*system, e.w, lengths, row);
+    compliance_row[r] = system->law(row).compliance / gradient_length(*system, e.w, lengths, row);
   }
 }
 
@@ -99,7 +99,7 @@ void IdaStepper::State::residual(double at, N_Vector x, N_Vector xp, N_Vector r)
       r2[i] += e.w[j] * active[k];
       if (holonomic) r1[i] += e.w[j] * mu[k];
     }
-    const double C = system->compliance()[row];
+    const double C = system->law(row).compliance;
     r3[k] = e.psi[row] + C * rates[k];
     if (holonomic) r4[k] = e.g[row] + C * active[k];
   }
@@ -111,7 +111,7 @@ double IdaStepper::State::farthest(std::size_t row, std::span<const double> q) c
   double far = 0.0;
   for (const std::size_t k : system->row(row)) {
     const auto i = system->w_columns()[k];
-    far = std::max(far, std::abs(q[i]) / scales.coordinate[i]);
+    far = std::max(far, std::abs(q[i]) / scales.unit(i));
   }
   return far;
 }

@@ -50,7 +50,7 @@ NewtonMatrix::NewtonMatrix(const Problem& problem, const ActiveRows& rows, doubl
   const System& system = *system_;
   const Islands& islands = problem.islands();
   for (const std::size_t row : rows.rows) {
-    if (row >= system.holonomic_rows() || system.compliance()[row] > 0.0)
+    if (row >= system.holonomic_rows() || system.law(row).yields())
       needs_k1_[islands.of_row(system, row)] = 1;
   }
   for (std::size_t k = 0; k < system.friction_pattern().size(); ++k) {
@@ -146,7 +146,7 @@ bool NewtonMatrix::factorise_stiff(double c) {
   for (std::size_t r = system_->holonomic_rows(); r < system_->rows(); ++r) {
     for (const std::size_t k : system_->row(r)) lower_[k] += linear_.psi_q[k] / c;
   }
-  for (std::size_t r = 0; r < s_.size(); ++r) s_[r] = c * c * system_->compliance()[r];
+  for (std::size_t r = 0; r < s_.size(); ++r) s_[r] = c * c * system_->law(r).compliance;
   return k1_->matrix.factorise({.w = w_,
                                 .s = s_,
                                 .slope = linear_.friction,
@@ -202,7 +202,7 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
   const auto b2 = b.subspan(n, n);
   const auto b3 = b.subspan(2 * n, m);
   const auto b4 = b.subspan(2 * n + m, m_holonomic);
-  const auto C = system_->compliance();
+  const auto C = [&](std::size_t row) { return system_->law(row).compliance; };
 
   // (5), (6)
   for (std::size_t i = 0; i < n; ++i) x1_[i] = -b2[i] - c * b1[i];
@@ -223,7 +223,7 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
       x1_[n + r] = c * c * b4[r];
       add_along(row, c * dmu_[r]);
     } else {
-      x1_[n + r] = c * c * (b4[r] + c * C[row] * dmu_[r]);
+      x1_[n + r] = c * c * (b4[r] + c * C(row) * dmu_[r]);
     }
   }
   if (k1_in_use_) {
@@ -248,7 +248,7 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
   for (std::size_t j = 0; j < with_mu_.size(); ++j) {
     const std::size_t r = with_mu_[j];
     const auto row = rows_.rows[r];
-    x2_[n + j] = b3[r] - along(row, linear_.psi_q, x1_) - c * C[row] * dlambda(r, c);
+    x2_[n + j] = b3[r] - along(row, linear_.psi_q, x1_) - c * C(row) * dlambda(r, c);
   }
   k2_.solve(x2_);
   for (std::size_t j = 0; j < with_mu_.size(); ++j) dmu_[with_mu_[j]] = -x2_[n + j];  // the matrix has -G^T
@@ -271,7 +271,7 @@ void NewtonMatrix::solve(double c, std::span<double> b) {
   std::ranges::fill(dmu_, 0.0);
   for (std::size_t r = 0; r < m_holonomic && system_->compliant(); ++r) {
     const auto row = rows_.rows[r];
-    yields_[r] = c * c * system_->compliance()[row] > inverse_effective_mass(*system_, w_, row);
+    yields_[r] = c * c * system_->law(row).compliance > inverse_effective_mass(*system_, w_, row);
   }
   eliminate(c, b);
   for (int more = repetitions(); more > 0; --more) {

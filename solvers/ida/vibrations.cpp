@@ -29,8 +29,8 @@ Vibrations fastest_vibrations(const System& system, std::span<const double> w,
 
   square = 0.0;
   for (std::size_t r = 0; r < system.rows(); ++r) {
-    if (system.compliance()[r] > 0.0)
-      square = std::max(square, inverse_effective_mass(system, w, r) / system.compliance()[r]);
+    if (system.law(r).compliance > 0.0)
+      square = std::max(square, inverse_effective_mass(system, w, r) / system.law(r).compliance);
   }
   fastest.of_compliance = std::sqrt(square);
   return fastest;

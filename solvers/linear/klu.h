@@ -30,7 +30,7 @@ class LuPattern {
 };
 
 /// A matrix of such a pattern, factored by KLU: pivoted at the first factorisation and again whenever the
-/// pivots have become bad, refactored with the same pivots otherwise. Values are added up per place.
+/// pivots have become unstable, refactored with the same pivots otherwise. Values are added up per place.
 class SparseLU {
  public:
   /// The pattern must outlive it.

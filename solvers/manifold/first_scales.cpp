@@ -9,11 +9,13 @@ namespace dalembert {
 
 namespace {
 
-/// 1 for every coordinate that is a length, 0 for an angle.
-std::vector<double> lengths_only(const System& system) {
-  auto scales = system.coordinate_scales(0.0);
-  for (double& s : scales) s = 1.0 - s;
-  return scales;
+/// The largest |x_i| of those that are no angles.
+double largest_of_lengths(std::span<const double> x, const std::vector<char>& is_angle) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!is_angle[i]) largest = std::max(largest, std::abs(x[i]));
+  }
+  return largest;
 }
 
 /// Smallest radius of curvature of the holonomic constraints, from their second derivatives at
@@ -30,24 +32,16 @@ double smallest_radius(const System& system, const Instant& at, const System::Ev
   auto bent = system.linearisation();
   system.linearise_constraints(at, unit, bent);
   double curvature = 0.0;
-  const auto length = lengths_only(system);
+  const auto is_angle = system.angles();
   for (std::size_t k = 0; k < system.stiffness_of_constraints(); ++k) {
     const auto [row, column] = system.stiffness_pattern()[k];
-    if (length[row] == 0.0 || length[column] == 0.0) continue;
+    if (is_angle[row] || is_angle[column]) continue;
     curvature = std::max(curvature, std::abs(bent.stiffness[k]));
   }
   return 1.0 / curvature;
 }
 
 }  // namespace
-
-double largest_scaled(std::span<const double> x, std::span<const double> scale) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (scale[i] > 0.0) largest = std::max(largest, std::abs(x[i]) / scale[i]);
-  }
-  return largest;
-}
 
 std::vector<double> forced_acceleration(const System& system, const System::Evaluation& e) {
   std::vector<double> a(e.force);
@@ -58,16 +52,16 @@ std::vector<double> forced_acceleration(const System& system, const System::Eval
 void set_length(const System& system, const Instant& at, const System::Evaluation& e, const Options& options,
                 double nearest_contact, Scales& scales) {
   const double duration = options.t_end - options.t_start;
+  scales.is_angle = system.angles();
   scales.length = options.length > 0.0 ? options.length : system.extent(at.t);
   if (scales.length > 0.0) return;
   const double radius = smallest_radius(system, at, e);
-  const auto lengths = lengths_only(system);
-  const double v = largest_scaled(at.v, lengths);
-  const double a = largest_scaled(forced_acceleration(system, e), lengths);
+  const double v = largest_of_lengths(at.v, scales.is_angle);
+  const double a = largest_of_lengths(forced_acceleration(system, e), scales.is_angle);
   const double reach = v * duration + a * duration * duration;
   scales.length = reach > 0.0 ? std::min(radius, reach) : std::isfinite(radius) ? radius : 1.0;
   scales.of_path =
-      !system.compliant() && scales.length < radius && std::ranges::find(lengths, 1.0) != lengths.end();
+      !system.compliant() && scales.length < radius && std::ranges::count(scales.is_angle, 0) > 0;
   if (std::isinf(radius) && v > 0.0 && a > 0.0) scales.length = v * v / a;
   if (scales.of_path) {
     const double rounding = epsilon * scales.length;
@@ -77,10 +71,9 @@ void set_length(const System& system, const Instant& at, const System::Evaluatio
 }
 
 double time_scale(const System& system, const System::Evaluation& e, const Start& start, double duration) {
-  const auto& scale = start.scales.coordinate;
-  const double v = largest_scaled(start.v, scale);
+  const double v = start.scales.largest(start.v);
   const double a =
-      std::max(largest_scaled(start.a, scale), largest_scaled(forced_acceleration(system, e), scale));
+      std::max(start.scales.largest(start.a), start.scales.largest(forced_acceleration(system, e)));
   double time = duration;
   if (v > 0.0) time = std::min(time, 1.0 / v);
   if (a > 0.0) time = std::min(time, 1.0 / std::sqrt(a));

@@ -11,8 +11,6 @@
 /// The scales of a scene (see Scales), from its start.
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// Largest |x_i| in units of each coordinate's scale; coordinates of scale 0 do not count.
-[[nodiscard]] double largest_scaled(std::span<const double> x, std::span<const double> scale);
 /// F/m, as if there were no constraints.
 [[nodiscard]] std::vector<double> forced_acceleration(const System& system, const System::Evaluation& e);
 
@@ -24,8 +22,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 void set_length(const System& system, const Instant& at, const System::Evaluation& e, const Options& options,
                 double nearest_contact, Scales& scales);
 
-/// The shortest time in which the scene's speeds, forces or accelerations move a coordinate by its
-/// scale.
+/// The shortest time in which the scene's speeds, forces or accelerations move a coordinate by its unit.
 [[nodiscard]] double time_scale(const System& system, const System::Evaluation& e, const Start& start,
                                 double duration);
 

@@ -176,8 +176,8 @@ void FrictionSolver::refuse(double t) const {
   what.precision(10);
   what << system_->force_of_friction(steepest) << " changes the multiplier of "
        << system_->row_label(system_->friction_pattern()[steepest].column)
-       << " that it reads so strongly that there is no acceleration, or no unique one (Painleve's paradox; t "
-          "= "
+       << " that it reads so strongly that there is no acceleration, or no unique one (Painleve's paradox; "
+          "t = "
        << t << "); make the friction smaller, or end the run before";
   throw EquationFault(what.str());
 }

@@ -52,7 +52,7 @@ class FrictionSolver {
   /// y += factor dF_f/dlambda x, for one number per row of the system.
   void add_slope(double factor, std::span<const double> x, std::span<double> y) const;
   [[nodiscard]] bool settled() const;
-  enum class Outcome { solved, none, singular };  // none: no or no unique solution; singular: W is
+  enum class Outcome { solved, none, singular };  // none: no solution, or no unique one; singular: W is
   [[nodiscard]] bool begin(std::span<const double> w, std::span<const double> s);
   [[nodiscard]] Outcome iterate(const Instant& at, std::span<const double> w, std::span<const double> s,
                                 std::span<double> x);

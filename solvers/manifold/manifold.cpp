@@ -43,10 +43,10 @@ Manifold::Manifold(const Problem& problem, const ActiveRows& rows, std::vector<d
       lengths_(std::move(lengths)),
       e_(system_->evaluation()),
       gamma_(system_->rows()),
-      kkt_(problem.pattern(rows.rows)),
+      matrix_(problem.pattern(rows.rows)),
       minimum_norm_(*system_, rows, lengths_),
       weakest_(*system_) {
-  x_.resize(kkt_.size());
+  x_.resize(matrix_.size());
   q_before_.resize(system_->coordinates());
   if (system_->frictional()) friction_.emplace(problem, rows);
   if (!system_->compliant()) return;
@@ -62,7 +62,7 @@ void Manifold::follow(const Springs& springs) {
 /// Makes the residuals of compliant rows those of g + C lambda.
 void Manifold::add_springs() {
   for (std::size_t r = 0; r < springs_.lambda.size(); ++r) {
-    const double C = system_->compliance()[r];
+    const double C = system_->law(r).compliance;
     if (C == 0.0) continue;
     if (!following_) {
       springs_.lambda[r] = -e_.g[r] / C;
@@ -75,8 +75,8 @@ void Manifold::add_springs() {
 
 void Manifold::weigh_springs() {
   for (std::size_t r = 0; r < s_.size(); ++r) {
-    if (system_->compliance()[r] > 0.0)
-      s_[r] = following_ ? springs_.c * springs_.c * system_->compliance()[r]
+    if (system_->law(r).compliance > 0.0)
+      s_[r] = following_ ? springs_.c * springs_.c * system_->law(r).compliance
                          : rigid * inverse_effective_mass(*system_, e_.w, r);
   }
 }
@@ -88,7 +88,7 @@ double Manifold::sine(const Instant& at) {
 
 void Manifold::weakest_directions(std::span<double> n, std::span<double> response) {
   const Islands& islands = problem_.islands();
-  weakest_.find(kkt_, rows_, e_.w, islands);
+  weakest_.find(matrix_, rows_, e_.w, islands);
   std::vector<double> largest(islands.count);
   for (std::size_t i = 0; i < n.size(); ++i) {
     double& own = largest[islands.of_coordinate[i]];
@@ -109,7 +109,7 @@ void Manifold::weakest_directions(std::span<double> n, std::span<double> respons
 
 bool Manifold::factorise() {
   weigh_springs();
-  return kkt_.factorise({.w = e_.w, .s = s_});
+  return matrix_.factorise({.w = e_.w, .s = s_});
 }
 
 template <class F>
@@ -131,7 +131,7 @@ void Manifold::solve_for_position_step(std::size_t n) {
   for (std::size_t r = 0; r < rows_.rows.size(); ++r) {
     x_[n + r] = r < rows_.holonomic ? -e_.g[rows_.rows[r]] : 0.0;
   }
-  kkt_.solve(x_);
+  matrix_.solve(x_);
 }
 
 Violation Manifold::project_positions(double t, std::span<double> q, std::span<const double> v,
@@ -172,7 +172,7 @@ void Manifold::add_to_springs(const std::vector<double>& from, double fraction, 
   const std::size_t n = x_.size() - rows_.rows.size();
   for (std::size_t k = 0; k < rows_.rows.size(); ++k) {
     const auto r = rows_.rows[k];
-    if (system_->compliance()[r] > 0.0) to[r] = from[r] + fraction * springs_.c * springs_.c * x_[n + k];
+    if (system_->law(r).compliance > 0.0) to[r] = from[r] + fraction * springs_.c * springs_.c * x_[n + k];
   }
 }
 
@@ -182,7 +182,7 @@ void Manifold::correct_velocities(std::span<double> v) {
   const std::size_t n = v.size();
   std::fill_n(x_.begin(), n, 0.0);
   for (std::size_t r = 0; r < rows_.rows.size(); ++r) x_[n + r] = -e_.psi[rows_.rows[r]];
-  kkt_.solve(x_);
+  matrix_.solve(x_);
   for (std::size_t k = 0; k < n; ++k) v[k] += x_[k];
   if (following_) add_to_springs(springs_.rate, 1.0, springs_.rate);
 }
@@ -195,11 +195,11 @@ bool Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
   for (std::size_t k = 0; k < rows_.rows.size(); ++k) {
     const auto r = rows_.rows[k];
     x_[n + k] = -gamma_[r];
-    if (system_->compliance()[r] > 0.0)
-      x_[n + k] += s_[r] * springs_.lambda[r] - system_->compliance()[r] * springs_.second[r];
+    if (system_->law(r).compliance > 0.0)
+      x_[n + k] += s_[r] * springs_.lambda[r] - system_->law(r).compliance * springs_.second[r];
   }
   if (!friction_) {
-    kkt_.solve(x_);
+    matrix_.solve(x_);
   } else if (!friction_->solve(at, e_.w, s_, x_)) {
     return false;
   }
@@ -258,7 +258,7 @@ bool Manifold::solve_motion(double t, std::span<const double> q, std::span<doubl
   multipliers(lambda);
   const bool finite = std::ranges::all_of(x_, [](double x) { return std::isfinite(x); });
   if (finite && minimum_norm_.needed()) {
-    minimum_norm_.spread([this](std::span<double> x) { kkt_.solve(x); }, {t, q, v}, e_, lambda);
+    minimum_norm_.spread([this](std::span<double> x) { matrix_.solve(x); }, {t, q, v}, e_, lambda);
   }
   if (finite && friction_) {
     friction_->require_determined({t, q, v}, unique());

@@ -77,7 +77,7 @@ class Manifold {
   /// The sine of the smallest angle that a row makes with others, in the metric of the masses: at a state,
   /// and where the matrix was factored last. 0 where rows depend on each other.
   [[nodiscard]] double sine(const Instant& at);
-  [[nodiscard]] double sine() const { return kkt_.sine(); }
+  [[nodiscard]] double sine() const { return matrix_.sine(); }
   /// Where the matrix was factored last, in each island the direction of the coordinates that its constraints
   /// constrain least, with the largest entry 1 (as lengths), and the largest violation, as a length, of a
   /// unit of it: 0, as n is, where there are no constraints.
@@ -98,9 +98,9 @@ class Manifold {
   [[nodiscard]] const System::Evaluation& equations() const { return e_; }
   [[nodiscard]] long evaluations() const { return evaluations_; }
   [[nodiscard]] long factorisations() const {
-    return kkt_.factorisations() + (friction_ ? friction_->factorisations() : 0);
+    return matrix_.factorisations() + (friction_ ? friction_->factorisations() : 0);
   }
-  [[nodiscard]] const char* method() const { return kkt_.method(); }
+  [[nodiscard]] const char* method() const { return matrix_.method(); }
 
  private:
   template <class F>
@@ -124,7 +124,7 @@ class Manifold {
   std::vector<double> s_;
   bool following_ = false, listening_ = false;
   Branches::Outcomes heard_;
-  SaddleMatrix kkt_;
+  SaddleMatrix matrix_;
   MinimumNorm minimum_norm_;
   WeakestDirection weakest_;
   std::optional<FrictionSolver> friction_;  // if any force reads a multiplier

@@ -48,7 +48,7 @@ Recovery::Recovery(const Problem& problem, const Start& start, double tolerance)
 /// A state moved by more than the tolerance is not better for it.
 void Recovery::find_moved_too_far(const Moment& m) {
   for (std::size_t i = 0; i < m.q.size(); ++i) {
-    const double speed = scales_.coordinate[i] / scales_.time + std::abs(v_given_[i]);
+    const double speed = scales_.unit(i) / scales_.time + std::abs(v_given_[i]);
     if (std::abs(m.q[i] - q_given_[i]) > scales_.position_error(i, q_given_[i], tolerance_) ||
         std::abs(m.v[i] - v_given_[i]) > tolerance_ * speed)
       left_out_[problem_.islands().of_coordinate[i]] = 1;
@@ -165,7 +165,7 @@ bool Recovery::mark_multipliers(Moment& m) const {
   for (std::size_t r = 0; r < lambda_.size(); ++r) largest = std::max(largest, force(r, m.lambda[r]));
   bool any = false;
   for (const Layout::Constraint& c : system_->layout()->constraints) {
-    for (const std::size_t r : c.places()) {
+    for (const std::size_t r : c.own_rows()) {
       if (std::isnan(m.lambda[r]) || force(r, lambda_[r] - m.lambda[r]) <= std::sqrt(tolerance_) * largest)
         continue;
       m.lambda[r] = undetermined;
@@ -181,7 +181,6 @@ bool Recovery::mark_multipliers(Moment& m) const {
 /// far after n steps. As elsewhere a force may be wrong by the root of the tolerance, relative to the largest
 /// of constraint or inertia.
 void Recovery::mark_springs(const Manifold& manifold, Moment& m, long steps) const {
-  const auto C = system_->compliance();
   const auto& w = manifold.equations().w;
   const double dx =
       scales_.largest_rounding(m.q) + std::sqrt(static_cast<double>(steps)) * scales_.rounding(m.q);
@@ -191,10 +190,11 @@ void Recovery::mark_springs(const Manifold& manifold, Moment& m, long steps) con
   for (std::size_t i = 0; i < m.a.size(); ++i)
     largest = std::max(largest, system_->masses()[i] * std::abs(m.a[i]) / lengths_[i]);
   for (const Layout::Constraint& c : system_->layout()->constraints) {
-    for (const std::size_t r : c.places()) {
-      if (C[r] == 0.0) continue;
+    for (const std::size_t r : c.own_rows()) {
+      const double C = system_->law(r).compliance;
+      if (C == 0.0) continue;
       const double gradient = gradient_length(*system_, w, lengths_, r);
-      if (gradient * gradient * dx <= std::sqrt(tolerance_) * largest * C[r]) continue;
+      if (gradient * gradient * dx <= std::sqrt(tolerance_) * largest * C) continue;
       m.lambda[r] = undetermined;
       std::ranges::fill(c.slots().in(std::span(m.forces)), undetermined);
       for (const std::size_t j : system_->row(r)) m.a[system_->w_columns()[j]] = undetermined;

@@ -10,17 +10,22 @@ namespace dalembert {
 
 double Scales::largest_rounding(std::span<const double> q) const {
   double farthest = 0.0;
-  for (std::size_t i = 0; i < q.size(); ++i)
-    farthest = std::max(farthest, std::abs(q[i]) * length / coordinate[i]);
+  for (std::size_t i = 0; i < q.size(); ++i) farthest = std::max(farthest, std::abs(q[i]) * length / unit(i));
   return epsilon * farthest;
 }
 
 double Scales::rounding(std::span<const double> q) const { return 10.0 * largest_rounding(q); }
 
 std::vector<double> Scales::lengths() const {
-  auto lengths = coordinate;
-  for (double& s : lengths) s = length / s;
+  std::vector<double> lengths;
+  for (const char angle : is_angle) lengths.push_back(angle ? length : 1.0);
   return lengths;
+}
+
+double Scales::largest(std::span<const double> x) const {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) largest = std::max(largest, std::abs(x[i]) / unit(i));
+  return largest;
 }
 
 /// Relative to the distance covered, errors are the same whatever the units and wherever t_end is: a step
@@ -33,10 +38,10 @@ Way Scales::further(std::span<const double> q, std::span<const double> v, double
   const double noise = std::max(rounding / tolerance * forced * h, least);
   double least_length = std::max(noise * h, least);
   for (std::size_t i = 0; i < q.size(); ++i)
-    if (is_angle[i] == 0.0) least_length = std::max(least_length, rounding / tolerance * std::abs(q[i]));
+    if (!is_angle[i]) least_length = std::max(least_length, rounding / tolerance * std::abs(q[i]));
   Way next{std::max(way.length, least_length), std::max(way.speed, noise), way.rate, h};
   for (std::size_t i = 0; i < q.size(); ++i) {
-    if (is_angle[i] > 0.0) {
+    if (is_angle[i]) {
       next.rate = std::max(next.rate, std::abs(v[i]));
     } else {
       next.length = std::max(next.length, std::abs(q[i] - origin[i]));
@@ -51,13 +56,11 @@ void Scales::take(const Way& next) {
   way = next;
   length = way.length;
   time = length / way.speed;
-  for (std::size_t i = 0; i < coordinate.size(); ++i)
-    if (is_angle[i] == 0.0) coordinate[i] = length;
 }
 
 double Scales::velocity_error(std::size_t i, double v, double tolerance) const {
-  const double speed = is_angle[i] > 0.0 ? way.rate : way.speed;
-  return tolerance * ((of_path ? speed : coordinate[i] / time) + std::abs(v));
+  const double speed = is_angle[i] ? way.rate : way.speed;
+  return tolerance * ((of_path ? speed : unit(i) / time) + std::abs(v));
 }
 
 }  // namespace dalembert

@@ -26,22 +26,27 @@ struct Scales {
 
   double length;
   double time;
-  std::vector<double> coordinate;  ///< of each coordinate: `length`, or 1 for an angle
-  std::vector<double> origin;      ///< the coordinates at the start
+  std::vector<char> is_angle;  ///< each coordinate, or it is a length
+  std::vector<double> origin;  ///< the coordinates at the start
 
   /// A lone particle far from anything has no length but that of its path so far. Its start tells nothing: at
   /// the cusp of a cycloid it rests, and its first motion has not yet begun to bend. So errors are relative
   /// to `way`, which only grows, and with it `length` and `time`.
   bool of_path = false;
   Way way{};
-  std::vector<double> is_angle;  ///< of each coordinate: 1 or 0
-  double forced = 0.0;           ///< the acceleration that its forces alone give it at the start
+  double forced = 0.0;  ///< the acceleration that its forces alone give it at the start
 
+  /// What coordinate i is measured in: `length`, or 1 for an angle.
+  [[nodiscard]] double unit(std::size_t i) const { return is_angle[i] ? 1.0 : length; }
+  /// Of each coordinate the length that corresponds to one unit of it: 1, or `length` for an angle.
+  [[nodiscard]] std::vector<double> lengths() const;
+  /// The largest |x_i| in these units.
+  [[nodiscard]] double largest(std::span<const double> x) const;
   [[nodiscard]] double speed() const { return length / time; }
   /// The error allowed to coordinate i at q: relative to the scene, or to how far the coordinate has
   /// come, wherever the origin lies; and never below round-off.
   [[nodiscard]] double position_error(std::size_t i, double q, double tolerance) const {
-    return tolerance * (coordinate[i] + std::abs(q - origin[i])) +
+    return tolerance * (unit(i) + std::abs(q - origin[i])) +
            std::numeric_limits<double>::epsilon() * std::abs(q);
   }
   /// The error allowed to velocity i: relative to `length` in `time`, or the top speed of a path, and to
@@ -55,8 +60,6 @@ struct Scales {
   [[nodiscard]] double largest_rounding(std::span<const double> q) const;
   /// How far from its constraints round-off alone may leave a state.
   [[nodiscard]] double rounding(std::span<const double> q) const;
-  /// Of each coordinate the length that corresponds to one unit of it: 1, or `length` for an angle.
-  [[nodiscard]] std::vector<double> lengths() const;
 };
 
 }  // namespace dalembert

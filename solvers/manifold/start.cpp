@@ -20,8 +20,10 @@ constexpr double converged = 1e-14;
 /// The equations at a state whose springs are as long as it says: compliant rows are satisfied there.
 void evaluate_relaxed(const System& system, const Instant& at, System::Evaluation& e) {
   system.evaluate(at, e);
-  for (std::size_t r = 0; r < e.g.size(); ++r) {
-    if (system.compliance()[r] > 0.0) e.g[r] = e.psi[r] = 0.0;
+  for (auto* residual : {&e.g, &e.psi}) {
+    for (std::size_t r = 0; r < residual->size(); ++r) {
+      if (system.law(r).yields()) (*residual)[r] = 0.0;
+    }
   }
 }
 
@@ -61,8 +63,7 @@ void require_size(double length) {
 /// the length of its gradient: they are accelerations.
 void require_consistent_accelerations(const System& system, const Manifold& manifold, const Start& start,
                                       std::span<const double> given, double t) {
-  const auto& unit = start.scales.coordinate;
-  const double speed = std::max(largest_scaled(given, unit), largest_scaled(start.v, unit));
+  const double speed = std::max(start.scales.largest(given), start.scales.largest(start.v));
   const double rounding = epsilon * speed * speed * start.scales.length;
   std::vector<double> residual(system.rows());
   system.bias({t, start.q, start.v}, residual);
@@ -82,7 +83,7 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
     }
   }
   for (std::size_t r = 0; r < residual.size(); ++r) {
-    if (system.compliance()[r] > 0.0 || std::abs(residual[r]) <= 1e-6 * scale + rounding) continue;
+    if (system.law(r).yields() || std::abs(residual[r]) <= 1e-6 * scale + rounding) continue;
     throw InconsistentStart(
         system.row_label(r) +
         " contradicts the other constraints: no accelerations satisfy all of them; remove or "
@@ -92,9 +93,8 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
 
 /// The speed that the scene has, or that its forces give it over its own length.
 double speed_of(const System& system, const System::Evaluation& e, const Start& start) {
-  const auto& scale = start.scales.coordinate;
-  const double forced = std::sqrt(largest_scaled(forced_acceleration(system, e), scale));
-  return std::max(largest_scaled(start.v, scale), forced) * start.scales.length;
+  const double forced = std::sqrt(start.scales.largest(forced_acceleration(system, e)));
+  return std::max(start.scales.largest(start.v), forced) * start.scales.length;
 }
 
 /// After projection: what is left is a contradiction.
@@ -154,8 +154,6 @@ Start consistent_start(const Problem& problem, std::span<const double> q, std::s
     require_gradients(system, e, t);
     set_length(system, {t, q, v}, e, options, nearest_contact, start.scales);
     require_size(start.scales.length);
-    start.scales.coordinate = system.coordinate_scales(start.scales.length);
-    start.scales.is_angle = system.coordinate_scales(0.0);
 
     start_positions(problem, start, e, options);
     evaluate_relaxed(system, {t, start.q, start.v}, e);
@@ -172,7 +170,7 @@ Start consistent_start(const Problem& problem, std::span<const double> q, std::s
       return velocity_violation(system, manifold.equations(), start.scales.lengths());
     };
     Violation violation = left();
-    if (largest_scaled(start.v, start.scales.coordinate) * start.scales.length <= start.scales.rounding(v)) {
+    if (start.scales.largest(start.v) * start.scales.length <= start.scales.rounding(v)) {
       std::ranges::fill(start.v, 0.0);  // the constraints took away all but round-off of what was given
       violation = left();
     }

@@ -41,8 +41,7 @@ void move(const Motion& from, double duration, Motion& to) {
 std::string Sticking::would_stick(std::size_t friction) const {
   return switches_.friction(friction) +
          " would stick here: the sliding velocity is zero, and friction exceeds the driving force both ways. "
-         "A "
-         "law that jumps there describes sliding only; smooth it, v / sqrt(v^2 + small^2) in place of the "
+         "A law that jumps there describes sliding only; smooth it, v / sqrt(v^2 + small^2) in place of the "
          "direction of v, or end the run here";
 }
 

@@ -73,7 +73,7 @@ class Contacts {
     return e;
   }
   [[nodiscard]] std::size_t row_of(std::size_t contact) const {
-    return system_.layout()->constraints[contact].places().front();
+    return system_.layout()->constraints[contact].own_rows().front();
   }
   [[nodiscard]] double sign_of(std::size_t contact) const {
     return system_.layout()->constraints[contact].holds.contact->sign();

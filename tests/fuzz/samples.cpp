@@ -8,6 +8,12 @@
 
 namespace dalembert::fuzz {
 
+std::vector<double> units(const System& system, double length) {
+  std::vector<double> units;
+  for (const char angle : system.angles()) units.push_back(angle ? 1.0 : length);
+  return units;
+}
+
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -44,7 +50,7 @@ double largest(std::span<const double> x) {
 System in_force(const System& system, const FlatSample& sample) {
   std::vector<std::size_t> idle = system.rough();
   for (const std::size_t c : system.contacts()) {
-    const auto row = system.layout()->constraints[c].places().front();
+    const auto row = system.layout()->constraints[c].own_rows().front();
     if (sample.lambda[row] == 0.0) idle.push_back(c);
   }
   return system.without(idle);
@@ -78,7 +84,7 @@ std::string Check::worst(const char* what, double size, double bound, std::optio
 /// |g|/|grad g| and |psi|/|grad psi| of every equation, angles counted as arcs of the scene's length.
 /// What round-off of the state itself, and of sums over it, leaves of them is allowed on top.
 std::string Check::residuals(double share, std::string& detail) {
-  const std::vector<double> scale = system.coordinate_scales(length);
+  const std::vector<double> scale = units(system, length);
   double farthest = 0.0;  // a projection moves all rows and stops at the round-off of the worst
   for (std::size_t i = 0; i < scale.size(); ++i)
     farthest = std::max(farthest, std::abs(sample.q[i]) * length / scale[i]);
@@ -154,7 +160,7 @@ std::string Check::run(double accuracy, std::string& detail) {
   const Instant at{sample.time, sample.q, sample.v};
   system.evaluate(at, e);
   if (determined && system.frictional()) system.add_friction(at, sample.lambda, e.force);
-  const std::vector<double> scale = system.coordinate_scales(length);
+  const std::vector<double> scale = units(system, length);
   for (std::size_t i = 0; i < scale.size(); ++i) {
     speed = std::max(speed, std::sqrt(std::abs(e.force[i]) / system.masses()[i] / scale[i]) * length);
   }

@@ -42,7 +42,7 @@ struct Units {
 
 Motion motion_of(const System& system, const FlatSample& sample, const Units& unit) {
   const Layout& layout = *system.layout();
-  const std::vector<double> scale = system.coordinate_scales(unit.length);
+  const std::vector<double> scale = units(system, unit.length);
   Motion m{
       {sample.q.begin(), sample.q.end()}, {sample.v.begin(), sample.v.end()}, std::vector<double>(scale)};
   std::ranges::fill(m.z, 0.0);
@@ -74,7 +74,7 @@ struct Distances {
 template <int D>
 double full_steps(const Draft<D>& draft, const Ending<D>& ending) {
   const auto steps = static_cast<double>(ending.run->statistics().steps);
-  return tolerance_of_a_step(draft.plan.options.stepper, steps);
+  return steps * tolerance_of_a_step(draft.plan.options.stepper, 1.0);
 }
 
 template <int D>

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace dalembert::fuzz {
 
@@ -26,6 +27,9 @@ struct Verdict {
 
 /// Makes the scene and runs it.
 [[nodiscard]] Verdict judge(const Task& task);
+
+/// What each coordinate is measured in: the scene's length, or 1 for an angle.
+[[nodiscard]] std::vector<double> units(const System& system, double length);
 
 /// What is wrong with a run's samples; empty if nothing. `complete` tells a run that came to its end
 /// from what an IntegrationFailure kept.

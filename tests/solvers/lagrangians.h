@@ -6,9 +6,9 @@
 
 namespace dalembert {
 
-inline constexpr double g = 9.81;
+constexpr double g = 9.81;
 /// Runs of a few seconds err by some tens of this.
-inline constexpr double tolerance = 1e-10, bound = 100.0 * tolerance;
+constexpr double tolerance = 1e-10, bound = 100.0 * tolerance;
 
 /// A pendulum in polar coordinates whose rod is a constraint r = 1: lambda = -tension = -(phi'^2 + g cos
 /// phi).

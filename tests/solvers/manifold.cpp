@@ -28,6 +28,8 @@ System two_particles() {
   return scene.system();
 }
 
+std::vector<double> ones(const System& system) { return std::vector<double>(system.coordinates(), 1.0); }
+
 class ManifoldTest : public testing::Test {
  protected:
   System system = two_particles();
@@ -52,7 +54,7 @@ class ManifoldTest : public testing::Test {
 constexpr double round_off = 9.0 * 16.0 * epsilon * 100.0;
 
 TEST_F(ManifoldTest, ProjectionSatisfiesEveryHolonomicConstraint) {
-  Manifold manifold(Problem(system), rows, system.coordinate_scales(1.0));
+  Manifold manifold(Problem(system), rows, ones(system));
   const Violation left = project(manifold);
   // A residual of round-off: a norm of numbers of size 2, in about ten operations.
   EXPECT_LE(left.size, 10.0 * 2.0 * epsilon);
@@ -65,7 +67,7 @@ TEST_F(ManifoldTest, ProjectionIgnoresNonholonomicRows) {
   const auto p = blade.add_particle({.mass = 1.0});
   blade.add(nonholonomic(points(p), [](auto, auto v) { return v.y(); }));
   const System only = blade.system();
-  Manifold manifold(Problem(only), {{0}, 0}, only.coordinate_scales(1.0));
+  Manifold manifold(Problem(only), {{0}, 0}, ones(only));
   Eigen::VectorXd q = before.q.head(3), v = before.v.head(3);
   EXPECT_EQ(manifold.project_positions(0.0, span(q), span(v), 1e-15).size, 0.0);
   EXPECT_EQ(q, before.q.head(3));
@@ -73,7 +75,7 @@ TEST_F(ManifoldTest, ProjectionIgnoresNonholonomicRows) {
 
 // v - v0 = M^-1 W^T y and W v + psi(v = 0) = 0: the least change of v in the mass-weighted norm.
 TEST_F(ManifoldTest, VelocitiesChangeByTheLeastImpulseThatSatisfiesTheConstraints) {
-  Manifold manifold(Problem(system), rows, system.coordinate_scales(1.0));
+  Manifold manifold(Problem(system), rows, ones(system));
   (void)project(manifold);
   const Eigen::VectorXd v0 = state.v;
   ASSERT_TRUE(solve(manifold));
@@ -85,7 +87,7 @@ TEST_F(ManifoldTest, VelocitiesChangeByTheLeastImpulseThatSatisfiesTheConstraint
 }
 
 TEST_F(ManifoldTest, AccelerationsAndMultipliersSolveTheEquationsOfMotion) {
-  Manifold manifold(Problem(system), rows, system.coordinate_scales(1.0));
+  Manifold manifold(Problem(system), rows, ones(system));
   (void)project(manifold);
   ASSERT_TRUE(solve(manifold));
   const Values now = values(system, state);
@@ -102,10 +104,10 @@ TEST_F(ManifoldTest, ViolationsAreDistancesAndSpeeds) {
   auto e = two.evaluation();
   const State s{0.0, Eigen::Vector2d(0.0, 0.75), Eigen::Vector2d(3.0, 4.0)};
   two.evaluate(s.instant(), e);
-  EXPECT_EQ(position_violation(two, e, two.coordinate_scales(1.0)).size, 0.5);
-  EXPECT_EQ(position_violation(two, e, two.coordinate_scales(1.0)).row, 1);
-  EXPECT_EQ(velocity_violation(two, e, two.coordinate_scales(1.0)).size, 4.0);
-  EXPECT_EQ(velocity_violation(two, e, two.coordinate_scales(1.0)).row, 0);
+  EXPECT_EQ(position_violation(two, e, ones(two)).size, 0.5);
+  EXPECT_EQ(position_violation(two, e, ones(two)).row, 1);
+  EXPECT_EQ(velocity_violation(two, e, ones(two)).size, 4.0);
+  EXPECT_EQ(velocity_violation(two, e, ones(two)).row, 0);
 }
 
 }  // namespace

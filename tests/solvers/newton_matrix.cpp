@@ -41,7 +41,8 @@ Eigen::MatrixXd full_jacobian(const System& system, const State& at, const Eigen
   J.block(2 * n, 0, m, n) = d.psi_q;
   J.block(2 * n, n, m, n) = now.W;
   J.block(2 * n + m, 0, h, n) = G;
-  const Eigen::VectorXd C = vector(system.compliance());
+  Eigen::VectorXd C(static_cast<Eigen::Index>(system.rows()));
+  for (std::size_t r = 0; r < system.rows(); ++r) C[static_cast<Eigen::Index>(r)] = system.law(r).compliance;
   J.block(2 * n, 2 * n, m, m) = c * C.asDiagonal();
   J.block(2 * n + m, 2 * n, h, h) = C.head(h).asDiagonal();
   return J;

@@ -1,7 +1,9 @@
 #include "dalembert/solvers/linear/saddle.h"
 
 #include "../equations.h"
+#include <dalembert/constraints/compliant.h>
 #include <dalembert/constraints/distance.h>
+#include <dalembert/constraints/nonholonomic.h>
 #include <dalembert/core/scene/scene.h>
 #include <dalembert/solvers/ida/newton_matrix.h>
 
@@ -168,6 +170,65 @@ TEST(SaddleMatrix, TakesTheWholeMatrixWhereTheComplementIsFull) {
   const Prepared few(truss(4));
   EXPECT_STREQ(SaddleMatrix(Problem(few.system).pattern(few.rows.rows)).method(), "LDL");
   expect_solves(saddle, p);
+}
+
+/// All that may stand in it, in turn, against a dense matrix put together from what the header says.
+TEST(SaddleMatrix, SolvesWithWhateverBlocksItIsGiven) {
+  Scene<2> scene;
+  const auto a = scene.add_particle({.mass = 1.0, .position = {0.8, -0.5}, .velocity = {-0.3, 1.2}});
+  const auto b = scene.add_particle({.mass = 3.0, .position = {0.4, 1.4}, .velocity = {0.7, 0.9}});
+  const auto rod = scene.add(Distance{Fixed<2>{}, a, 1.0});
+  scene.add(compliant(Distance{a, b, 1.5}, 0.1));
+  scene.add(nonholonomic(points(b), [](auto r, auto v) { return v.y() - r.x() * v.x(); }));
+  scene.add(
+      friction_law(rod, points(b), [](auto lambda, auto, auto v) { return (-0.3 * lambda * v).eval(); }));
+  scene.add(Spring{a, b, 7.0, 1.0});
+  scene.add(Damper{a, b, 0.5});
+  const Prepared p(scene);
+  constexpr int n = 4, m = 3;
+  const Instant at{0.0, scene.initial_positions(), scene.initial_velocities()};
+  auto d = p.system.linearisation();
+  p.system.linearise(at, std::vector<double>{2.0, -3.0, 1.0}, d);
+  const double s = 0.7, h = 0.4, k = 0.9;
+  std::vector<double> diagonal(m, 0.0);
+  std::size_t yielding = 0;
+  while (!p.system.law(yielding).yields()) ++yielding;
+  diagonal[yielding] = s;
+  const std::vector<double> lower = random_numbers(static_cast<int>(p.e.w.size()));
+
+  Eigen::MatrixXd symmetric = Eigen::MatrixXd::Zero(n + m, n + m);
+  symmetric.topLeftCorner(n, n) = vector(p.system.masses()).asDiagonal();
+  symmetric.topRightCorner(n, m) = -by_rows(p.system, p.e.w).transpose();
+  symmetric.bottomLeftCorner(m, n) = by_rows(p.system, p.e.w);
+  symmetric(n + index(yielding), n + index(yielding)) = s;
+  Eigen::MatrixXd with_slope = symmetric;
+  for (std::size_t i = 0; i < d.friction.size(); ++i) {
+    const auto [coordinate, row] = p.system.friction_pattern()[i];
+    with_slope(index(coordinate), n + index(row)) -= d.friction[i];
+  }
+  Eigen::MatrixXd all = with_slope;
+  all.topLeftCorner(n, n) -= h * by_entries(n, p.system.stiffness_pattern(), d.stiffness) +
+                             k * by_entries(n, p.system.damping_pattern(), d.damping);
+  all.bottomLeftCorner(m, n) = by_rows(p.system, lower);
+
+  SaddleMatrix matrix(Problem(p.system).pattern(p.rows.rows));
+  const std::vector<double> right = random_numbers(n + m);
+  const auto expect = [&](const Eigen::MatrixXd& K, const SaddleValues& values) {
+    ASSERT_TRUE(matrix.factorise(values));
+    std::vector<double> x = right;
+    matrix.solve(x);
+    const Eigen::VectorXd singular = K.jacobiSvd().singularValues();
+    const double condition = singular[0] / singular[n + m - 1];
+    const Eigen::VectorXd y = K.fullPivLu().solve(vector(right));
+    // Either solution is good to round-off times condition, through the Schur complement to its square.
+    EXPECT_LT((vector(x) - y).norm(), 1e-16 * condition * condition * y.norm() * (n + m));
+  };
+  for (int again = 0; again < 2; ++again) {
+    expect(symmetric, {.w = p.e.w, .s = diagonal});
+    expect(with_slope, {.w = p.e.w, .s = diagonal, .slope = d.friction});
+    expect(all,
+           {.w = p.e.w, .s = diagonal, .slope = d.friction, .lower = lower, .forces = &d, .h = h, .d = k});
+  }
 }
 
 /// The soft Newton solve satisfies (1) to (4) of NewtonMatrix with H = D = 0 exactly: checked by

@@ -8,9 +8,9 @@
 /// Shared by the tests of events, contacts and friction.
 namespace dalembert {
 
-inline constexpr double g = 9.81, tolerance = 1e-10;
+constexpr double g = 9.81, tolerance = 1e-10;
 /// A run of a few seconds errs by some tens of its tolerance, and so do the times at which it gets anywhere.
-inline constexpr double bound = 100.0 * tolerance;
+constexpr double bound = 100.0 * tolerance;
 
 class WithEvents : public testing::TestWithParam<Stepper> {
  protected:
