@@ -60,7 +60,7 @@ template <class E>
 void scatter(const E& element, const Vec<PointFacts<E>::inputs>& f, std::span<const int> places,
              std::span<double> F) {
   std::array<double, static_cast<std::size_t>(PointFacts<E>::coordinates)> own;
-  pull_back(element, f.data(), own.data());
+  dalembert::pull_back(element, f.data(), own.data());
   for (std::size_t k = 0; k < own.size(); ++k) F[static_cast<std::size_t>(places[k])] += own[k];
 }
 
@@ -78,8 +78,8 @@ void write_slopes(const E& element, std::size_t i, const VecOf<S, PointFacts<E>:
       F_v[at] = f[row].gradient[n + column];
     }
   }
-  pull_back_block(element, F_r.data(), stiffness.data() + i * width * width);
-  pull_back_block(element, F_v.data(), damping.data() + i * width * width);
+  dalembert::pull_back_block(element, F_r.data(), stiffness.data() + i * width * width);
+  dalembert::pull_back_block(element, F_v.data(), damping.data() + i * width * width);
 }
 
 }  // namespace detail
