@@ -46,15 +46,15 @@ Stepping::Stepping(std::shared_ptr<const System> of, std::span<const double> q, 
   lambda_at_start_ = start.lambda;
   state_ = {start.q, start.v};
   if (problem.system().compliant()) springs_ = Springs(start.lambda.size());
-  stretch_ = stretch(problem, std::move(start), options.t_start);
+  stretch_ = stretch(problem, std::move(start), options.t_start, options.stepper);
   const auto number = [](std::size_t equations) { return static_cast<int>(equations); };
   const std::size_t active = this->start().rows.size();
   past_.degrees_of_freedom = number(system().coordinates() + system().compliant_rows()) - number(active);
   past_.redundant_equations = number(system().rows_in_force() - active);
   angle_ = {options.t_start, 1.0};
   if (options.dense) {
-    kept_ = std::make_shared<KeptSteps>(shared_system(), options.tolerance);
-    kept_->begin(this->start(), options.t_start);
+    kept_ = std::make_shared<KeptSteps>(options.tolerance);
+    kept_->begin(shared_system(), this->start(), options.t_start);
   }
   unkept_ = options.t_start;
   keep_step();
@@ -62,11 +62,11 @@ Stepping::Stepping(std::shared_ptr<const System> of, std::span<const double> q, 
 
 /// From `start` at time t.
 std::unique_ptr<Stepping::Stretch> Stepping::stretch(const Problem& problem, Start start, double t,
-                                                     bool handed_over) const {
+                                                     Stepper by) const {
   Options options = options_;
   options.t_start = t;
-  if (handed_over) {
-    options.stepper = Stepper::erk;
+  options.stepper = by;
+  if (by != options_.stepper) {
     // Close to a singular position a step of the explicit stepper is to err by no more than one of the other.
     options.tolerance =
         std::max(tolerance_of_a_step(options_.stepper, options_.tolerance), smallest_tolerance);
@@ -74,8 +74,8 @@ std::unique_ptr<Stepping::Stretch> Stepping::stretch(const Problem& problem, Sta
   Reader reader(problem, start, t, options_.tolerance);
   auto stepper = make_stepper(problem, start, options);
   auto made = std::make_unique<Stretch>(
-      Stretch{problem, std::move(start), handed_over, std::move(reader), std::move(stepper), std::nullopt});
-  // The explicit stepper finds itself where friction sticks.
+      Stretch{problem, std::move(start), by, std::move(reader), std::move(stepper), std::nullopt});
+  // A run by the explicit stepper finds itself where friction sticks.
   if (problem.system().frictional() && options_.stepper == Stepper::ida)
     made->sticking.emplace(problem, made->start, t, options_.tolerance);
   return made;
@@ -86,11 +86,7 @@ void Stepping::go_on_with(std::unique_ptr<Stretch> next) {
   Statistics past = statistics();
   past.advice.clear();  // of a crossing it would be about the wrong stepper
   const double t = next->stepper->time();
-  if (kept_) {
-    KeptSteps& kept = own_steps();
-    kept.change(t, next->problem.shared_system());
-    kept.begin(next->start, t);
-  }
+  if (kept_) own_steps().begin(next->problem.shared_system(), next->start, t);
   past_ = std::move(past);
   angle_ = {t, 1.0};
   stretch_ = std::move(next);
@@ -122,8 +118,8 @@ void Stepping::step(double wanted) {
     // Newton's iteration may fail anywhere; where the constraints are close to dependent the explicit
     // stepper goes on.
     const bool singular = stretch_->stepper->sine() < constants.handover_sine;
-    if (stretch_->handed_over || options_.stepper == Stepper::erk || !singular) throw;
-    hand_over();
+    if (stretch_->by == Stepper::erk || !singular) throw;
+    hand_over(angle_.sine);
   }
   keep_step();
   watch_sliding();
@@ -156,26 +152,26 @@ const Springs* Stepping::springs_at(double t) {
 void Stepping::exchange_rows() {
   if (start().rows.size() == system().rows_in_force()) return;
   const State& now = interpolate(time());
-  if (stretch_->reader.better_rows({time(), now.q, now.v})) restart(stretch_->handed_over);
+  if (stretch_->reader.better_rows({time(), now.q, now.v})) restart(stretch_->by);
 }
 
 /// Isolated singular positions are passed by the explicit stepper (see ErkStepper), from where they come in
 /// sight until they are as far behind.
 void Stepping::watch_sine() {
-  const Angle before = std::exchange(angle_, {time(), stretch_->stepper->sine()});
-  if (!stretch_->handed_over) {
-    const double left = time_to_singular(before, angle_);
-    if (angle_.sine < constants.handover_sine && left < constants.handover_steps * (angle_.t - before.t))
-      hand_over();
-    return;
+  const Angle before = angle_, now{time(), stretch_->stepper->sine()};
+  if (stretch_->by == Stepper::ida) {
+    const double left = time_to_singular(before, now);
+    if (now.sine < constants.handover_sine && left < constants.handover_steps * (now.t - before.t))
+      return hand_over(now.sine);
+  } else if (now.sine > before.sine && now.sine >= sine_at_handover_) {
+    return restart(Stepper::ida);
   }
-  if (angle_.sine <= before.sine || angle_.sine < sine_at_handover_) return;
-  restart(false);
+  angle_ = now;
 }
 
-void Stepping::hand_over() {
-  sine_at_handover_ = angle_.sine;
-  restart(true);
+void Stepping::hand_over(double sine) {
+  restart(Stepper::erk);
+  sine_at_handover_ = sine;
 }
 
 void Stepping::watch_sliding() {
@@ -196,24 +192,24 @@ void Stepping::begin_changed(double t, std::shared_ptr<const System> system, std
         way.length, way.speed * rounding / (constants.first_implicit_step * std::sqrt(options_.tolerance)));
     next.scales.take(way);
   }
-  go_on_with(stretch(problem, std::move(next), t));
+  go_on_with(stretch(problem, std::move(next), t, options_.stepper));
 }
 
 /// A fresh choice of rows and a fresh stepper where the present one stands.
-void Stepping::restart(bool handed_over) {
+void Stepping::restart(Stepper by) {
   const double t = time();
   State now = interpolate(t);
   // The explicit stepper takes -g/C for the forces of compliant constraints: g must be as exact.
   if (system().compliant())
     stretch_->reader.manifold().project_positions(t, now.q, now.v, 0.1 * start().scales.rounding(now.q));
-  go_on_with(stretch(problem(), begin_anew(problem(), start(), t, now.q, now.v), t, handed_over));
+  go_on_with(stretch(problem(), begin_anew(problem(), start(), t, now.q, now.v), t, by));
 }
 
 Statistics Stepping::statistics() const {
   Statistics s = past_;
   stretch_->stepper->count(s);
   stretch_->reader.count(s);
-  if (stretch_->handed_over) s.advice.clear();
+  if (stretch_->by != options_.stepper) s.advice.clear();
   return s;
 }
 

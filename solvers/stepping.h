@@ -62,10 +62,10 @@ class Stepping {
   struct Stretch {
     Problem problem;
     Start start;
-    bool handed_over;  // to the explicit stepper, close to a singular position
+    Stepper by;  // that of the options, or close to a singular position the explicit one
     Reader reader;
     std::unique_ptr<TimeStepper> stepper;
-    std::optional<Sticking> sticking;  // for the implicit stepper, if there is friction
+    std::optional<Sticking> sticking;  // in a run by the implicit stepper, if there is friction
   };
   /// A state of the stepper's own, not put onto the constraints.
   struct State {
@@ -75,16 +75,16 @@ class Stepping {
   [[nodiscard]] const Springs* springs_at(double t);
 
   [[nodiscard]] std::unique_ptr<Stretch> stretch(const Problem& problem, Start start, double t,
-                                                 bool handed_over = false) const;
+                                                 Stepper by) const;
   void go_on_with(std::unique_ptr<Stretch> next);
   [[nodiscard]] KeptSteps& own_steps();
   void keep_step();
   void exchange_rows();
 
   void watch_sine();
-  void hand_over();
+  void hand_over(double sine);
   void watch_sliding();
-  void restart(bool handed_over);
+  void restart(Stepper by);
 
   Options options_;
   std::unique_ptr<Stretch> stretch_;

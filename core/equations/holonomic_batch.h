@@ -62,11 +62,9 @@ class HolonomicBatch final : public ConstraintBatch {
     elements_.forces_at_points(rows, w, lengths, out);
   }
 
-  void laws(std::span<RowLaw> out) const override {
+  void laws([[maybe_unused]] std::span<RowLaw> out) const override {
     if constexpr (HasCompliance<C>) {
       for (std::size_t row = 0; row < out.size(); ++row) out[row] = {elements_.all()[row / rows].compliance};
-    } else {
-      (void)out;
     }
   }
 

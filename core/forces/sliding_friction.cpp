@@ -6,16 +6,25 @@
 
 namespace dalembert {
 
-/// Of a thread: two may read one record of a run. It keeps its room from call to call.
-struct SlidingFriction::Work {
+namespace {
+
+struct Room {
   std::vector<double> psi, w, psi_q, stiffness, sigma;  // of the whole batch
   std::vector<double> d, f;                             // of one
   double speed = 0.0;                                   // |u + s d0|
+};
 
-  static Work& own() {
-    thread_local Work work;
-    return work;
-  }
+/// Kept from call to call for its memory alone.
+thread_local Room spare;
+
+}  // namespace
+
+/// Of one call: two threads may read one run, and the equation of a slip velocity another run.
+struct SlidingFriction::Work : Room {
+  Work() : Room(std::exchange(spare, {})) {}
+  ~Work() { spare = std::move(static_cast<Room&>(*this)); }
+  Work(const Work&) = delete;
+  Work& operator=(const Work&) = delete;
 };
 
 SlidingFriction::SlidingFriction(const detail::Owned<ConstraintBatch>& of, std::vector<Sliding> sliding)
@@ -36,16 +45,12 @@ ForceShape SlidingFriction::shape() const {
   return {batch_->shape().kind, static_cast<int>(width_), 1, true, false};
 }
 
-SlidingFriction::Work& SlidingFriction::evaluate(const Instant& at) const try {
-  Work& work = Work::own();
-  const std::size_t rows = batch_->size() * rows_;
-  for (auto* part : {&work.psi, &work.sigma}) part->resize(rows);
-  for (auto* part : {&work.w, &work.psi_q}) part->resize(rows * width_);
-  work.stiffness.resize(batch_->size() * width_ * width_);
+void SlidingFriction::evaluate(const Instant& at, Work& work) const try {
+  work.psi.resize(batch_->size() * rows_);
+  work.w.resize(work.psi.size() * width_);
   work.d.resize(rows_);
   work.f.resize(width_);
   batch_->evaluate(at, {{}, work.psi, work.w});
-  return work;
 } catch (const ElementFault& fault) {
   const auto own = std::ranges::find(sliding_, fault.element, &Sliding::element);
   throw ElementFault{static_cast<std::size_t>(own - sliding_.begin()), fault.what};
@@ -77,7 +82,8 @@ void SlidingFriction::find_force_per_lambda(std::size_t i, Work& work) const {
 }
 
 void SlidingFriction::add_force(const Instant& at, const Multipliers& lambda, std::span<double> F) const {
-  Work& work = evaluate(at);
+  Work work;
+  evaluate(at, work);
   for (std::size_t i = 0; i < sliding_.size(); ++i) {
     find_force_per_lambda(i, work);
     const double pressing = lambda.all[lambda.first_row[i]];
@@ -87,7 +93,8 @@ void SlidingFriction::add_force(const Instant& at, const Multipliers& lambda, st
 }
 
 void SlidingFriction::slope(const Instant& at, const Multipliers& /*lambda*/, std::span<double> out) const {
-  Work& work = evaluate(at);
+  Work work;
+  evaluate(at, work);
   for (std::size_t i = 0; i < sliding_.size(); ++i) {
     find_force_per_lambda(i, work);
     std::ranges::copy(work.f, out.begin() + static_cast<std::ptrdiff_t>(i * width_));
@@ -99,8 +106,11 @@ void SlidingFriction::slope(const Instant& at, const Multipliers& /*lambda*/, st
 ///   dF/dq = d(W^T sigma)/dq - mu |lambda| W^T P u_q,   dF/dv = -mu |lambda| W^T P W
 void SlidingFriction::linearise(const Instant& at, const Multipliers& lambda, std::span<double> stiffness,
                                 std::span<double> damping) const {
-  Work& work = evaluate(at);
-  std::ranges::fill(work.sigma, 0.0);
+  Work work;
+  evaluate(at, work);
+  work.sigma.assign(work.psi.size(), 0.0);
+  work.psi_q.resize(work.w.size());
+  work.stiffness.resize(batch_->size() * width_ * width_);
   for (std::size_t i = 0; i < sliding_.size(); ++i) {
     find_direction(i, work);
     const double pressure = sliding_[i].strength * lambda.all[lambda.first_row[i]];
@@ -133,7 +143,8 @@ void SlidingFriction::linearise(const Instant& at, const Multipliers& lambda, st
 }
 
 void SlidingFriction::power(const Instant& at, const Multipliers& lambda, std::span<double> out) const {
-  Work& work = evaluate(at);
+  Work work;
+  evaluate(at, work);
   for (std::size_t i = 0; i < sliding_.size(); ++i) {
     find_force_per_lambda(i, work);
     out[i] = 0.0;
@@ -145,15 +156,18 @@ void SlidingFriction::power(const Instant& at, const Multipliers& lambda, std::s
 
 void SlidingFriction::force(std::size_t element, const Instant& at, std::span<const double> lambda,
                             std::span<double> out) const {
-  Work& work = evaluate(at);
+  Work work;
+  evaluate(at, work);
   find_force_per_lambda(element, work);
   for (std::size_t j = 0; j < width_; ++j) out[j] = lambda[0] * work.f[j];
 }
 
 void SlidingFriction::exert(std::size_t i, const Instant& at, double lambda, std::span<double> sigma,
                             std::span<double> F) const {
-  force(i, at, std::span(&lambda, 1), F);
-  const Work& work = Work::own();
+  Work work;
+  evaluate(at, work);
+  find_force_per_lambda(i, work);
+  for (std::size_t j = 0; j < width_; ++j) F[j] = lambda * work.f[j];
   for (std::size_t k = 0; k < rows_; ++k) sigma[k] = -sliding_[i].strength * lambda * work.d[k];
 }
 

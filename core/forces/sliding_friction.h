@@ -50,7 +50,7 @@ class SlidingFriction final : public ForceBatch {
 
  private:
   struct Work;
-  [[nodiscard]] Work& evaluate(const Instant& at) const;
+  void evaluate(const Instant& at, Work& work) const;
   /// d of (1), and per unit of lambda the force along it.
   void find_direction(std::size_t i, Work& work) const;
   void find_force_per_lambda(std::size_t i, Work& work) const;

@@ -8,8 +8,9 @@ namespace dalembert {
 
 namespace {
 
-/// A run has one choice of rows, of rows and coordinates of an island two or three more; where redundant rows
-/// are exchanged again and again those of long ago are forgotten. Only time depends on it.
+/// Those in use, those of NewtonMatrix (7) and of its islands, and others that a Reader tries: four at once,
+/// so that twice as many find the last ones still there where rows are exchanged to and fro. Only time
+/// depends on it.
 constexpr std::size_t most_patterns = 8;
 
 }  // namespace

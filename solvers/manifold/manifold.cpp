@@ -75,7 +75,7 @@ void Manifold::add_springs() {
 
 void Manifold::weigh_springs() {
   for (std::size_t r = 0; r < s_.size(); ++r) {
-    if (system_->law(r).compliance > 0.0)
+    if (system_->law(r).yields())
       s_[r] = following_ ? springs_.c * springs_.c * system_->law(r).compliance
                          : rigid * inverse_effective_mass(*system_, e_.w, r);
   }
@@ -195,7 +195,7 @@ bool Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
   for (std::size_t k = 0; k < rows_.rows.size(); ++k) {
     const auto r = rows_.rows[k];
     x_[n + k] = -gamma_[r];
-    if (system_->law(r).compliance > 0.0)
+    if (system_->law(r).yields())
       x_[n + k] += s_[r] * springs_.lambda[r] - system_->law(r).compliance * springs_.second[r];
   }
   if (!friction_) {

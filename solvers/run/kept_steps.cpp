@@ -24,12 +24,9 @@ std::string at(double t) {
 
 }  // namespace
 
-void KeptSteps::begin(const Start& start, double t) {
-  segments_.push_back({system_, start, t, steps_.size()});
-}
-
-void KeptSteps::change(double t, std::shared_ptr<const System> system) {
-  steps_.back().end = t;
+void KeptSteps::begin(std::shared_ptr<const System> system, const Start& start, double t) {
+  segments_.push_back({system, start, t, steps_.size()});
+  if (!steps_.empty()) steps_.back().end = t;
   system_ = std::move(system);
 }
 

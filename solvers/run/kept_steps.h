@@ -18,13 +18,12 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// extrema of the Chebyshev polynomial of its degree.
 class KeptSteps final : public DenseOutput {
  public:
-  KeptSteps(std::shared_ptr<const System> system, double tolerance)
-      : system_(std::move(system)), tolerance_(tolerance) {}
+  explicit KeptSteps(double tolerance) : tolerance_(tolerance) {}
 
-  /// From here on the steps are those of a run that begins, or begins anew, with `start` at time t.
-  void begin(const Start& start, double t);
-  /// And those of another system; the polynomial of the last step beyond that time is no part of the run.
-  void change(double t, std::shared_ptr<const System> system);
+  /// From here on the steps are those of a run that begins, or begins anew, with `start` at time t, maybe
+  /// with another system; what the last step's polynomial has beyond that time is no part of the run. If it
+  /// throws nothing has changed.
+  void begin(std::shared_ptr<const System> system, const Start& start, double t);
   /// The last step, its number in the run, and where it began; before the first, the start. Throws
   /// EquationFault, and then nothing has changed.
   void add(TimeStepper& stepper, double from, long number);

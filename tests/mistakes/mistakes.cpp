@@ -12,6 +12,13 @@ struct TwoLaws {
   auto friction(const auto& lambda, const auto&, const auto& v) const { return (-lambda * v).eval(); }
 };
 
+struct EnergyAndForce {
+  Particle<2> p;
+  auto points() const { return std::tuple{p}; }
+  auto energy(const auto& r) const { return 0.5 * r.dot(r); }
+  auto force(const auto&, const auto& v) const { return (-v).eval(); }
+};
+
 [[maybe_unused]] const auto make = [](Scene<2>& scene) {
   const auto bead = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}}, "bead");
   [[maybe_unused]] const auto rod = scene.add(Distance{Fixed<2>{}, bead, 1.0});
@@ -53,6 +60,9 @@ struct TwoLaws {
 #endif
 #ifdef MISTAKE_two_laws  // a force states one of energy(r), force(r, v) and friction(lambda, r, v)
   scene.add(TwoLaws{bead, rod});
+#endif
+#ifdef MISTAKE_energy_and_force  // a force states one of energy(r), force(r, v) and friction(lambda, r, v)
+  scene.add(EnergyAndForce{bead});
 #endif
 #ifdef MISTAKE_energy  // a potential returns its energy, one number
   scene.add(potential(points(bead), [](auto r) { return r; }));

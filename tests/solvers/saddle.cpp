@@ -64,25 +64,40 @@ std::vector<double> random_numbers(int count) {
   return x;
 }
 
-/// Against a dense solve of [M -W^T; W 0]. Either solution is good to round-off times condition.
-template <class Matrix>
-void expect_solves(Matrix& matrix, const Prepared& p) {
-  const auto n = static_cast<int>(p.system.coordinates()), m = static_cast<int>(p.system.rows());
-  const Eigen::MatrixXd W = by_rows(p.system, p.e.w);
-  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n + m, n + m);
-  for (int i = 0; i < n; ++i) K(i, i) = p.system.masses()[static_cast<std::size_t>(i)];
-  K.topRightCorner(n, m) = -W.transpose();
-  K.bottomLeftCorner(m, n) = W;
-  const std::vector<double> b = random_numbers(n + m);
-  const Eigen::VectorXd expected = K.fullPivLu().solve(Eigen::Map<const Eigen::VectorXd>(b.data(), n + m));
-  const Eigen::VectorXd singular = K.jacobiSvd().singularValues();
-  const double condition = singular[0] / singular[n + m - 1];
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-  ASSERT_TRUE(matrix.factorise({.w = p.e.w}));
+/// Against a dense solve. Either solution is good to round-off times condition, through the Schur complement
+/// times its square.
+template <class Matrix>
+void expect_solves(Matrix& matrix, const SaddleValues& values, const Eigen::MatrixXd& K) {
+  const std::vector<double> b = random_numbers(static_cast<int>(K.rows()));
+  const Eigen::VectorXd expected = K.fullPivLu().solve(vector(b));
+  const Eigen::VectorXd singular = K.jacobiSvd().singularValues();
+  const double condition = singular[0] / singular[singular.size() - 1];
+  const bool whole = values.blocks() != SaddleValues::Blocks::symmetric;
+
+  ASSERT_TRUE(matrix.factorise(values));
   std::vector<double> x = b;
   matrix.solve(x);
-  const double bound = 1e-16 * condition * condition * expected.norm() * (n + m);  // S squares it
-  EXPECT_LT((Eigen::Map<Eigen::VectorXd>(x.data(), n + m) - expected).norm(), bound);
+  const double bound =
+      epsilon * condition * (whole ? 1.0 : condition) * expected.norm() * static_cast<double>(K.rows());
+  EXPECT_LT((vector(x) - expected).norm(), bound);
+}
+
+/// [M -W^T; W 0]
+Eigen::MatrixXd symmetric_matrix(const Prepared& p) {
+  const Eigen::Index n = index(p.system.coordinates()), m = index(p.system.rows());
+  const Eigen::MatrixXd W = by_rows(p.system, p.e.w);
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n + m, n + m);
+  K.topLeftCorner(n, n) = vector(p.system.masses()).asDiagonal();
+  K.topRightCorner(n, m) = -W.transpose();
+  K.bottomLeftCorner(m, n) = W;
+  return K;
+}
+
+template <class Matrix>
+void expect_solves(Matrix& matrix, const Prepared& p) {
+  expect_solves(matrix, {.w = p.e.w}, symmetric_matrix(p));
 }
 
 TEST(SchurComplement, SolvesLikeADenseMatrix) {
@@ -191,16 +206,14 @@ TEST(SaddleMatrix, SolvesWithWhateverBlocksItIsGiven) {
   p.system.linearise(at, std::vector<double>{2.0, -3.0, 1.0}, d);
   const double s = 0.7, h = 0.4, k = 0.9;
   std::vector<double> diagonal(m, 0.0);
-  std::size_t yielding = 0;
-  while (!p.system.law(yielding).yields()) ++yielding;
-  diagonal[yielding] = s;
+  for (std::size_t r = 0; r < m; ++r) {
+    if (p.system.law(r).yields()) diagonal[r] = s;
+  }
+  ASSERT_EQ(std::ranges::count(diagonal, s), 1);
   const std::vector<double> lower = random_numbers(static_cast<int>(p.e.w.size()));
 
-  Eigen::MatrixXd symmetric = Eigen::MatrixXd::Zero(n + m, n + m);
-  symmetric.topLeftCorner(n, n) = vector(p.system.masses()).asDiagonal();
-  symmetric.topRightCorner(n, m) = -by_rows(p.system, p.e.w).transpose();
-  symmetric.bottomLeftCorner(m, n) = by_rows(p.system, p.e.w);
-  symmetric(n + index(yielding), n + index(yielding)) = s;
+  Eigen::MatrixXd symmetric = symmetric_matrix(p);
+  symmetric.bottomRightCorner(m, m) = vector(diagonal).asDiagonal();
   Eigen::MatrixXd with_slope = symmetric;
   for (std::size_t i = 0; i < d.friction.size(); ++i) {
     const auto [coordinate, row] = p.system.friction_pattern()[i];
@@ -212,22 +225,16 @@ TEST(SaddleMatrix, SolvesWithWhateverBlocksItIsGiven) {
   all.bottomLeftCorner(m, n) = by_rows(p.system, lower);
 
   SaddleMatrix matrix(Problem(p.system).pattern(p.rows.rows));
-  const std::vector<double> right = random_numbers(n + m);
-  const auto expect = [&](const Eigen::MatrixXd& K, const SaddleValues& values) {
-    ASSERT_TRUE(matrix.factorise(values));
-    std::vector<double> x = right;
-    matrix.solve(x);
-    const Eigen::VectorXd singular = K.jacobiSvd().singularValues();
-    const double condition = singular[0] / singular[n + m - 1];
-    const Eigen::VectorXd y = K.fullPivLu().solve(vector(right));
-    // Either solution is good to round-off times condition, through the Schur complement to its square.
-    EXPECT_LT((vector(x) - y).norm(), 1e-16 * condition * condition * y.norm() * (n + m));
-  };
   for (int again = 0; again < 2; ++again) {
-    expect(symmetric, {.w = p.e.w, .s = diagonal});
-    expect(with_slope, {.w = p.e.w, .s = diagonal, .slope = d.friction});
-    expect(all,
-           {.w = p.e.w, .s = diagonal, .slope = d.friction, .lower = lower, .forces = &d, .h = h, .d = k});
+    SaddleValues values{.w = p.e.w, .s = diagonal};
+    expect_solves(matrix, values, symmetric);
+    values.slope = d.friction;
+    expect_solves(matrix, values, with_slope);
+    values.lower = lower;
+    values.forces = &d;
+    values.h = h;
+    values.d = k;
+    expect_solves(matrix, values, all);
   }
 }
 

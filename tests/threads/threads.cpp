@@ -130,23 +130,42 @@ TEST(Threads, CopiesWithOtherParametersGiveTheBitsTheyGiveAlone) {
   }
 }
 
-/// What lies between the samples is found where it is asked for; here of two blocks that slide.
+/// What lies between the samples is found where it is asked for; here of what slides, on lines and in planes.
 TEST(Threads, TwoMayReadOneRunBetweenItsSamples) {
-  Scene<2> scene("slide");
-  scene.add(UniformGravity<2>{{0.0, -9.81}});
-  const Plane<2> plane{{0.0, 0.0}, {0.0, 1.0}};
-  for (const double speed : {3.0, 4.0}) {
-    const auto block = scene.add_particle({.mass = speed, .velocity = {speed, 0.0}});
-    const auto floor = scene.add(OnCurve{block, plane});
-    scene.add(coulomb(floor, Slip{block, plane}, 0.1, 0.1));
-  }
-  const auto run = simulate(scene, {.t_end = 1.0, .samples = 2, .dense = true});
-  const auto read_from = [&run](double first) {
+  const auto slide = []<int D>(Scene<D> scene, int pucks) {
+    const Plane<D> plane;
+    for (int i = 0; i < pucks; ++i) {
+      const auto puck = scene.add_particle({.mass = 1.0, .velocity = (3.0 + i) * Vec<D>::UnitX()});
+      if constexpr (D == 2) {
+        scene.add(coulomb(scene.add(OnCurve{puck, plane}), Slip{puck, plane}, 0.1, 0.1));
+      } else {
+        scene.add(coulomb(scene.add(OnSurface{puck, plane}), Slip{puck, plane}, 0.1, 0.1));
+      }
+    }
+    scene.add(UniformGravity<D>{-9.81 * plane.normal});
+    return simulate(scene, {.t_end = 1.0, .samples = 2, .dense = true});
+  };
+  const auto lines = slide(Scene<2>("lines"), 2);
+  const auto planes = slide(Scene<3>("planes"), 3);
+  constexpr int count = 100;
+  const auto time = [](int i) { return 1e-4 + 0.009 * i; };
+  const auto read = [&](const auto& run) {
     std::vector<double> times;
-    for (int i = 0; i < 200; ++i) times.push_back(first + 0.004 * i);
+    for (int i = 0; i < count; ++i) times.push_back(time(i));
     return numbers(run.at(times));
   };
-  expect_independent([&] { return read_from(0.0); }, [&] { return read_from(0.1); });
+  const auto in_turn = [&] {
+    std::vector<double> of_lines, of_planes;
+    for (int i = 0; i < count; ++i) {
+      const auto line = numbers(lines.at({time(i)})), plane = numbers(planes.at({time(i)}));
+      of_lines.insert(of_lines.end(), line.begin(), line.end());
+      of_planes.insert(of_planes.end(), plane.begin(), plane.end());
+    }
+    EXPECT_EQ(of_lines, read(lines));
+    EXPECT_EQ(of_planes, read(planes));
+    return of_planes;
+  };
+  expect_independent(in_turn, in_turn);
 }
 
 /// An error of one thread stays in it.
