@@ -17,28 +17,17 @@ namespace dalembert {
 
 namespace detail {
 
-template <class V>
-[[nodiscard]] std::string direction_fault(const V& direction, const char* name) {
-  if (direction.allFinite() && direction.norm() > 0.0) return {};
-  return std::string(name) + " must be finite and not zero";
-}
-template <class V>
-[[nodiscard]] std::string place_fault(const V& place, const char* name) {
-  if (place.allFinite()) return {};
-  return std::string(name) + " must be finite";
-}
-[[nodiscard]] inline std::string positive_fault(double value, const char* name) {
-  if (std::isfinite(value) && value > 0.0) return {};
-  return std::string(name) + " = " + text(value) + ", must be finite and > 0";
-}
+/// v/|v|, compiled once.
+template <int D>
+[[nodiscard]] Vec<D> unit_vector(const Vec<D>& v);
 
+template <int D>
+[[nodiscard]] std::string direction_fault(const Vec<D>& direction, const char* name);
+template <int D>
+[[nodiscard]] std::string place_fault(const Vec<D>& place, const char* name);
+[[nodiscard]] std::string positive_fault(double value, const char* name);
 /// The first of several faults that is one.
-[[nodiscard]] inline std::string first_fault(std::initializer_list<std::string> faults) {
-  for (const std::string& fault : faults) {
-    if (!fault.empty()) return fault;
-  }
-  return {};
-}
+[[nodiscard]] std::string first_fault(std::initializer_list<std::string> faults);
 
 }  // namespace detail
 
@@ -51,12 +40,12 @@ struct Plane {
   Vec<D> normal = Vec<D>::Unit(D - 1);
 
   [[nodiscard]] auto prepared() const {
-    return [point = point, n = Vec<D>(normal.normalized())](const auto& r) { return n.dot(r - point); };
+    return [point = point, n = detail::unit_vector(normal)](const auto& r) { return n.dot(r - point); };
   }
   auto operator()(const auto& r) const { return prepared()(r); }
   [[nodiscard]] auto normal_at(const auto& r) const {
     using T = typename std::remove_cvref_t<decltype(r)>::Scalar;
-    return VecOf<T, D>(normal.normalized().template cast<T>());
+    return VecOf<T, D>(detail::unit_vector(normal).template cast<T>());
   }
   [[nodiscard]] std::string fault() const {
     return detail::first_fault(
@@ -87,13 +76,13 @@ struct Cylinder {
   double radius = 1.0;
 
   [[nodiscard]] auto prepared() const {
-    return [point = point, e = Vec<3>(axis.normalized()), radius = radius](const auto& r) {
+    return [point = point, e = detail::unit_vector(axis), radius = radius](const auto& r) {
       return e.cross(r - point).norm() - radius;
     };
   }
   auto operator()(const auto& r) const { return prepared()(r); }
   [[nodiscard]] auto normal_at(const auto& r) const {
-    const Vec<3> e = axis.normalized();
+    const Vec<3> e = detail::unit_vector(axis);
     const auto d = (r - point).eval();
     return (d - e * e.dot(d)).normalized().eval();
   }
@@ -117,7 +106,7 @@ struct Cone {
   double half_angle = 0.7853981633974483;  ///< [rad], between 0 and pi/2
 
   [[nodiscard]] auto prepared() const {
-    return [apex = apex, e = Vec<3>(axis.normalized()), sine = std::sin(half_angle),
+    return [apex = apex, e = detail::unit_vector(axis), sine = std::sin(half_angle),
             cosine = std::cos(half_angle)](const auto& r) {
       const auto d = (r - apex).eval();
       return e.dot(d) * sine - e.cross(d).norm() * cosine;
@@ -125,7 +114,7 @@ struct Cone {
   }
   auto operator()(const auto& r) const { return prepared()(r); }
   [[nodiscard]] auto normal_at(const auto& r) const {
-    const Vec<3> e = axis.normalized();
+    const Vec<3> e = detail::unit_vector(axis);
     const auto d = (r - apex).eval();
     const auto out = (d - e * e.dot(d)).normalized().eval();
     return (e * std::sin(half_angle) - out * std::cos(half_angle)).eval();

@@ -72,33 +72,13 @@ template <int D>
 inline constexpr bool moves<Ground<D>> = false;
 
 /// Axes x, y, z with z along a direction.
-[[nodiscard]] inline Eigen::Matrix3d joint_axes(const Vec<3>& direction) {
-  const Vec<3> z = direction.normalized(), x = z.unitOrthogonal();
-  Eigen::Matrix3d axes;
-  axes << x, z.cross(x), z;
-  return axes;
-}
+[[nodiscard]] Eigen::Matrix3d joint_axes(const Vec<3>& direction);
 /// x along a direction of the plane, y turned left.
-[[nodiscard]] inline Eigen::Matrix2d joint_axes(const Vec<2>& direction) {
-  const Vec<2> x = direction.normalized();
-  Eigen::Matrix2d axes;
-  axes << x, Vec<2>(-x.y(), x.x());
-  return axes;
-}
+[[nodiscard]] Eigen::Matrix2d joint_axes(const Vec<2>& direction);
 /// z along an axis, x along the part of `across` that is across it.
-[[nodiscard]] inline Eigen::Matrix3d axes_across(const Vec<3>& axis, const Vec<3>& across) {
-  const Vec<3> z = axis.normalized(), x = (across - z.dot(across) * z).normalized();
-  Eigen::Matrix3d axes;
-  axes << x, z.cross(x), z;
-  return axes;
-}
+[[nodiscard]] Eigen::Matrix3d axes_across(const Vec<3>& axis, const Vec<3>& across);
 /// x along a direction, y along another at a right angle to it.
-[[nodiscard]] inline Eigen::Matrix3d axes_of_two(const Vec<3>& along_x, const Vec<3>& along_y) {
-  const Vec<3> x = along_x.normalized(), y = along_y.normalized();
-  Eigen::Matrix3d axes;
-  axes << x, y, x.cross(y);
-  return axes;
-}
+[[nodiscard]] Eigen::Matrix3d axes_of_two(const Vec<3>& along_x, const Vec<3>& along_y);
 
 }  // namespace detail
 

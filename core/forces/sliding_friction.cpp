@@ -41,6 +41,10 @@ SlidingFriction::SlidingFriction(const detail::Owned<ConstraintBatch>& of, std::
   }
 }
 
+std::unique_ptr<ForceBatch> SlidingFriction::clone() const {
+  return std::make_unique<SlidingFriction>(*this);
+}
+
 ForceShape SlidingFriction::shape() const {
   return {batch_->shape().kind, static_cast<int>(width_), 1, true, false};
 }

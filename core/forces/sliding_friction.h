@@ -28,9 +28,7 @@ class SlidingFriction final : public ForceBatch {
  public:
   SlidingFriction(const detail::Owned<ConstraintBatch>& of, std::vector<Sliding> sliding);
 
-  [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override {
-    return std::make_unique<SlidingFriction>(*this);
-  }
+  [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override;
   [[nodiscard]] ForceShape shape() const override;
   [[nodiscard]] std::size_t size() const override { return sliding_.size(); }
   [[nodiscard]] std::span<const int> coordinates() const override { return coordinates_; }
