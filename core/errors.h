@@ -49,7 +49,7 @@ class UndeterminedForce : public Error {
 };
 
 /// The integration could not go on. Nothing computed is lost: `trajectory<D>()` is the run up to
-/// the failure.
+/// the failure. Whatever would take such a run on throws it again; begin anew from a sample.
 class IntegrationFailure : public Error {
  public:
   IntegrationFailure(const std::string& what, double time, std::shared_ptr<const Record> record)

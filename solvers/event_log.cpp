@@ -31,7 +31,8 @@ EventLog::EventLog(std::vector<FlatEvent> events, Transitions* transitions,
       transitions_(transitions),
       seen_(stepping.system(), stepping.start(), changes(events)),
       watch_(with_transitions(std::move(events), transitions), *stepping.system().layout()),
-      changes_(asked_for_) {
+      changes_(asked_for_),
+      looked_to_(stepping.time()) {
   const double t = stepping.time();
   if (at_start != nullptr) {
     Transitions::Change change = *at_start;
@@ -92,6 +93,7 @@ void EventLog::look(Stepping& stepping) {
   }
   if (transitions_ != nullptr)
     transitions_->require_open(read(stepping, change_ ? change_->time : stepping.time()));
+  looked_to_ = stepping.time();
 }
 
 void EventLog::list(const Occurrence& one, Stepping& stepping) {
@@ -127,6 +129,7 @@ void EventLog::carry_out(Stepping& stepping) {
 
 void EventLog::begin_anew(double t, Stepping& stepping) {
   watch_.begin_anew(read(stepping, t), asked_for_);
+  looked_to_ = t;
   change_.reset();
   if (!due_.empty()) {
     change_ = due_.front();

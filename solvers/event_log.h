@@ -34,8 +34,8 @@ class EventLog {
 
   /// Where an event has ended the run.
   [[nodiscard]] std::optional<double> end() const { return end_; }
-  /// Where the run stands whose last step ended at `t`: there, or where that step had an end or a change.
-  [[nodiscard]] double reached(double t) const { return end_ ? *end_ : change_ ? change_->time : t; }
+  /// Where the run stands: the end of the last step that was looked at, or where that had an end or a change.
+  [[nodiscard]] double reached() const { return end_ ? *end_ : change_ ? change_->time : looked_to_; }
   [[nodiscard]] const std::vector<Occurrence>& occurred() const { return occurred_; }
   /// Puts all of it among the results of a run.
   void write(Record& record) const;
@@ -66,6 +66,7 @@ class EventLog {
   std::optional<Occurrence> change_, last_;
   int repeated_ = 0;  // times that the last change was due at one time
   std::optional<double> end_;
+  double looked_to_;
 };
 
 }  // namespace dalembert

@@ -117,7 +117,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
   }
 
   /// Where an event ends the run, or its last step went so far.
-  [[nodiscard]] double reached() const { return log ? log->reached(stepping.time()) : stepping.time(); }
+  [[nodiscard]] double reached() const { return log ? log->reached() : stepping.time(); }
   [[nodiscard]] bool ended() const { return log && log->end(); }
   void require_not_ended(const char* what) const {
     if (!ended() || now.t < *log->end()) return;
@@ -141,16 +141,18 @@ struct DALEMBERT_HIDDEN Integrator::State {
     }
   }
 
-  /// Runs `f`; whatever stops it becomes an IntegrationFailure with the samples so far.
+  /// Runs `f`; whatever stops it becomes an IntegrationFailure with the samples so far. The run has stopped
+  /// then, in the middle of something: nothing goes on from there.
   template <class F>
   void guarded(const F& f) {
+    if (stopped) throw IntegrationFailure(*stopped);
     try {
       const Stopwatch stopwatch(run_time);
       f();
     } catch (const StepFailure& failure) {
       fail(failure.what, failure.time);
     } catch (const EquationFault& fault) {
-      fail(fault.what(), stepping.time());
+      fail(fault.what(), reached());
     }
   }
 
@@ -158,14 +160,14 @@ struct DALEMBERT_HIDDEN Integrator::State {
     const std::string suspect = stepping.unbounded_multiplier();
     auto kept = std::make_shared<Record>(record);
     kept->statistics = statistics();
-    kept->dense = stepping.dense();
+    kept->dense = stepping.dense(reached());
     if (log) log->write(*kept);
     std::ostringstream what;
     what.precision(10);
     what << "Scene \"" << system->layout()->scene << "\" stopped at t = " << time << ": " << why;
     for (const auto& more : {suspect, coarse_time(stepping.start().scales, time), kept->statistics.advice})
       if (!more.empty()) what << "; " << more;
-    throw IntegrationFailure(what.str(), time, std::move(kept));
+    throw stopped.emplace(what.str(), time, std::move(kept));
   }
 
   [[nodiscard]] Statistics statistics() const {
@@ -201,6 +203,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
   std::optional<EventLog> log;              // if there is anything to be listed
   long steps = 0;
   double run_time = 0.0;
+  std::optional<IntegrationFailure> stopped;
   Record record = empty_record();
 };
 
@@ -260,7 +263,7 @@ std::shared_ptr<const Record> Integrator::run() {
   // The samples are handed over, not copied: they may be most of the memory.
   auto record = std::make_shared<Record>(std::exchange(s.record, s.empty_record()));
   record->statistics = s.statistics();
-  record->dense = s.stepping.dense();
+  record->dense = s.stepping.dense(s.reached());
   if (s.log) s.log->write(*record);
   return record;
 }

@@ -56,8 +56,7 @@ Stepping::Stepping(std::shared_ptr<const System> of, std::span<const double> q, 
     kept_ = std::make_shared<KeptSteps>(options.tolerance);
     kept_->begin(shared_system(), this->start(), options.t_start);
   }
-  unkept_ = options.t_start;
-  keep_step();
+  keep_step(options.t_start);
 }
 
 /// From `start` at time t.
@@ -98,22 +97,23 @@ KeptSteps& Stepping::own_steps() {
   return *kept_;
 }
 
-void Stepping::keep_step() {
-  if (!kept_ || !unkept_) return;
-  own_steps().add(*stretch_->stepper, *unkept_, steps_);
-  unkept_.reset();
+std::shared_ptr<const DenseOutput> Stepping::dense(double end) {
+  if (kept_ && kept_->end() > end) own_steps().end(end);
+  return kept_;
+}
+
+void Stepping::keep_step(double from) {
+  if (kept_) own_steps().add(*stretch_->stepper, from, steps_);
 }
 
 void Stepping::step(double wanted) {
-  keep_step();  // if it could not be kept before
   // Before a step, so that all output within the last has been read from the stepper that took it.
   exchange_rows();
   if (options_.stepper == Stepper::ida) watch_sine();
   if (steps_++ == 0) watch_sliding();
+  const double from = time();
   try {
-    const double from = time();
     stretch_->stepper->step(wanted);
-    unkept_ = from;
   } catch (const StepFailure&) {
     // Newton's iteration may fail anywhere; where the constraints are close to dependent the explicit
     // stepper goes on.
@@ -121,12 +121,11 @@ void Stepping::step(double wanted) {
     if (stretch_->by == Stepper::erk || !singular) throw;
     hand_over(angle_.sine);
   }
-  keep_step();
+  if (time() > from) keep_step(from);
   watch_sliding();
 }
 
 void Stepping::read(double t, Moment& m) {
-  keep_step();  // if it could not be kept before
   m.t = t;
   stretch_->stepper->interpolate(t, m.q, m.v);
   stretch_->reader.read(m, springs_at(t), steps_);
@@ -182,7 +181,6 @@ void Stepping::watch_sliding() {
 
 void Stepping::begin_changed(double t, std::shared_ptr<const System> system, std::span<const double> q,
                              std::span<const double> v) {
-  keep_step();  // if it could not be kept before
   const Problem problem(std::move(system));
   Start next = dalembert::begin_changed(problem, start(), t, q, v, options_.tolerance);
   if (next.scales.of_path) {  // a first step, see IdaStepper, must advance the time

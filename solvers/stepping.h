@@ -52,8 +52,8 @@ class Stepping {
   /// The constraint whose force has grown without bound where the last step ended, in words; empty if there
   /// is none.
   [[nodiscard]] std::string unbounded_multiplier();
-  /// All steps, if the options ask to keep them; else null.
-  [[nodiscard]] std::shared_ptr<const DenseOutput> dense() const { return kept_; }
+  /// All steps, of the last one what lies before `end`, if the options ask to keep them; else null.
+  [[nodiscard]] std::shared_ptr<const DenseOutput> dense(double end);
   /// Of all its steppers, without the run time.
   [[nodiscard]] Statistics statistics() const;
 
@@ -78,7 +78,7 @@ class Stepping {
                                                  Stepper by) const;
   void go_on_with(std::unique_ptr<Stretch> next);
   [[nodiscard]] KeptSteps& own_steps();
-  void keep_step();
+  void keep_step(double from);
   void exchange_rows();
 
   void watch_sine();
@@ -90,7 +90,6 @@ class Stepping {
   std::unique_ptr<Stretch> stretch_;
   std::vector<double> lambda_at_start_;
   std::shared_ptr<KeptSteps> kept_;  // if the options ask for it
-  std::optional<double> unkept_;     // where a step began that is not among them yet
 
   long steps_ = 0;
   Angle angle_;  // at the last step

@@ -4,10 +4,7 @@
 
 namespace dalembert::detail {
 
-template <int D>
-Vec<D> unit_vector(const Vec<D>& v) {
-  return v.normalized();
-}
+Vec<3> unit_vector(const Vec<3>& v) { return v.normalized(); }
 
 template <int D>
 std::string direction_fault(const Vec<D>& direction, const char* name) {
@@ -31,8 +28,6 @@ std::string first_fault(std::initializer_list<std::string> faults) {
   return {};
 }
 
-template Vec<2> unit_vector(const Vec<2>&);
-template Vec<3> unit_vector(const Vec<3>&);
 template std::string direction_fault(const Vec<2>&, const char*);
 template std::string direction_fault(const Vec<3>&, const char*);
 template std::string place_fault(const Vec<2>&, const char*);

@@ -18,8 +18,7 @@ namespace dalembert {
 namespace detail {
 
 /// v/|v|, compiled once.
-template <int D>
-[[nodiscard]] Vec<D> unit_vector(const Vec<D>& v);
+[[nodiscard]] Vec<3> unit_vector(const Vec<3>& v);
 
 template <int D>
 [[nodiscard]] std::string direction_fault(const Vec<D>& direction, const char* name);
@@ -40,12 +39,12 @@ struct Plane {
   Vec<D> normal = Vec<D>::Unit(D - 1);
 
   [[nodiscard]] auto prepared() const {
-    return [point = point, n = detail::unit_vector(normal)](const auto& r) { return n.dot(r - point); };
+    return [point = point, n = Vec<D>(normal.normalized())](const auto& r) { return n.dot(r - point); };
   }
   auto operator()(const auto& r) const { return prepared()(r); }
   [[nodiscard]] auto normal_at(const auto& r) const {
     using T = typename std::remove_cvref_t<decltype(r)>::Scalar;
-    return VecOf<T, D>(detail::unit_vector(normal).template cast<T>());
+    return VecOf<T, D>(normal.normalized().template cast<T>());
   }
   [[nodiscard]] std::string fault() const {
     return detail::first_fault(
@@ -82,7 +81,7 @@ struct Cylinder {
   }
   auto operator()(const auto& r) const { return prepared()(r); }
   [[nodiscard]] auto normal_at(const auto& r) const {
-    const Vec<3> e = detail::unit_vector(axis);
+    const Vec<3> e = axis.normalized();
     const auto d = (r - point).eval();
     return (d - e * e.dot(d)).normalized().eval();
   }
@@ -114,7 +113,7 @@ struct Cone {
   }
   auto operator()(const auto& r) const { return prepared()(r); }
   [[nodiscard]] auto normal_at(const auto& r) const {
-    const Vec<3> e = detail::unit_vector(axis);
+    const Vec<3> e = axis.normalized();
     const auto d = (r - apex).eval();
     const auto out = (d - e * e.dot(d)).normalized().eval();
     return (e * std::sin(half_angle) - out * std::cos(half_angle)).eval();

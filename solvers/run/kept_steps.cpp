@@ -26,15 +26,16 @@ std::string at(double t) {
 
 void KeptSteps::begin(std::shared_ptr<const System> system, const Start& start, double t) {
   segments_.push_back({system, start, t, steps_.size()});
-  if (!steps_.empty()) steps_.back().end = t;
+  if (!steps_.empty()) end(t);
   system_ = std::move(system);
 }
 
+void KeptSteps::end(double t) { steps_.back().end = std::max(t, steps_.back().from); }
+
 void KeptSteps::add(TimeStepper& stepper, double from, long number) {
   const std::size_t n = system_->coordinates(), m = system_->compliant() ? system_->rows() : 0;
-  Step step{from, stepper.time(), stepper.time(), number, stepper.degree(), end_, 0.0};
+  Step step{from, stepper.time(), stepper.time(), number, stepper.degree(), values_.size(), 0.0};
   Springs springs(m);
-  values_.resize(end_);
   for (int j = 0; j <= step.degree; ++j) {
     const double t = chebyshev_node(step.from, step.to, j, step.degree);
     const std::size_t first = values_.size();
@@ -45,7 +46,6 @@ void KeptSteps::add(TimeStepper& stepper, double from, long number) {
     for (const auto* part : springs.parts()) values_.insert(values_.end(), part->begin(), part->end());
   }
   steps_.push_back(step);
-  end_ = values_.size();
 }
 
 const KeptSteps::Step& KeptSteps::step_at(double t) const {

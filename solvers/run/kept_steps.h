@@ -21,11 +21,13 @@ class KeptSteps final : public DenseOutput {
   explicit KeptSteps(double tolerance) : tolerance_(tolerance) {}
 
   /// From here on the steps are those of a run that begins, or begins anew, with `start` at time t, maybe
-  /// with another system; what the last step's polynomial has beyond that time is no part of the run. If it
-  /// throws nothing has changed.
+  /// with another system. If it throws nothing has changed.
   void begin(std::shared_ptr<const System> system, const Start& start, double t);
+  /// What the last step's polynomial has beyond a time is no part of the run.
+  void end(double t);
+  [[nodiscard]] double end() const { return steps_.back().end; }
   /// The last step, its number in the run, and where it began; before the first, the start. Throws
-  /// EquationFault, and then nothing has changed.
+  /// EquationFault, and then it is not among them.
   void add(TimeStepper& stepper, double from, long number);
 
   void read(std::span<const double> times, Record& out) const override;
@@ -52,7 +54,6 @@ class KeptSteps final : public DenseOutput {
   double tolerance_;
   std::vector<Segment> segments_;
   std::vector<Step> steps_;
-  std::size_t end_ = 0;         // of the values of all steps
   std::vector<double> values_;  // per step and node: q, v, and of springs lambda and its derivatives
 };
 

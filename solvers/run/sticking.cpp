@@ -101,25 +101,32 @@ void Sticking::watch(double t, std::span<const double> q, std::span<const double
   now_.t = t;
   now_.q.assign(q.begin(), q.end());
   now_.v.assign(v.begin(), v.end());
-  if (!std::exchange(begun_, true)) {
-    if (!accelerate(now_, side_)) return;
-    const Departure departure = leave(now_.instant(), now_.a, side_);
-    if (departure.held_by) throw StepFailure{would_stick(*departure.held_by), t};
-  } else {
-    const double step = t - last_.t;
-    find_slope(last_, side_);
-    find_slope(now_, near_);
-    if (switches_.turned(side_, near_)) {
-      look_ahead(last_, step);
-    } else {
-      now_.a.resize(v.size());
-      for (std::size_t i = 0; i < v.size(); ++i) now_.a[i] = (now_.v[i] - last_.v[i]) / step;
-      move(now_, step, trial_);
-      find_slope(trial_, far_);
-      if (switches_.turned(near_, far_)) look_ahead(now_, std::min(step, soon_));
-    }
-  }
+  if (begun_)
+    require_no_stop();
+  else
+    require_leaving();
   std::swap(last_, now_);
+  begun_ = true;
+}
+
+/// Where the first step begins.
+void Sticking::require_leaving() {
+  if (!accelerate(now_, side_)) return;
+  const Departure departure = leave(now_.instant(), now_.a, side_);
+  if (departure.held_by) throw StepFailure{would_stick(*departure.held_by), now_.t};
+}
+
+/// In the last step, or soon behind it.
+void Sticking::require_no_stop() {
+  const double step = now_.t - last_.t;
+  find_slope(last_, side_);
+  find_slope(now_, near_);
+  if (switches_.turned(side_, near_)) return look_ahead(last_, step);
+  now_.a.resize(now_.v.size());
+  for (std::size_t i = 0; i < now_.v.size(); ++i) now_.a[i] = (now_.v[i] - last_.v[i]) / step;
+  move(now_, step, trial_);
+  find_slope(trial_, far_);
+  if (switches_.turned(near_, far_)) look_ahead(now_, std::min(step, soon_));
 }
 
 /// Whether the sliding velocity vanishes so soon.

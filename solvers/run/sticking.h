@@ -49,6 +49,8 @@ class Sticking {
   void watch(double t, std::span<const double> q, std::span<const double> v);
 
  private:
+  void require_leaving();
+  void require_no_stop();
   void find_slope(const Motion& at, Side& side);
   bool accelerate(Motion& at, Side& side);
   void require_sliding(const Motion& before, Motion& behind);

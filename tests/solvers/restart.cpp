@@ -1,4 +1,5 @@
 #include "readings.h"
+#include <dalembert/models/four_bar.h>
 #include <dalembert/solvers/stepping.h>
 
 #include <gmock/gmock.h>
@@ -118,7 +119,7 @@ struct Begun {
       all.insert(all.end(), part->begin(), part->end());
     Record between;
     between.layout = run.system().layout();
-    run.dense()->read(std::vector{0.25, 0.75}, between);
+    run.dense(1.0)->read(std::vector{0.25, 0.75}, between);
     all.insert(all.end(), between.values.begin(), between.values.end());
     return all;
   }
@@ -148,6 +149,49 @@ TEST(Restart, ThatFailsLeavesTheRunAsItWas) {
     EXPECT_EQ(troubled.rest(), untroubled.rest());
     EXPECT_EQ(troubled.run.statistics().report(), untroubled.run.statistics().report());
   }
+}
+
+/// The same where the implicit stepper hands over to the explicit one, in front of a singular position, and
+/// takes over again behind it: their polynomials differ in degree.
+TEST(Restart, ThatFailsAtAHandoverLeavesTheRunAsItWas) {
+  long left = 0;
+  const long enough = std::numeric_limits<long>::max();
+  models::FourBarScene linkage = models::FourBar{.loops = 1}.scene();
+  linkage.scene.add(force_law(points(linkage.uprights[0].end()), [&left](auto, auto, auto v) {
+    if (left-- <= 0) throw std::runtime_error("no more");
+    return (0.0 * v).eval();
+  }));
+  const auto system = std::make_shared<const System>(linkage.scene.system());
+  const auto stepping = [&] {
+    left = enough;
+    return Stepping(system, linkage.scene.initial_positions(), linkage.scene.initial_velocities(),
+                    {.t_end = 10.0}, std::numeric_limits<double>::infinity());
+  };
+  Stepping untroubled = stepping(), troubled = stepping();
+  int handovers = 0;
+  while (handovers < 2 && untroubled.time() < 10.0) {
+    const int degree = untroubled.degree();
+    untroubled.step(10.0);
+    const bool handover = untroubled.degree() != degree;
+    if (handover) {
+      ++handovers;
+      const double before = troubled.time();
+      left = 0;
+      EXPECT_THROW(troubled.step(10.0), EquationFault);
+      EXPECT_EQ(troubled.degree(), degree);
+      EXPECT_EQ(troubled.time(), before);
+      left = enough;
+    }
+    troubled.step(10.0);
+    ASSERT_EQ(troubled.time(), untroubled.time());
+    ASSERT_EQ(troubled.degree(), untroubled.degree());
+  }
+  EXPECT_EQ(handovers, 2);
+  Moment there(*system, untroubled.start()), also = there;
+  untroubled.read(untroubled.time(), there);
+  troubled.read(troubled.time(), also);
+  EXPECT_EQ(also.q, there.q);
+  EXPECT_EQ(also.lambda, there.lambda);
 }
 
 }  // namespace
