@@ -98,12 +98,13 @@ void EventLog::look(Stepping& stepping) {
 
 void EventLog::list(const Occurrence& one, Stepping& stepping) {
   const FlatSample at = read(stepping, one.time);
-  occurred_.push_back(one);
   for (Record* record : {&before_, &after_}) {
     record->go_on_with(stepping.system().layout());
     record->append(at);
   }
   impulses_.resize(impulses_.size() + at.lambda.size());
+  occurred_.push_back(one);  // last: without memory for all of it, it is not listed
+  looked_to_ = one.time;
 }
 
 /// The difference of two times that are the same to round-off.
@@ -183,6 +184,8 @@ Transitions::Change EventLog::change_scene(const FlatSample& at, Stepping& stepp
     next = event.change(at);
   } catch (const std::exception& error) {
     refuse(std::string("its change threw \"") + error.what() + '"');
+  } catch (...) {
+    refuse("its change threw something that is no std::exception");
   }
   if (next.system->rows() != at.lambda.size() || next.system->coordinates() != at.q.size() ||
       next.system->layout()->forces.size() != stepping.system().layout()->forces.size())
@@ -212,10 +215,10 @@ void EventLog::open_pulling(Transitions::Change& change, double t, Stepping& ste
 /// With the states before and after it, and its impulses.
 void EventLog::list(const Transitions::Change& change, const FlatSample& before, const FlatSample& after) {
   for (const Occurrence& one : change.what) {
-    occurred_.push_back(one);
     before_.append(before);
     after_.append(after);
     impulses_.insert(impulses_.end(), change.impulses.begin(), change.impulses.end());
+    occurred_.push_back(one);  // last, as above
   }
 }
 

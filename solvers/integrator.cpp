@@ -133,6 +133,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
 
   template <class Observe>
   void for_each_sample(const Observe& observe) {
+    require_not_stopped();
     for (const double t : times) {
       if (t < now.t) continue;
       if (t > now.t) guarded([&] { go_to(t); });
@@ -141,33 +142,40 @@ struct DALEMBERT_HIDDEN Integrator::State {
     }
   }
 
-  /// Runs `f`; whatever stops it becomes an IntegrationFailure with the samples so far. The run has stopped
-  /// then, in the middle of something: nothing goes on from there.
+  void require_not_stopped() const {
+    if (stopped) throw IntegrationFailure(*stopped);
+  }
+
+  /// Runs `f`; what stops it, other than lack of memory and a defect, becomes an IntegrationFailure with the
+  /// samples so far. The run has stopped then, in the middle of something: nothing goes on from there.
   template <class F>
   void guarded(const F& f) {
-    if (stopped) throw IntegrationFailure(*stopped);
+    require_not_stopped();
     try {
       const Stopwatch stopwatch(run_time);
       f();
     } catch (const StepFailure& failure) {
-      fail(failure.what, failure.time);
-    } catch (const EquationFault& fault) {
-      fail(fault.what(), reached());
+      throw stop(failure.what, failure.time);
+    } catch (const Error& fault) {
+      throw stop(fault.what(), reached());
+    } catch (...) {
+      stop("an exception broke it off", reached());
+      throw;
     }
   }
 
-  [[noreturn]] void fail(const std::string& why, double time) {
+  const IntegrationFailure& stop(const std::string& why, double time) {
     const std::string suspect = stepping.unbounded_multiplier();
     auto kept = std::make_shared<Record>(record);
     kept->statistics = statistics();
-    kept->dense = stepping.dense(reached());
+    kept->dense = stepping.dense(std::min(time, reached()));
     if (log) log->write(*kept);
     std::ostringstream what;
     what.precision(10);
     what << "Scene \"" << system->layout()->scene << "\" stopped at t = " << time << ": " << why;
     for (const auto& more : {suspect, coarse_time(stepping.start().scales, time), kept->statistics.advice})
       if (!more.empty()) what << "; " << more;
-    throw stopped.emplace(what.str(), time, std::move(kept));
+    return stopped.emplace(what.str(), time, std::move(kept));
   }
 
   [[nodiscard]] Statistics statistics() const {

@@ -114,6 +114,7 @@ void Stepping::step(double wanted) {
   const double from = time();
   try {
     stretch_->stepper->step(wanted);
+    keep_step(from);
   } catch (const StepFailure&) {
     // Newton's iteration may fail anywhere; where the constraints are close to dependent the explicit
     // stepper goes on.
@@ -121,7 +122,6 @@ void Stepping::step(double wanted) {
     if (stretch_->by == Stepper::erk || !singular) throw;
     hand_over(angle_.sine);
   }
-  if (time() > from) keep_step(from);
   watch_sliding();
 }
 

@@ -17,7 +17,7 @@ namespace dalembert {
 
 namespace detail {
 
-/// v/|v|, compiled once.
+/// v/|v|, compiled once: every file would compile what is no template.
 [[nodiscard]] Vec<3> unit_vector(const Vec<3>& v);
 
 template <int D>
@@ -81,7 +81,7 @@ struct Cylinder {
   }
   auto operator()(const auto& r) const { return prepared()(r); }
   [[nodiscard]] auto normal_at(const auto& r) const {
-    const Vec<3> e = axis.normalized();
+    const Vec<3> e = detail::unit_vector(axis);
     const auto d = (r - point).eval();
     return (d - e * e.dot(d)).normalized().eval();
   }
@@ -113,7 +113,7 @@ struct Cone {
   }
   auto operator()(const auto& r) const { return prepared()(r); }
   [[nodiscard]] auto normal_at(const auto& r) const {
-    const Vec<3> e = axis.normalized();
+    const Vec<3> e = detail::unit_vector(axis);
     const auto d = (r - apex).eval();
     const auto out = (d - e * e.dot(d)).normalized().eval();
     return (e * std::sin(half_angle) - out * std::cos(half_angle)).eval();

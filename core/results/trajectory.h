@@ -117,8 +117,8 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   [[nodiscard]] std::size_t size() const { return record_->times.size(); }
   [[nodiscard]] std::span<const double> times() const& { return record_->times; }
   [[nodiscard]] Sample<D> sample(std::size_t i) const&;
-  /// The same run at other times, in any order, from its start to the end of its last step: no less accurate
-  /// than at its samples. Needs the option `dense`. (Many times at once cost less than one after the other.)
+  /// The same run at other times, in any order, from its start to where it ended: no less accurate than at
+  /// its samples. Needs the option `dense`. (Many times at once cost less than one after the other.)
   ///
   ///   const auto run = simulate(scene, {.t_end = 10.0, .dense = true});
   ///   run.at({1.234}).position(bob, 0);

@@ -104,6 +104,8 @@ double EventWatch::value(std::size_t event, const FlatSample& at) {
     value = events_[event].function(at);
   } catch (const std::exception& error) {
     fail(std::string("threw \"") + error.what() + '"');
+  } catch (...) {
+    fail("threw something that is no std::exception");
   }
   if (!std::isfinite(value)) fail("gives no finite number");
   largest_[event] = std::max(largest_[event], std::abs(value));

@@ -109,7 +109,7 @@ void Sticking::watch(double t, std::span<const double> q, std::span<const double
   begun_ = true;
 }
 
-/// Where the first step begins.
+/// Whether what is at rest may leave.
 void Sticking::require_leaving() {
   if (!accelerate(now_, side_)) return;
   const Departure departure = leave(now_.instant(), now_.a, side_);

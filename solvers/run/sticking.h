@@ -45,7 +45,8 @@ class Sticking {
   /// The message about a friction that would stick.
   [[nodiscard]] std::string would_stick(std::size_t friction) const;
 
-  /// For a motion known only at its steps: called before the first and after each. Throws StepFailure.
+  /// For a motion known only at its steps: called before the first of the run and after each.
+  /// Throws StepFailure.
   void watch(double t, std::span<const double> q, std::span<const double> v);
 
  private:

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace dalembert {
+namespace dalembert::dense_test {
 namespace {
 
 using testing::AllOf;
@@ -172,5 +172,30 @@ TEST(DenseRun, KeepsWhatARunGaveUntilItFailed) {
   }
 }
 
+/// Where friction would stick the run stops inside a step: what its polynomial has behind that, a block that
+/// slides back, is no part of the run.
+TEST(DenseRun, EndsWhereItFailed) {
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -9.81}});
+  const auto block = scene.add_particle({.mass = 1.0, .velocity = {3.0, 0.0}});
+  const auto table = scene.add(OnCurve{block, Plane<2>{}});
+  scene.add(friction_law(table, points(block),
+                         [](auto N, auto, auto v) { return (-0.02 * abs(N) * v.normalized()).eval(); }));
+  scene.add(force_law(points(block), [](auto t, auto, auto v) {
+    return vec(-5.0 * exp(-10.0 * (t - 0.3) * (t - 0.3)), 0.0 * v.y());
+  }));
+  Simulation<2> run(scene, {.t_end = 10.0, .times = {0.0, 0.5}, .tolerance = 0.1, .dense = true});
+  run.advance_to(0.5);
+  try {
+    run.advance_to(10.0);
+    FAIL();
+  } catch (const IntegrationFailure& failure) {
+    const auto kept = failure.trajectory<2>();
+    EXPECT_NO_THROW((void)kept.at({failure.time()}));
+    EXPECT_THROW((void)kept.at({std::nextafter(failure.time(), 10.0)}), InvalidArgument);
+  }
+  EXPECT_THROW((void)run.run(), IntegrationFailure);  // though both samples are there
+}
+
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::dense_test

@@ -1,13 +1,13 @@
+#include "failure_of.h"
 #include "readings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <optional>
 #include <stdexcept>
 
-namespace dalembert {
+namespace dalembert::failure_test {
 namespace {
 
 using testing::AllOf;
@@ -37,16 +37,6 @@ Faulty no_number_after(double end) {
   return Faulty([end](auto t, auto r) {
     return (r.norm() - 1.0) * (t > end ? std::numeric_limits<double>::quiet_NaN() : 1.0);
   });
-}
-
-template <class F>
-std::optional<IntegrationFailure> failure_of(const F& f) {
-  try {
-    f();
-  } catch (const IntegrationFailure& failure) {
-    return failure;
-  }
-  return std::nullopt;
 }
 
 /// 21 samples: every 0.1 in a run of 2.
@@ -110,59 +100,6 @@ TEST(Failure, ASimulationCanStillBeReadAtItsLastGoodInstant) {
   EXPECT_EQ(simulation.constraint_force(faulty.bob), force);
 }
 
-TEST(Failure, ASecondAttemptFailsInTheSameWay) {
-  const Faulty faulty = throwing_after(1.0);
-  Simulation<2> simulation(faulty.scene, sampled(2.0));
-  const auto first = failure_of([&] { (void)simulation.run(); });
-  const auto second = failure_of([&] { simulation.advance_to(2.0); });
-  const auto third = failure_of([&] { simulation.step(); });
-  ASSERT_TRUE(first && second && third);
-  EXPECT_THAT(second->what(), HasSubstr("Scene \"faulty\" stopped"));
-  EXPECT_THAT(third->what(), HasSubstr("Scene \"faulty\" stopped"));
-  EXPECT_GE(first->trajectory<2>().size(), 10U);
-}
-
-/// A run may fail anywhere: half way through a step, the search for an impact, or the impact. From there it
-/// would lose the impact or pass it twice, so it is not gone on with, even where the fault is mended.
-TEST(Failure, NothingGoesOnFromIt) {
-  const long enough = std::numeric_limits<long>::max();
-  for (const Stepper stepper : both) {
-    long left = enough;
-    Scene<2> scene("court");
-    const auto ball = scene.add_particle({.mass = 1.0, .position = {0.0, 1.0}}, "ball");
-    scene.add(force_law(points(ball), [&left](auto /*t*/, auto /*r*/, auto v) {
-      if (left-- <= 0) throw std::runtime_error("no more");
-      return (vec(0.0, -9.81) - 0.0 * v).eval();
-    }));
-    scene.add(unilateral(holonomic(points(ball), [](auto r) { return r.y(); }), {.restitution = 0.3}));
-    const Options options{.t_end = 1.0, .samples = 6, .stepper = stepper};
-    const auto whole = simulate(scene, options);
-    ASSERT_GT(whole.events().size(), 3U);
-    for (long allowed = 0;; ++allowed) {
-      left = enough;
-      Simulation<2> run(scene, options);
-      left = allowed;
-      const auto first = failure_of([&] { (void)run.run(); });
-      left = enough;
-      if (!first) break;
-      const double time = run.time();
-      const Vec<2> position = run.position(ball);
-      for (const auto& attempt : {failure_of([&] { (void)run.run(); }), failure_of([&] { run.step(); }),
-                                  failure_of([&] { run.advance_to(1.0); })}) {
-        ASSERT_TRUE(attempt) << allowed;
-        EXPECT_EQ(std::string(attempt->what()), first->what());
-      }
-      EXPECT_EQ(run.time(), time);
-      EXPECT_EQ(run.position(ball), position);
-      const auto kept = first->trajectory<2>();
-      for (std::size_t i = 0; i < kept.size(); ++i)
-        EXPECT_EQ(kept.position(ball, i), whole.position(ball, i));
-      for (std::size_t i = 0; i < kept.events().size(); ++i)
-        EXPECT_EQ(kept.events()[i].time, whole.events()[i].time);
-    }
-  }
-}
-
 TEST(Failure, StatisticsAreCountedOnce) {
   const Faulty faulty = throwing_after(1.0);
   Simulation<2> simulation(faulty.scene, sampled(2.0));
@@ -200,4 +137,4 @@ TEST(Failure, OfAnObserverReachesItsUser) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::failure_test
