@@ -1,6 +1,7 @@
 #include "dalembert/bench/leave_out.h"
 
 #include <dalembert/bench/leave_out_pairs.h>
+#include <dalembert/bench/median.h>
 #include <dalembert/bench/outcome.h>
 #include <dalembert/bench/progress.h>
 
@@ -11,28 +12,9 @@ namespace dalembert::bench {
 
 namespace {
 
-const std::vector<std::string> columns = {"scene",
-                                          "left_out",
-                                          "unknowns_full",
-                                          "unknowns",
-                                          "run_time_full_s",
-                                          "run_time_s",
-                                          "stepper",
-                                          "steps_full",
-                                          "steps",
-                                          "difference_position",
-                                          "allowed_position",
-                                          "outcome"};
-
 /// What every model of the catalogue is required to err by at most, in units of its length times the
 /// tolerance; of two runs, each may.
 constexpr double allowed_of_one_run = 1000.0;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Largest distance between the same points at the samples that both have.
 double difference(const Motion& full, const Motion& lean) {
@@ -80,7 +62,10 @@ int leave_out(const LeaveOut& options) {
   validate({.t_end = 1.0, .tolerance = options.tolerance});
   require_writable(options.report);
   const std::vector<Pair> pairs = leave_out_pairs(options.size);
-  Table table{.columns = columns, .rows = {}};
+  Table table{
+      .columns = {"scene", "left_out", "unknowns_full", "unknowns", "run_time_full_s", "run_time_s",
+                  "stepper", "steps_full", "steps", "difference_position", "allowed_position", "outcome"},
+      .rows = {}};
   int wrong = 0;
   {
     Progress progress(pairs.size() * options.steppers.size());

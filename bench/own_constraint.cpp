@@ -59,13 +59,13 @@ double difference(const Chain& one, const Trajectory<2>& run, const Chain& other
   return largest;
 }
 
-struct Comparison {
+struct OwnComparison {
   double ratio = std::numeric_limits<double>::quiet_NaN();  ///< the median one, and its two run times
   double run_time_distance = ratio, run_time_own = ratio;
   double difference = ratio;  ///< the largest of all positions
 };
 
-Comparison compare(const Chain& distances, const Chain& lambdas, Stepper stepper, int repeats) {
+OwnComparison compare(const Chain& distances, const Chain& lambdas, Stepper stepper, int repeats) {
   const Options run{.t_end = 0.2, .samples = 2, .stepper = stepper};
   std::vector<std::array<double, 3>> pairs;  // ratio, and the two times
   double largest = 0.0;
@@ -93,7 +93,7 @@ void own_constraint(const OwnConstraint& options) {
   const Chain lambdas = of_lambdas(options.beads);
   for (const Stepper stepper : options.steppers) {
     const std::string what = std::string("own-constraint, ") + name(stepper);
-    Comparison c;
+    OwnComparison c;
     const Outcome outcome =
         outcome_of(what, [&] { c = compare(distances, lambdas, stepper, options.repeats); });
     table.rows.push_back({name(stepper), std::to_string(options.beads), scientific(c.run_time_distance),

@@ -16,10 +16,6 @@ namespace {
 
 using AnyContest = std::variant<Contest<2>, Contest<3>>;
 
-const std::vector<std::string> columns = {"scene",         "error",         "stepper",
-                                          "tolerance",     "error_reached", "run_time_s",
-                                          "ratio_to_hand", "ratio_to_rod",  "outcome"};
-
 Contest<2> chain(int beads, double t_end) {
   const models::Chain system{.beads = beads};
   Contest<2> contest{system.model(), methods(system)};
@@ -126,7 +122,9 @@ void ratios(const Ratios& options) {
     return std::any_of(options.scenes.begin(), options.scenes.end(),
                        [&](const std::string& s) { return s == "all" || s == name; });
   };
-  Table table{.columns = columns, .rows = {}};
+  Table table{.columns = {"scene", "error", "stepper", "tolerance", "error_reached", "run_time_s",
+                          "ratio_to_hand", "ratio_to_rod", "outcome"},
+              .rows = {}};
   {
     Progress progress(scenes().size() * (options.steppers.size() + 1));
     for (const auto& [name, make] : scenes()) {

@@ -15,10 +15,6 @@ namespace dalembert::bench {
 
 namespace {
 
-const std::vector<std::string> columns = {"model",      "stepper",         "size",        "tolerance",
-                                          "t_end",      "steps",           "evaluations", "error_position",
-                                          "run_time_s", "peak_memory_mib", "outcome"};
-
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double peak_memory_mib() {
@@ -96,7 +92,9 @@ void scaling(const Scaling& options) {
   std::vector<int> sizes = options.sizes;
   std::sort(sizes.begin(), sizes.end());
 
-  Table table{.columns = columns, .rows = {}};
+  Table table{.columns = {"model", "stepper", "size", "tolerance", "t_end", "steps", "evaluations",
+                          "error_position", "run_time_s", "peak_memory_mib", "outcome"},
+              .rows = {}};
   {
     Progress progress(sizes.size() * options.steppers.size());
     for (const Contender stepper : options.steppers) {

@@ -16,20 +16,6 @@ using models::AnyModel;
 using models::Measurement;
 using models::Model;
 
-const std::vector<std::string> columns = {"model",
-                                          "stepper",
-                                          "tolerance",
-                                          "steps",
-                                          "evaluations",
-                                          "factorisations",
-                                          "error_position",
-                                          "error_force",
-                                          "residual_position",
-                                          "residual_velocity",
-                                          "energy_drift",
-                                          "run_time_s",
-                                          "outcome"};
-
 const std::string& name_of(const AnyModel& model) {
   return std::visit([](const auto& m) -> const std::string& { return m.name; }, model);
 }
@@ -145,7 +131,10 @@ void work_precision(const WorkPrecision& options) {
   (void)sample_times({.t_end = 1.0, .samples = options.samples});
   require_writable(options.report);
 
-  Table table{.columns = columns, .rows = {}};
+  Table table{.columns = {"model", "stepper", "tolerance", "steps", "evaluations", "factorisations",
+                          "error_position", "error_force", "residual_position", "residual_velocity",
+                          "energy_drift", "run_time_s", "outcome"},
+              .rows = {}};
   {
     Progress progress(number_of_curves(selected, options));
     Curves curves(options, table, progress);

@@ -12,7 +12,7 @@ namespace dalembert::models {
 
 namespace {
 
-using Vector = VecOf<Real, 2>;
+using PlaneVector = VecOf<Real, 2>;
 constexpr std::size_t count = 7;
 
 /// The link at whose second joint each begins; -1: at a fixed point.
@@ -24,15 +24,15 @@ std::array<Vec<2>, count> fixed_points(const Andrews& a) {
 
 /// A point with its derivatives by the angles and its acceleration at theta'' = 0.
 struct PointMotion {
-  Vector r;
+  PlaneVector r;
   Eigen::Matrix<Real, 2, 7> slope = Eigen::Matrix<Real, 2, 7>::Zero();
-  Vector bias = Vector::Zero();
+  PlaneVector bias = PlaneVector::Zero();
 
   void add(std::size_t link, const Vec<2>& s, const State& y) {
     const Real sine = std::sin(y[link]), cosine = std::cos(y[link]), rate = y[count + link];
-    const Vector arm(cosine * s.x() - sine * s.y(), sine * s.x() + cosine * s.y());
+    const PlaneVector arm(cosine * s.x() - sine * s.y(), sine * s.x() + cosine * s.y());
     r += arm;
-    slope.col(static_cast<int>(link)) += Vector(-arm.y(), arm.x());
+    slope.col(static_cast<int>(link)) += PlaneVector(-arm.y(), arm.x());
     bias -= rate * rate * arm;
   }
 };
@@ -70,7 +70,7 @@ VecOf<Real, 13> solve_motion(const Andrews& a, const State& y) {
   }
   b[0] += a.torque;
   const PointMotion D = motion(a, 2, a.D, y);
-  const Vector spring = D.r - a.C.cast<Real>();
+  const PlaneVector spring = D.r - a.C.cast<Real>();
   const Real l = spring.norm();
   b.head<7>() -= D.slope.transpose() * (a.stiffness * (l - a.relaxed_length) / l * spring);
 

@@ -12,24 +12,25 @@ namespace dalembert::models {
 
 namespace {
 
-using Vector = VecOf<Real, 3>;
+using SpaceVector = VecOf<Real, 3>;
 
 /// A joint and its derivatives with respect to a.
 struct Joint {
-  Vector P, P1, P2;
+  SpaceVector P, P1, P2;
 };
 
 /// P_1 ... P_6.
 std::array<Joint, 6> joints(Real a) {
   const Real s = std::sin(a), c = std::cos(a), w = 1 + s, w2 = w * w, q2 = 1 + 2 * s, q = std::sqrt(q2);
   // Each component f with f' and f''; w' = c, q' = c/q, c^2 = (1 - s) w.
-  const Vector C(c, -s, -c), S(s, c, -s), one(1, 0, 0), zero(0, 0, 0);
-  const Vector c_w(c / w, -1 / w, c / w2);
-  const Vector s_w(s / w, c / w2, (s - 2) / w2);
-  const Vector one_w(1 / w, -c / w2, (2 - s) / w2);
-  const Vector Q(q, c / q, -(s * q2 + c * c) / (q * q2));
-  const Vector q_w(q / w, -c * s / (q * w2), (s * s - c * c + s * c * c / q2 + 2 * s * (1 - s)) / (q * w2));
-  const auto joint = [](const Vector& x, const Vector& y, const Vector& z) {
+  const SpaceVector C(c, -s, -c), S(s, c, -s), one(1, 0, 0), zero(0, 0, 0);
+  const SpaceVector c_w(c / w, -1 / w, c / w2);
+  const SpaceVector s_w(s / w, c / w2, (s - 2) / w2);
+  const SpaceVector one_w(1 / w, -c / w2, (2 - s) / w2);
+  const SpaceVector Q(q, c / q, -(s * q2 + c * c) / (q * q2));
+  const SpaceVector q_w(q / w, -c * s / (q * w2),
+                        (s * s - c * c + s * c * c / q2 + 2 * s * (1 - s)) / (q * w2));
+  const auto joint = [](const SpaceVector& x, const SpaceVector& y, const SpaceVector& z) {
     return Joint{{x[0], y[0], z[0]}, {x[1], y[1], z[1]}, {x[2], y[2], z[2]}};
   };
   return {joint(zero, zero, zero), joint(C, zero, -S),       joint(c_w, -q_w, -s_w),
@@ -40,10 +41,10 @@ std::array<Joint, 6> joints(Real a) {
 struct Motion {
   std::array<Joint, 6> P;
   Real a2;  // a''
-  Vector ground = Vector::Zero();
+  SpaceVector ground = SpaceVector::Zero();
 
   Motion(const Bricard& b, Real a, Real a1) : P(joints(a)) {
-    const Vector g(0, -Real(b.gravity), 0);
+    const SpaceVector g(0, -Real(b.gravity), 0);
     Real M = 0, C = 0, pull = 0;
     for (std::size_t i = 0; i < 5; ++i) {
       const Joint &p = P[i], &r = P[i + 1];
@@ -53,7 +54,7 @@ struct Motion {
     }
     a2 = (pull - C * a1 * a1) / M;
     for (std::size_t i = 0; i < 5; ++i) {
-      const Vector slope = (P[i].P1 + P[i + 1].P1) / 2, bend = (P[i].P2 + P[i + 1].P2) / 2;
+      const SpaceVector slope = (P[i].P1 + P[i + 1].P1) / 2, bend = (P[i].P2 + P[i + 1].P2) / 2;
       ground += b.mass * (slope * a2 + bend * a1 * a1 - g);
     }
   }

@@ -10,6 +10,9 @@ namespace dalembert::extremes {
 
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
+inline constexpr double g = 9.81;
+/// Of a run whose case is not about it.
+inline constexpr double tolerance = 1e-8;
 
 /// What a run may err by, in lengths of the scene, if each of its S steps errs by all that its tolerance
 /// allows, each the same way, and the motion does not amplify errors: e x length in position and

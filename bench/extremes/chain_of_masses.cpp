@@ -1,5 +1,6 @@
 #include "dalembert/bench/extremes/chain_of_masses.h"
 
+#include <dalembert/bench/extremes/bounds.h>
 #include <dalembert/models/minimal_ode.h>
 
 #include <cmath>
@@ -12,8 +13,6 @@ namespace {
 using models::Observation;
 using models::Real;
 using models::State;
-
-constexpr double g = 9.81;
 
 /// Tensions and angular accelerations at y = (p_1, ..., p_1', ...).
 class Forces {

@@ -4,9 +4,9 @@
 
 namespace dalembert::extremes {
 
-namespace {
+namespace one_sided {
 
-using namespace one_sided;
+namespace {
 
 /// The top of a parabola, 1/2 under g = 1, beneath an elastic ceiling. Where that is d below the top the ball
 /// hits it at u = sqrt(2 d), and is thrown back by 2 u (1 + u) until t = 2. Errors E of the height make u
@@ -120,7 +120,10 @@ Case stack() {
 
 }  // namespace
 
+}  // namespace one_sided
+
 std::vector<Case> contacts() {
+  using namespace one_sided;
   return {grazing(), corner(), first_step(), walls(), elastic(), accumulation(), three_balls(), stack()};
 }
 

@@ -8,8 +8,6 @@ namespace dalembert::extremes {
 
 namespace {
 
-constexpr double g = 9.81;
-
 /// How far a failure's time is from the one that is due, of that; infinite if it does not name the culprit.
 double off(const IntegrationFailure& failure, double due, std::string_view culprit) {
   const bool named = std::string_view(failure.what()).find(culprit) != std::string_view::npos;
@@ -110,7 +108,7 @@ Case jump() {
 /// A bead on y = |x|, let go at (1, 1): at a = g/2 each way it is in the corner at sqrt(4/g). There the
 /// gradient jumps, and what an impact does no equation says. The steps' errors of position, over the speed
 /// there, g t/2 each way, are one of time; the scene is no longer than g t^2.
-Case corner() {
+Case corner_of_a_path() {
   const double due = std::sqrt(4.0 / g);
   return {.name = "corner",
           .parameter = "tolerance, of a bead that slides into the corner of y = |x|",
@@ -181,6 +179,6 @@ Case stick() {
 
 }  // namespace
 
-std::vector<Case> discontinuities() { return {kink(), jump(), corner(), stick()}; }
+std::vector<Case> discontinuities() { return {kink(), jump(), corner_of_a_path(), stick()}; }
 
 }  // namespace dalembert::extremes

@@ -7,7 +7,7 @@ namespace dalembert::extremes {
 namespace {
 
 /// At the edge of the cone. A run errs by some tens of its tolerance (models/event_times.h).
-constexpr double tolerance = 1e-8, error_bound = 100.0 * tolerance, g = 9.81;
+constexpr double error_bound = 100.0 * tolerance;
 /// The relative accuracy to which a bound is known, of the forces on either side (DryFriction).
 constexpr double told = 1e4 * epsilon;
 

@@ -8,7 +8,6 @@
 namespace dalembert::extremes::one_sided {
 
 inline constexpr double tolerance = 1e-10;
-inline constexpr double g = 9.81;
 
 /// A particle of 1 kg that moves in a plane, under gravity or none.
 struct Ball {

@@ -6,7 +6,7 @@ namespace dalembert::extremes {
 
 namespace {
 
-constexpr double t_end = 10.0, tolerance = 1e-8;
+constexpr double t_end = 10.0;
 
 /// A lone particle and its closed form; it has no length but that of its path.
 template <int D>
@@ -76,7 +76,7 @@ Lone<2> knife_edge(double v) {
 
 /// The largest error over the largest coordinate.
 template <int D>
-Result compared(const Lone<D>& s, Stepper stepper) {
+Result compared_alone(const Lone<D>& s, Stepper stepper) {
   const Trajectory<D> run = simulate(s.scene, {.t_end = t_end, .tolerance = tolerance, .stepper = stepper});
   double error = 0.0, way = 0.0;
   for (std::size_t i = 0; i < run.size(); ++i) {
@@ -97,7 +97,7 @@ Case free(const char* name, Lone<D> (*start)(double)) {
       .parameter = "speed at the start [m/s]",
       .sweep = {0.0, 1e-9, 1e-6, 1e-4, 1e-3, 1e-2, 1e-1, 1.0},
       .brief = {0.0, 1e-6},
-      .run = [start](double speed, Stepper stepper) { return compared(start(speed), stepper); },
+      .run = [start](double speed, Stepper stepper) { return compared_alone(start(speed), stepper); },
       .limit = [](const Run& run) { return 2.0 * added_up(run, tolerance, t_end / run.statistics.time); }};
 }
 

@@ -16,8 +16,6 @@ using models::Observed;
 using models::Real;
 using models::State;
 
-constexpr double g = 9.81;
-
 /// Where a planar pendulum's bob is.
 Vec<2> at_angle(Real r, Real phi) {
   return {static_cast<double>(r * std::sin(phi)), static_cast<double>(-r * std::cos(phi))};

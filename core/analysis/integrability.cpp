@@ -13,7 +13,7 @@ namespace dalembert {
 namespace {
 
 /// Entries of (1) below this fraction of the derivatives they come from are round-off.
-constexpr double round_off = 1e-10;
+constexpr double rounding_of_derivatives = 1e-10;
 
 /// Rows as one-forms over (q, t), and for each nonholonomic row its J.
 struct Forms {
@@ -126,7 +126,8 @@ bool integrable(const Forms& forms, const std::vector<std::size_t>& rows, std::s
     if (r < holonomic) return true;
     const Eigen::MatrixXd& J = forms.derivative[r - holonomic];
     const Eigen::MatrixXd B = X.transpose() * (J - J.transpose()) * X;
-    return B.size() == 0 || B.cwiseAbs().maxCoeff() <= round_off * std::max(J.cwiseAbs().maxCoeff(), 1e-300);
+    return B.size() == 0 ||
+           B.cwiseAbs().maxCoeff() <= rounding_of_derivatives * std::max(J.cwiseAbs().maxCoeff(), 1e-300);
   });
 }
 

@@ -6,23 +6,22 @@
 
 namespace dalembert {
 
-namespace {
-
-struct Room {
+struct SlidingFriction::Room {
   std::vector<double> psi, w, psi_q, stiffness, sigma;  // of the whole batch
   std::vector<double> d, f;                             // of one
   double speed = 0.0;                                   // |u + s d0|
+
+  /// Kept from call to call for its memory alone.
+  static Room& spare() {
+    thread_local Room kept;
+    return kept;
+  }
 };
-
-/// Kept from call to call for its memory alone.
-thread_local Room spare;
-
-}  // namespace
 
 /// Of one call: two threads may read one run, and the equation of a slip velocity another run.
 struct SlidingFriction::Work : Room {
-  Work() : Room(std::exchange(spare, {})) {}
-  ~Work() { spare = std::move(static_cast<Room&>(*this)); }
+  Work() : Room(std::exchange(spare(), {})) {}
+  ~Work() { spare() = std::move(static_cast<Room&>(*this)); }
   Work(const Work&) = delete;
   Work& operator=(const Work&) = delete;
 };

@@ -47,6 +47,7 @@ class SlidingFriction final : public ForceBatch {
              std::span<double> F) const;
 
  private:
+  struct Room;
   struct Work;
   void evaluate(const Instant& at, Work& work) const;
   /// d of (1), and per unit of lambda the force along it.

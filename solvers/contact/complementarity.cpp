@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Entries of a column below this fraction of its largest, a rounding error for each pivot so far, are 0.
-constexpr double round_off = 1e3 * epsilon;
+constexpr double rounding_of_pivots = 1e3 * epsilon;
 
 /// The equations w - M z - 1 z0 = q solved for the basic variables: each row is (w-part | z-part | z0 | q).
 /// Variables are numbered in that order, w_i is i, z_i is n + i, z0 is 2 n.
@@ -35,7 +35,7 @@ class Tableau {
   /// The ratio test: the row whose basic variable is the first to vanish as another grows from 0; none if
   /// that is unbounded. Ties go to z0, else to the lexicographically least row.
   [[nodiscard]] std::optional<Index> blocking_row(Index entering) const {
-    const double least = round_off * rows_.col(entering).cwiseAbs().maxCoeff();
+    const double least = rounding_of_pivots * rows_.col(entering).cwiseAbs().maxCoeff();
     std::optional<Index> best;
     for (Index i = 0; i < n_; ++i) {
       if (rows_(i, entering) <= least) continue;
@@ -47,7 +47,7 @@ class Tableau {
   /// lexicographic order.
   [[nodiscard]] Index most_negative() const {
     const auto q = rows_.col(2 * n_ + 1);
-    const double least = q.minCoeff() * (1.0 - round_off);
+    const double least = q.minCoeff() * (1.0 - rounding_of_pivots);
     Index row = n_ - 1;
     while (q[row] > least) --row;
     return row;
@@ -84,7 +84,7 @@ class Tableau {
     const double a = rows_(i, entering), b = rows_(k, entering);
     const auto ratio = [&](Index column) {
       const double x = rows_(i, column) / a, y = rows_(k, column) / b;
-      return std::abs(x - y) <= round_off * std::max({std::abs(x), std::abs(y), 1.0}) ? 0.0 : x - y;
+      return std::abs(x - y) <= rounding_of_pivots * std::max({std::abs(x), std::abs(y), 1.0}) ? 0.0 : x - y;
     };
     if (const double d = ratio(2 * n_ + 1); d != 0.0) return d < 0.0;
     if (basis_[static_cast<std::size_t>(i)] == z0()) return true;
@@ -113,7 +113,7 @@ std::optional<VectorXd> complementary_solution(const MatrixXd& M, const VectorXd
   while (leaving != tableau.z0()) {
     const Index entering = tableau.complement(leaving);
     const auto row = tableau.blocking_row(entering);
-    if (!row && tableau.value_of_z0() <= round_off) break;  // solved but for round-off
+    if (!row && tableau.value_of_z0() <= rounding_of_pivots) break;  // solved but for round-off
     if (!row) return std::nullopt;
     leaving = tableau.exchange(*row, entering);
   }

@@ -19,7 +19,7 @@ namespace {
 using Eigen::Index;
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
-constexpr double round_off = roundings_of_a_sum * epsilon;
+constexpr double round_off_of_a_sum = roundings_of_a_sum * epsilon;
 
 /// The problem (1) of the header for some coordinates, u = shapes z.
 struct Tangent {
@@ -34,7 +34,7 @@ struct Tangent {
 Matrix onto(const Matrix& N, const Matrix& X) {
   const Matrix Y = N.transpose() * X * N;
   const Matrix size = N.cwiseAbs().transpose() * X.cwiseAbs() * N.cwiseAbs();
-  return (Y.array().abs() > round_off * size.array()).select(Y, Matrix::Zero(Y.rows(), Y.cols()));
+  return (Y.array().abs() > round_off_of_a_sum * size.array()).select(Y, Matrix::Zero(Y.rows(), Y.cols()));
 }
 
 Tangent tangent(const System& system, const LinearTerms& terms, std::vector<std::size_t> coordinates,
@@ -105,7 +105,7 @@ void refute(Modes& found, Stability stability, const std::string& reason) {
 /// K z = omega^2 z. What is within round-off of 0 counts as 0, to be decided by a finite motion.
 void of_conservative(const Tangent& t, Modes& found) {
   const auto [square, shapes] = dense::symmetric_eigen(t.K);
-  const double zero = round_off * (square.size() > 0 ? square.cwiseAbs().maxCoeff() : 0.0);
+  const double zero = round_off_of_a_sum * (square.size() > 0 ? square.cwiseAbs().maxCoeff() : 0.0);
   for (Index k = 0; k < square.size(); ++k) {
     std::complex<double> s = std::sqrt(std::complex<double>(-square[k]));
     if (std::abs(square[k]) <= zero) s = 0.0;
@@ -149,7 +149,7 @@ FirstOrder first_order(const Tangent& t) {
 Matrix states_at_rest(const Tangent& t, const FirstOrder& f) {
   Matrix S(f.P.cols() + t.E.rows(), t.K.cols());
   S << f.P.transpose() * t.K, t.E;
-  return dense::kernel(S, round_off);
+  return dense::kernel(S, round_off_of_a_sum);
 }
 
 /// Orthonormal bases of the span of independent columns, and of its complement.
@@ -166,7 +166,7 @@ struct Deflated {
   Deflated(const Matrix& A, const Matrix& at_rest) {
     const auto [still, moving] = split(at_rest);
     const Matrix again = moving.transpose() * A * moving;  // rows of any size
-    const Matrix further = dense::kernel(again.rowwise().normalized(), round_off);
+    const Matrix further = dense::kernel(again.rowwise().normalized(), round_off_of_a_sum);
     const auto [steady, others] = split(further.leftCols(std::min(further.cols(), at_rest.cols())));
     zeros.resize(A.rows(), still.cols() + steady.cols());
     zeros << still, moving * steady;
@@ -187,17 +187,18 @@ struct Deflated {
 /// C positive semi-definite. Each coordinate is scaled by its own damping, so that a strong damper hides no
 /// weak negative one.
 bool has_energy(const Tangent& t) {
-  if (!t.symmetric || t.E.norm() > round_off) return false;
+  if (!t.symmetric || t.E.norm() > round_off_of_a_sum) return false;
   Matrix D = onto(Matrix::Identity(t.C.rows(), t.C.rows()), t.C);
   D = ((D + D.transpose()) / 2).eval();
-  D = (D.array().abs() > round_off * (t.C.cwiseAbs() + t.C.transpose().cwiseAbs()).array()).select(D, 0.0);
+  D = (D.array().abs() > round_off_of_a_sum * (t.C.cwiseAbs() + t.C.transpose().cwiseAbs()).array())
+          .select(D, 0.0);
   Vector scale(D.rows());
   for (Index i = 0; i < D.rows(); ++i) {
     if (D(i, i) < 0.0 || (D(i, i) == 0.0 && !D.row(i).isZero(0.0))) return false;
     scale[i] = D(i, i) > 0.0 ? 1.0 / std::sqrt(D(i, i)) : 0.0;
   }
   const Vector shares = dense::symmetric_eigen(scale.asDiagonal() * D * scale.asDiagonal()).values;
-  return D.rows() == 0 || shares.minCoeff() >= -round_off;
+  return D.rows() == 0 || shares.minCoeff() >= -round_off_of_a_sum;
 }
 
 /// Draws the conclusion from an eigenvalue that is known to an error.
@@ -237,7 +238,7 @@ void of_any(Tangent t, Modes& found) {
     const Eigen::VectorXcd z = deflated.lift(f.matrix, s, right.col(k)).head(t.K.rows());
     const double kinetic = std::norm(s) * z.squaredNorm();
     const double energy = kinetic + (z.adjoint() * t.K * z)(0, 0).real();
-    const double unknown = round_off * z.cwiseAbs().dot(t.K.cwiseAbs() * z.cwiseAbs());
+    const double unknown = round_off_of_a_sum * z.cwiseAbs().dot(t.K.cwiseAbs() * z.cwiseAbs());
     found.modes.push_back(mode(Omega * s, z, t));
     judge(found, Omega * s, Omega * error, energy_tells && energy > 1e-9 * kinetic + unknown);
   }

@@ -1,6 +1,7 @@
 #include "dalembert/solvers/linear/klu.h"
 
 #include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/linear/mutable_data.h>
 
 #include <klu.h>
 
@@ -10,30 +11,19 @@
 
 namespace dalembert {
 
-namespace {
-
-struct FreeSymbolic {
-  klu_common* common;
-  void operator()(klu_symbolic* p) const { klu_free_symbolic(&p, common); }
-};
-struct FreeNumeric {
-  klu_common* common;
-  void operator()(klu_numeric* p) const { klu_free_numeric(&p, common); }
-};
-
-/// KLU does not say what it leaves as it is.
-int* data(const std::vector<int>& x) { return const_cast<int*>(x.data()); }
-
-}  // namespace
-
 struct LuPattern::State {
+  struct Free {
+    klu_common* common;
+    void operator()(klu_symbolic* p) const { klu_free_symbolic(&p, common); }
+  };
+
   State(std::size_t size, std::span<const Entry> entries);
 
   std::size_t size;
   std::vector<int> column_start, row;  // compressed columns
   std::vector<std::size_t> place;      // of the k-th entry of the list
   klu_common common{};
-  std::unique_ptr<klu_symbolic, FreeSymbolic> symbolic{nullptr, {&common}};
+  std::unique_ptr<klu_symbolic, Free> symbolic{nullptr, {&common}};
 
  private:
   void compress(std::span<const Entry> entries);
@@ -72,6 +62,11 @@ LuPattern::~LuPattern() = default;
 std::size_t LuPattern::size() const { return state_->size; }
 
 struct SparseLU::State {
+  struct Free {
+    klu_common* common;
+    void operator()(klu_numeric* p) const { klu_free_numeric(&p, common); }
+  };
+
   explicit State(const LuPattern::State& of) : pattern(&of), value(of.row.size()), seen(of.size) {
     klu_defaults(&common);
   }
@@ -79,7 +74,7 @@ struct SparseLU::State {
   const LuPattern::State* pattern;
   klu_common common{};
   std::vector<double> value;
-  std::unique_ptr<klu_numeric, FreeNumeric> numeric{nullptr, {&common}};
+  std::unique_ptr<klu_numeric, Free> numeric{nullptr, {&common}};
   double condition_when_pivoted = 0.0;
   std::vector<char> seen;  // for sign_of_permutation
 
@@ -96,7 +91,7 @@ void SparseLU::set_zero() { std::ranges::fill(state_->value, 0.0); }
 void SparseLU::add(std::size_t k, double value) { state_->value[state_->pattern->place[k]] += value; }
 
 bool SparseLU::State::pivot() {
-  numeric.reset(klu_factor(data(pattern->column_start), data(pattern->row), value.data(),
+  numeric.reset(klu_factor(mutable_data(pattern->column_start), mutable_data(pattern->row), value.data(),
                            pattern->symbolic.get(), &common));
   if (!numeric || common.status != KLU_OK) return false;
   klu_rcond(pattern->symbolic.get(), numeric.get(), &common);
@@ -109,11 +104,11 @@ bool SparseLU::factorise() {
   klu_symbolic* const symbolic = s.pattern->symbolic.get();
   if (symbolic == nullptr) return false;  // structurally hopeless, or out of memory
   if (!s.numeric) return s.pivot();
-  const bool same_pivots_serve = klu_refactor(data(s.pattern->column_start), data(s.pattern->row),
-                                              s.value.data(), symbolic, s.numeric.get(), &s.common) != 0 &&
-                                 s.common.status == KLU_OK &&
-                                 klu_rcond(symbolic, s.numeric.get(), &s.common) != 0 &&
-                                 s.common.rcond > constants.tolerated_loss * s.condition_when_pivoted;
+  const bool same_pivots_serve =
+      klu_refactor(mutable_data(s.pattern->column_start), mutable_data(s.pattern->row), s.value.data(),
+                   symbolic, s.numeric.get(), &s.common) != 0 &&
+      s.common.status == KLU_OK && klu_rcond(symbolic, s.numeric.get(), &s.common) != 0 &&
+      s.common.rcond > constants.tolerated_loss * s.condition_when_pivoted;
   return same_pivots_serve || s.pivot();
 }
 

@@ -1,6 +1,7 @@
 #include "dalembert/solvers/linear/ldl.h"
 
 #include <dalembert/solvers/base/numbers.h>
+#include <dalembert/solvers/linear/mutable_data.h>
 
 extern "C" {  // SuiteSparse 5's ldl.h lacks the guard
 #include <ldl.h>
@@ -17,10 +18,7 @@ namespace {
 
 /// A pivot below this part of its diagonal entry is round-off: each is a difference of sums of a
 /// few terms, good to a few units of precision of that entry.
-constexpr double round_off = 64.0 * epsilon;
-
-/// LDL and AMD do not say what they leave as it is.
-int* data(const std::vector<int>& x) { return const_cast<int*>(x.data()); }
+constexpr double least_pivot = 64.0 * epsilon;
 
 }  // namespace
 
@@ -100,10 +98,10 @@ bool SparseLdl::factorise() {
   smallest_pivot_ = 0.0;
   const LdlPattern& p = *pattern_;
   const auto size = static_cast<int>(pivot_.size());
-  const int factored =
-      ldl_numeric(size, data(p.column_start_), data(p.row_), value_.data(), data(p.l_start_), data(p.parent_),
-                  l_count_.data(), l_row_.data(), l_value_.data(), pivot_.data(), work_.data(),
-                  nonzeros_.data(), flag_.data(), nullptr, nullptr);
+  const int factored = ldl_numeric(size, mutable_data(p.column_start_), mutable_data(p.row_), value_.data(),
+                                   mutable_data(p.l_start_), mutable_data(p.parent_), l_count_.data(),
+                                   l_row_.data(), l_value_.data(), pivot_.data(), work_.data(),
+                                   nonzeros_.data(), flag_.data(), nullptr, nullptr);
   if (factored != size) {
     std::ranges::fill(work_, 0.0);  // LDL expects its work space clean
     return false;
@@ -114,7 +112,7 @@ bool SparseLdl::factorise() {
     if (!(ratio >= smallest)) smallest = ratio;
   }
   smallest_pivot_ = smallest;
-  return smallest > round_off;
+  return smallest > least_pivot;
 }
 
 void SparseLdl::solve(std::span<double> x) {
@@ -124,7 +122,7 @@ void SparseLdl::solve(std::span<double> x) {
   }
   const auto& position = pattern_->position_;
   const auto size = static_cast<int>(pivot_.size());
-  int* const l_start = data(pattern_->l_start_);
+  int* const l_start = mutable_data(pattern_->l_start_);
   const std::span<double> y = position.empty() ? x : std::span(work_);
   for (std::size_t i = 0; i < position.size(); ++i) y[position[i]] = x[i];
   ldl_lsolve(size, y.data(), l_start, l_row_.data(), l_value_.data());

@@ -15,7 +15,7 @@ namespace {
 
 /// A law that is linear between two steps needs two, one that changes its slope with the sign of
 /// lambda three; smooth laws converge quadratically.
-constexpr int most_steps = 30;
+constexpr int most_newton_steps = 30;
 
 /// Newton's iteration stops when the forces are those that the last slope predicted, to some hundred
 /// roundings of the user's law.
@@ -67,7 +67,7 @@ FrictionSolver::Outcome FrictionSolver::iterate(const Instant& at, std::span<con
   const std::size_t n = force_.size();
   std::ranges::fill(force_, 0.0);
   system_->add_friction(at, lambda_, force_);
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < most_newton_steps; ++step) {
     system_->friction_slope(at, lambda_, slope_);
     if (!matrix_.factorise({.w = w, .s = s, .slope = slope_}))
       return matrix_.factorise({.w = w, .s = s}) ? Outcome::none : Outcome::singular;

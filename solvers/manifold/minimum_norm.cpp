@@ -10,8 +10,6 @@ namespace dalembert {
 
 namespace {
 
-constexpr double round_off = epsilon;
-
 /// The worst change of the positions is some times worse than the one that is tried.
 constexpr double margin = 10.0;
 
@@ -40,7 +38,7 @@ double rounding(const System& system, const Instant& at, const System::Evaluatio
   constexpr double roundings = 4.0;
   double size = 0.0;
   for (std::size_t i = 0; i < lengths.size(); ++i)
-    size = std::max(size, roundings * round_off * std::abs(at.q[i]) * lengths[i]);
+    size = std::max(size, roundings * epsilon * std::abs(at.q[i]) * lengths[i]);
   for (std::size_t r = 0; r < e.g.size(); ++r) {
     if (!system.law(r).yields() && e.g[r] != 0.0)
       size = std::max(size, std::abs(e.g[r]) / gradient_length(system, e.w, lengths, r));
@@ -128,7 +126,7 @@ void MinimumNorm::find_null_space(const Solve& solve, std::span<const double> w)
       for (std::size_t r = 0; r < y.size(); ++r) N_(active_[r], j) += y[r];
     }
     solve_for_correction(solve, nearby_.w, j);
-    double change = round_off * N_.col(j).cwiseProduct(size_).lpNorm<Eigen::Infinity>();
+    double change = epsilon * N_.col(j).cwiseProduct(size_).lpNorm<Eigen::Infinity>();
     for (std::size_t r = 0; r < y.size(); ++r) change = std::max(change, std::abs(y[r]) * size_[active_[r]]);
     zero_[j] = margin * change;
   }

@@ -15,7 +15,7 @@ namespace dalembert {
 namespace {
 
 /// What Newton's iteration leaves when it has converged; a few units of round-off.
-constexpr double converged = 1e-14;
+constexpr double converged_to = 1e-14;
 
 /// The equations at a state whose springs are as long as it says: compliant rows are satisfied there.
 void evaluate_relaxed(const System& system, const Instant& at, System::Evaluation& e) {
@@ -122,7 +122,7 @@ void start_positions(const Problem& problem, Start& start, const System::Evaluat
   // the constraints do so only roughly nearby, and must not be solved against each other.
   const double known = std::max(rank_threshold, std::min(10.0 * given.size / L, 1e-3));
   Manifold manifold(problem, independent_rows(system, e.w, known), lengths);
-  require_satisfied(system, manifold.project_positions(options.t_start, start.q, start.v, converged * L),
+  require_satisfied(system, manifold.project_positions(options.t_start, start.q, start.v, converged_to * L),
                     bound, options.t_start, "distance");
 }
 
@@ -195,7 +195,8 @@ Start begin_changed(const Problem& problem, const Start& before, double t, std::
   system.evaluate({t, q, v}, e);
   const auto lengths = start.scales.lengths();
   const ActiveRows apart = independent_rows(system, e.w, std::max(rank_threshold, known));
-  Manifold(problem, apart, lengths).project_positions(t, start.q, start.v, converged * start.scales.length);
+  Manifold(problem, apart, lengths)
+      .project_positions(t, start.q, start.v, converged_to * start.scales.length);
   system.evaluate({t, start.q, start.v}, e);
   start.rows = independent_rows(system, e.w);
   Manifold manifold(problem, start.rows, lengths);
@@ -247,7 +248,7 @@ Start begin_anew(const Problem& problem, const Start& before, double t, std::spa
   system.evaluate({t, q, v}, e);
   start.rows = independent_rows(system, e.w, before.rows);
   Manifold manifold(problem, start.rows, start.scales.lengths());
-  manifold.project_positions(t, start.q, start.v, converged * start.scales.length);
+  manifold.project_positions(t, start.q, start.v, converged_to * start.scales.length);
   if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda))
     throw StepFailure{"the constraints became linearly dependent", t};
   return start;

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dalembert {
+namespace dalembert::coincident_test {
 namespace {
 
 constexpr double round_off = 16.0 * std::numeric_limits<double>::epsilon();
@@ -65,4 +65,4 @@ TEST(Coincident, CarriesAParticleAlongADrivenPath) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::coincident_test

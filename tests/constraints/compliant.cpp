@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace dalembert {
+namespace dalembert::compliant_test {
 namespace {
 
 using testing::AllOf;
@@ -193,4 +193,4 @@ TEST(Compliant, IsTheAdviceForAStiffSpringGivenAsAForce) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::compliant_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <string>
 
-namespace dalembert {
+namespace dalembert::disk_on_plane_test {
 namespace {
 
 constexpr double g = 9.81, mass = 2.0, radius = 0.5;
@@ -62,4 +62,4 @@ TEST(DiskOnPlane, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::disk_on_plane_test

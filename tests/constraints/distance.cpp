@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace dalembert {
+namespace dalembert::distance_test {
 namespace {
 
 using testing::AllOf;
@@ -100,4 +100,4 @@ TEST(Distance, CoincidentPointsAreNamed) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::distance_test

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace dalembert {
+namespace dalembert::holonomic_test {
 namespace {
 
 using testing::AllOf;
@@ -153,4 +153,4 @@ TEST(Holonomic, AnEquationThatDependsOnNothingIsNamed) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::holonomic_test

@@ -6,7 +6,7 @@
 #include <string>
 
 // Joints by hand: one door, its reactions and multipliers, springs, errors.
-namespace dalembert {
+namespace dalembert::joints_test {
 namespace {
 
 constexpr double round_off = 1e-12;  // of forces of some 100: a hundred roundings
@@ -189,4 +189,4 @@ TEST(Gear, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::joints_test

@@ -14,7 +14,7 @@
 //   |U(psi) - L(theta)| = |U_0 - L_0|,   |S(chi) - T| = |S_0 - T|,
 //
 // each by Newton's iteration. Three bodies' 18 equations give the 18 forces and torques.
-namespace dalembert {
+namespace dalembert::joints_double_wishbone_test {
 namespace {
 
 using namespace newton_euler;
@@ -172,4 +172,4 @@ TEST_P(DoubleWishbone, HasTheForcesOfNewtonAndEuler) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::joints_double_wishbone_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dalembert {
+namespace dalembert::joints_gears_test {
 namespace {
 
 constexpr double gravity = 9.81;
@@ -183,4 +183,4 @@ TEST_P(GearTrain, LosesNoTooth) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::joints_gears_test

@@ -15,7 +15,7 @@
 // spindle the nut exerts P + m_s (x'' + g) upwards and the torque J phi'' about its axis, the ratio of which
 // is -kappa but for inertia: F kappa + J phi'' = 0. The ram hangs offset by c from the spindle's axis: its
 // slide takes the moment of P and the weight.
-namespace dalembert {
+namespace dalembert::joints_press_test {
 namespace {
 
 constexpr double pitch = 0.02, kappa = pitch / (2.0 * std::numbers::pi), J = 4e-4, m_s = 3.0, m_r = 5.0;
@@ -83,4 +83,4 @@ TEST_P(ScrewPress, LosesNoThread) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::joints_press_test

@@ -17,7 +17,7 @@
 // e_2 the axis of the driven one: n = (e_2 - (e_2 . u) u)/sqrt(1 - sin^2 b cos^2 a). About e_2, T n . e_2 =
 // J_2 a_2''. Across it the driven shaft, whose centre and axis stand still, gives no torque: that of T n is
 // balanced by the couple of the far bearing, at a distance l, and of the joint, which bears F = T n x e_2/l.
-namespace dalembert {
+namespace dalembert::joints_shaft_test {
 namespace {
 
 constexpr double b = 0.6, J1 = 0.3, J2 = 0.8, l = 1.5, speed = 4.0;
@@ -103,4 +103,4 @@ TEST_P(UniversalShaft, HasTheClassicalRatioAndTheTorqueOfItsCross) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::joints_shaft_test

@@ -14,7 +14,7 @@
 //
 // The coupler's axes are e, p, e x p: its turn about itself too is given. Six equations of the coupler and
 // that of the slider along x give the force at B (3), at C (3) and the torque of the cross; the rest follows.
-namespace dalembert {
+namespace dalembert::joints_slider_crank_test {
 namespace {
 
 using namespace newton_euler;
@@ -126,4 +126,4 @@ TEST_P(SpatialSliderCrank, HasTheForcesOfNewtonAndEuler) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::joints_slider_crank_test

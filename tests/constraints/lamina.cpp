@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-namespace dalembert {
+namespace dalembert::lamina_test {
 namespace {
 
 constexpr double round_off = 50.0 * std::numeric_limits<double>::epsilon();  // some ten operations
@@ -68,4 +68,4 @@ TEST(Lamina, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::lamina_test

@@ -2,7 +2,7 @@
 #include <dalembert/constraints/disk_on_plane.h>
 #include <dalembert/constraints/upright_rolling.h>
 
-namespace dalembert::laws {
+namespace dalembert::laws::laws_disks_test {
 namespace {
 
 // clang-format off: one line for each constraint type
@@ -23,4 +23,4 @@ const bool registered = [] {
 // clang-format on
 
 }  // namespace
-}  // namespace dalembert::laws
+}  // namespace dalembert::laws::laws_disks_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dalembert::laws {
+namespace dalembert::laws::laws_joints_drives_test {
 namespace {
 
 /// A drive of an angle with its hinge: without one, bodies that tilt have no angle to speak of.
@@ -74,4 +74,4 @@ const bool registered = [] {
 // clang-format on
 
 }  // namespace
-}  // namespace dalembert::laws
+}  // namespace dalembert::laws::laws_joints_drives_test

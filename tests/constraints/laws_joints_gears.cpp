@@ -1,6 +1,6 @@
 #include "laws_joints.h"
 
-namespace dalembert::laws {
+namespace dalembert::laws::laws_joints_gears_test {
 namespace {
 
 // clang-format off: one line for each joint
@@ -25,4 +25,4 @@ const bool registered = [] {
 // clang-format on
 
 }  // namespace
-}  // namespace dalembert::laws
+}  // namespace dalembert::laws::laws_joints_gears_test

@@ -1,6 +1,6 @@
 #include "laws_joints.h"
 
-namespace dalembert::laws {
+namespace dalembert::laws::laws_joints_space_test {
 namespace {
 
 const bool registered = [] {
@@ -35,4 +35,4 @@ const bool registered = [] {
 }();
 
 }  // namespace
-}  // namespace dalembert::laws
+}  // namespace dalembert::laws::laws_joints_space_test

@@ -6,7 +6,7 @@
 #include <dalembert/constraints/on_surface.h>
 #include <dalembert/constraints/prescribed.h>
 
-namespace dalembert::laws {
+namespace dalembert::laws::laws_moving_test {
 namespace {
 
 // clang-format off: one line for each constraint type
@@ -45,4 +45,4 @@ const bool registered = [] {
 // clang-format on
 
 }  // namespace
-}  // namespace dalembert::laws
+}  // namespace dalembert::laws::laws_moving_test

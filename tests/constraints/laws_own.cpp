@@ -2,7 +2,7 @@
 #include <dalembert/constraints/holonomic.h>
 #include <dalembert/constraints/nonholonomic.h>
 
-namespace dalembert::laws {
+namespace dalembert::laws::laws_own_test {
 namespace {
 
 // clang-format off: one line for each constraint type
@@ -55,4 +55,4 @@ const bool registered = [] {
 // clang-format on
 
 }  // namespace
-}  // namespace dalembert::laws
+}  // namespace dalembert::laws::laws_own_test

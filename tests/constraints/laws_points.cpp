@@ -3,7 +3,7 @@
 #include <dalembert/constraints/coincident.h>
 #include <dalembert/constraints/distance.h>
 
-namespace dalembert::laws {
+namespace dalembert::laws::laws_points_test {
 namespace {
 
 // clang-format off: one line for each constraint type
@@ -43,4 +43,4 @@ const bool registered = [] {
 // clang-format on
 
 }  // namespace
-}  // namespace dalembert::laws
+}  // namespace dalembert::laws::laws_points_test

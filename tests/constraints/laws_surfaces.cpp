@@ -2,7 +2,7 @@
 #include <dalembert/constraints/on_curve.h>
 #include <dalembert/constraints/on_surface.h>
 
-namespace dalembert::laws {
+namespace dalembert::laws::laws_surfaces_test {
 namespace {
 
 // clang-format off: one line for each constraint type
@@ -39,4 +39,4 @@ const bool registered = [] {
 // clang-format on
 
 }  // namespace
-}  // namespace dalembert::laws
+}  // namespace dalembert::laws::laws_surfaces_test

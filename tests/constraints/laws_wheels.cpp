@@ -3,7 +3,7 @@
 #include <dalembert/constraints/pursuit.h>
 #include <dalembert/constraints/rolling.h>
 
-namespace dalembert::laws {
+namespace dalembert::laws::laws_wheels_test {
 namespace {
 
 // clang-format off: one line for each constraint type
@@ -23,4 +23,4 @@ const bool registered = [] {
 // clang-format on
 
 }  // namespace
-}  // namespace dalembert::laws
+}  // namespace dalembert::laws::laws_wheels_test

@@ -9,7 +9,7 @@
 #include <vector>
 
 // What is read of a body's motion, against what was stated and against the closed form of a free top.
-namespace dalembert {
+namespace dalembert::motion_test {
 namespace {
 
 // Sums of four particles' terms of size up to 10, some ten operations each.
@@ -182,4 +182,4 @@ TEST_P(FreeTop, TurnsAsItsClosedFormDoes) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::motion_test

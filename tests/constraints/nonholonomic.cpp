@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace dalembert {
+namespace dalembert::nonholonomic_test {
 namespace {
 
 using testing::AllOf;
@@ -59,4 +59,4 @@ TEST(Nonholonomic, AnEquationThatIsNoNumberIsNamed) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::nonholonomic_test

@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace dalembert {
+namespace dalembert::on_curve_test {
 namespace {
 
 using testing::AllOf;
@@ -81,4 +81,4 @@ TEST(OnCurve, APointWithoutNormalIsNamed) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::on_curve_test

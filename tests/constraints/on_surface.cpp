@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace dalembert {
+namespace dalembert::on_surface_test {
 namespace {
 
 using testing::AllOf;
@@ -136,4 +136,4 @@ TEST(OnSurface, APointWithoutNormalIsNamed) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::on_surface_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace dalembert {
+namespace dalembert::rigid_body_test {
 namespace {
 
 constexpr double round_off = 50.0 * std::numeric_limits<double>::epsilon();  // some ten operations
@@ -88,4 +88,4 @@ TEST_P(Body, CarriesForcesOfTheSizeOfItsLoadInside) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::rigid_body_test

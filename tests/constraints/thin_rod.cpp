@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-namespace dalembert {
+namespace dalembert::thin_rod_test {
 namespace {
 
 constexpr double round_off = 20.0 * std::numeric_limits<double>::epsilon();  // a few operations
@@ -60,4 +60,4 @@ TEST(ThinRod, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::thin_rod_test

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace dalembert {
+namespace dalembert::audit_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -66,4 +66,4 @@ TEST(Audit, NamesThePowerOfEachForce) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::audit_test

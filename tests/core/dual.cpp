@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace dalembert {
+namespace dalembert::dual_test {
 namespace {
 
 using std::abs, std::acos, std::acosh, std::asin, std::asinh, std::atan, std::atan2, std::atanh, std::cbrt,
@@ -290,4 +290,4 @@ TEST(Dual, AVectorMixesNumbersAndDuals) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::dual_test

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace dalembert {
+namespace dalembert::failed_copies_test {
 namespace {
 
 /// A parameter whose copies fail on demand.
@@ -47,4 +47,4 @@ TEST(FailedCopies, OfAnElementLeaveNoTrace) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::failed_copies_test

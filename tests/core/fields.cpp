@@ -7,7 +7,7 @@
 
 #include <limits>
 
-namespace dalembert {
+namespace dalembert::fields_test {
 namespace {
 
 using testing::AllOf;
@@ -93,4 +93,4 @@ TEST_F(Fields, RefuseWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::fields_test

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace dalembert {
+namespace dalembert::forces_test {
 namespace {
 
 using testing::AllOf;
@@ -181,4 +181,4 @@ TEST_F(Forces, ABadNumberOrAnExceptionNamesTheForce) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::forces_test

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace dalembert {
+namespace dalembert::friction_test {
 namespace {
 
 using testing::AllOf;
@@ -161,4 +161,4 @@ TEST(FrictionAudit, NamesItsPower) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::friction_test

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace dalembert {
+namespace dalembert::integrability_test {
 namespace {
 
 using testing::HasSubstr;
@@ -123,4 +123,4 @@ TEST(Integrability, JudgesSetsThatShareNothingApart) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::integrability_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dalembert {
+namespace dalembert::islands_test {
 namespace {
 
 TEST(Islands, AreWhatNoRodAndNoForceConnects) {
@@ -22,4 +22,4 @@ TEST(Islands, AreWhatNoRodAndNoForceConnects) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::islands_test

@@ -41,7 +41,7 @@ struct Circle {
 
 }  // namespace someone
 
-namespace dalembert {
+namespace dalembert::own_elements_test {
 namespace {
 
 /// On a unit circle at (1, 0) with v = (0, 2): F = -2 r - v/2 + lambda v/4, and lambda = -v^2 + 2.
@@ -69,4 +69,4 @@ TEST(OwnElements, OfAnotherNamespaceAreElementsLikeAnyOther) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::own_elements_test

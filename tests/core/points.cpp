@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace dalembert {
+namespace dalembert::points_test {
 namespace {
 
 /// Holds two points and does nothing else.
@@ -70,4 +70,4 @@ TEST(Driven, APointThatStandsStillHasNoVelocity) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::points_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace dalembert {
+namespace dalembert::scene_test {
 namespace {
 
 using testing::AllOf;
@@ -227,4 +227,4 @@ TEST(Scene, LaterChangesDoNotReachASystemMadeBefore) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::scene_test

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace dalembert {
+namespace dalembert::scene_values_test {
 namespace {
 
 using testing::AllOf;
@@ -289,4 +289,4 @@ TEST(SceneValues, GravityIsAForceWithAName) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::scene_values_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dalembert {
+namespace dalembert::sliding_friction_test {
 namespace {
 
 /// Two particles on spheres, one rough; and a third that does not slide, of the same type.
@@ -75,4 +75,4 @@ TEST_F(Slides, OfTheSurfacesAreAtRightAnglesToTheirGradients) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::sliding_friction_test

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace dalembert {
+namespace dalembert::statistics_test {
 namespace {
 
 TEST(Statistics, ReportIsOneLineWithEveryNumber) {
@@ -25,4 +25,4 @@ TEST(Statistics, ReportIsOneLineWithEveryNumber) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::statistics_test

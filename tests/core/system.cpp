@@ -9,7 +9,7 @@
 
 #include <gmock/gmock.h>
 
-namespace dalembert {
+namespace dalembert::system_test {
 namespace {
 
 using testing::AllOf;
@@ -183,4 +183,4 @@ TEST(System, DescriptionOfTooManyEquationsHasNoNegativeFreedom) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::system_test

@@ -14,7 +14,7 @@
 #include <limits>
 #include <sstream>
 
-namespace dalembert {
+namespace dalembert::trajectory_test {
 namespace {
 
 using testing::AllOf;
@@ -249,4 +249,4 @@ TEST(Record, ReservedRoomIsNotLeftWhileAppending) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::trajectory_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dalembert::extremes {
+namespace dalembert::extremes::groups_test {
 namespace {
 
 /// Every case of a group over the short part of its sweep: within its limit, or rejected as it should be.
@@ -36,4 +36,4 @@ TEST(Extremes, ContactsThatAreGrazedStruckAtOnceOrWithoutEnd) { expect_right(con
 TEST(Extremes, FailuresInMidRunSayWhenAndWhat) { expect_right(failures()); }
 
 }  // namespace
-}  // namespace dalembert::extremes
+}  // namespace dalembert::extremes::groups_test

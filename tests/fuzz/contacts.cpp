@@ -9,9 +9,8 @@ namespace dalembert::fuzz {
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// Gaps that touch at the start are 0 to this part of the scene's length (rounding_of_the_user).
-constexpr double touching = 1e-8;
+constexpr double touching_within = 1e-8;
 /// What solving for impulses leaves of 0, of the largest (round_off of Contacts).
 constexpr double round_off = 1e4 * epsilon;
 
@@ -104,7 +103,7 @@ class Contacts {
       }
       const double gradient = std::sqrt(square);
       const double bound =
-          std::max(s_.accuracy, touching) * s_.length * gradient + 100.0 * epsilon * rounding;
+          std::max(s_.accuracy, touching_within) * s_.length * gradient + 100.0 * epsilon * rounding;
       const double gap = sign_of(c) * e.g[row_of(c)];
       if (fault.empty()) fault = too_large("gap of " + system_.row_label(row_of(c)), at.time, -gap, bound);
     }

@@ -24,6 +24,11 @@ struct Place {
   std::string text;
 };
 
+template <int D>
+const Particle<D>& handle(const Place<D>& place) {
+  return std::get<Particle<D>>(place.point);
+}
+
 /// One of the ways in which a scene is stated and started.
 struct Statement {
   bool lean = false;        ///< without what is redundant

@@ -8,11 +8,6 @@ namespace dalembert::fuzz {
 
 namespace {
 
-template <int D>
-const Particle<D>& handle(const Place<D>& place) {
-  return std::get<Particle<D>>(place.point);
-}
-
 /// What lies beyond the edge, and 0 on this side: max(x, 0).
 template <class S>
 S beyond(const S& x) {

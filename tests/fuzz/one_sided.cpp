@@ -8,11 +8,6 @@ namespace dalembert::fuzz {
 
 namespace {
 
-template <int D>
-const Particle<D>& handle(const Place<D>& place) {
-  return std::get<Particle<D>>(place.point);
-}
-
 /// The gap at the start: some touch.
 template <int D>
 double clearance(Draft<D>& draft) {

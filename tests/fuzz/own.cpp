@@ -7,11 +7,6 @@ namespace dalembert::fuzz {
 
 namespace {
 
-template <int D>
-const Particle<D>& handle(const Place<D>& place) {
-  return std::get<Particle<D>>(place.point);
-}
-
 /// A wave on a slope, with or without time: g = n . r + b sin(k r_x) - c - drive(t), in units of `unit`.
 template <int D>
 void add_wave(Draft<D>& draft) {

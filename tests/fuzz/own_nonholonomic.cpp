@@ -7,11 +7,6 @@ namespace dalembert::fuzz {
 
 namespace {
 
-template <int D>
-const Particle<D>& handle(const Place<D>& place) {
-  return std::get<Particle<D>>(place.point);
-}
-
 /// v_y = tan-like slope of where it is, with or without a wind.
 template <int D>
 void add_skate(Draft<D>& draft) {

@@ -6,8 +6,6 @@ namespace dalembert::fuzz {
 
 namespace {
 
-const Particle<2>& handle(const Place<2>& place) { return std::get<Particle<2>>(place.point); }
-
 /// The curve at rest, shifted, or turned: all of them hold at the start.
 template <class Curve>
 void place_curve(Draft<2>& draft, const Place<2>& p, const Curve& curve, const std::string& text) {

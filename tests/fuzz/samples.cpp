@@ -16,8 +16,6 @@ std::vector<double> units(const System& system, double length) {
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
 /// Constraints hold at every sample to this fraction of the scene's length and speed (that it has, or
 /// that its forces give it over its length): it is what the library itself takes for a contradiction.
 /// (Independent equations hold to round-off; those that were left out because others imply them hold as well

@@ -8,8 +8,6 @@ namespace dalembert::fuzz {
 
 namespace {
 
-const Particle<3>& handle(const Place<3>& place) { return std::get<Particle<3>>(place.point); }
-
 template <class Surface>
 void place_surface(Draft<3>& draft, const Place<3>& p, const Surface& surface, const std::string& text) {
   const double omega = draft.size(1.0 / draft.plan.time), start = draft.plan.options.t_start;

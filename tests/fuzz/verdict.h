@@ -3,11 +3,14 @@
 #include "draft.h"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace dalembert::fuzz {
+
+inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// A scene: the family it is of, its number there, and what steps it.
 struct Task {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dalembert::models {
+namespace dalembert::models::andrews_test {
 namespace {
 
 /// Angles of the links, counted on through full turns from sample to sample of a run.
@@ -82,4 +82,4 @@ TEST(Andrews, WorkOfTheDriveIsTheChangeOfEnergy) {
 }
 
 }  // namespace
-}  // namespace dalembert::models
+}  // namespace dalembert::models::andrews_test

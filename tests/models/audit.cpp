@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace dalembert::models {
+namespace dalembert::models::audit_test {
 namespace {
 
 /// Round-off of a sum of a few hundred products, each of a force with a unit vector's component.
@@ -40,4 +40,4 @@ TEST(Catalogue, ObeysDAlembertsPrinciple) {
 }
 
 }  // namespace
-}  // namespace dalembert::models
+}  // namespace dalembert::models::audit_test

@@ -9,7 +9,7 @@
 #include <array>
 #include <cmath>
 
-namespace dalembert::models {
+namespace dalembert::models::bricard_test {
 namespace {
 
 // Four times the integral of da/a' over a quarter of a swing, a' from the conservation of energy, with 50
@@ -119,4 +119,4 @@ TEST(Bricard, HasThePublishedPeriod) {
 }
 
 }  // namespace
-}  // namespace dalembert::models
+}  // namespace dalembert::models::bricard_test

@@ -12,10 +12,8 @@
 #include <cmath>
 #include <set>
 
+namespace dalembert::models::catalogue_test {
 namespace {
-
-using namespace dalembert;
-using namespace dalembert::models;
 
 constexpr std::array tolerances{1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
 
@@ -104,3 +102,4 @@ TEST(Catalogue, EveryModelStaysOnItsConstraintsAndCloseToItsReference) {
 }
 
 }  // namespace
+}  // namespace dalembert::models::catalogue_test

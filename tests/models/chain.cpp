@@ -9,10 +9,8 @@
 #include <array>
 #include <vector>
 
+namespace dalembert::models::chain_test {
 namespace {
-
-using namespace dalembert;
-using namespace dalembert::models;
 
 /// What references are good for.
 constexpr double round_off = 1e-13;
@@ -53,3 +51,4 @@ TEST(Chain, OfOneBeadIsAPendulumAndOfTwoADoublePendulum) {
 }
 
 }  // namespace
+}  // namespace dalembert::models::chain_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace dalembert::models {
+namespace dalembert::models::chain_on_rough_table_test {
 namespace {
 
 constexpr double tolerance = 1e-8;
@@ -54,4 +54,4 @@ TEST_P(ChainOnRoughTable, DoesNotStartWhereCoulombsFrictionHoldsIt) {
 }
 
 }  // namespace
-}  // namespace dalembert::models
+}  // namespace dalembert::models::chain_on_rough_table_test

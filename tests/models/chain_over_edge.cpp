@@ -9,10 +9,9 @@
 #include <numbers>
 #include <vector>
 
+namespace dalembert::models::chain_over_edge_test {
 namespace {
 
-using namespace dalembert;
-using namespace dalembert::models;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
@@ -247,3 +246,4 @@ TEST_P(ChainOverEdgeBy, DoesNotStartIfFrictionIsTheStronger) {
 }
 
 }  // namespace
+}  // namespace dalembert::models::chain_over_edge_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dalembert::models {
+namespace dalembert::models::chaplygin_sleigh_test {
 namespace {
 
 constexpr double tolerance = 1e-8;
@@ -93,4 +93,4 @@ TEST(ChaplyginSleigh, TurnsInAllByPiTimesARootOfTheInertias) {
 }
 
 }  // namespace
-}  // namespace dalembert::models
+}  // namespace dalembert::models::chaplygin_sleigh_test

@@ -7,10 +7,8 @@
 #include <array>
 #include <cmath>
 
+namespace dalembert::models::cone_test {
 namespace {
-
-using namespace dalembert;
-using namespace dalembert::models;
 
 TEST(ConeSlide, EndsWhereAnIndependentComputationSays) {
   // BENCHMARKS B8, 16 digits: two units in the last of them, and 1e-13 for the reference itself.
@@ -57,3 +55,4 @@ TEST(ConeSlide, GoesRoundInACircleAtTheSpeedThatTheNotesGive) {
 }
 
 }  // namespace
+}  // namespace dalembert::models::cone_test

@@ -8,10 +8,8 @@
 #include <cmath>
 #include <limits>
 
+namespace dalembert::models::disks_test {
 namespace {
-
-using namespace dalembert;
-using namespace dalembert::models;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -105,3 +103,4 @@ TEST(DiskOnRotatingTrack, IsHeldBackByTheTrackAtFirst) {
 }
 
 }  // namespace
+}  // namespace dalembert::models::disks_test

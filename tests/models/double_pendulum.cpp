@@ -6,10 +6,8 @@
 
 #include <array>
 
+namespace dalembert::models::double_pendulum_test {
 namespace {
-
-using namespace dalembert;
-using namespace dalembert::models;
 
 TEST(DoublePendulum, EndsWhereAnIndependentComputationSays) {
   // BENCHMARKS B8, 16 digits; references are good to 1e-13.
@@ -27,3 +25,4 @@ TEST(DoublePendulum, KeepsItsEnergyAndItsTensionsAreWhatNewtonDemands) {
 }
 
 }  // namespace
+}  // namespace dalembert::models::double_pendulum_test

@@ -9,10 +9,8 @@
 #include <cmath>
 #include <numbers>
 
+namespace dalembert::models::driven_pivot_test {
 namespace {
-
-using namespace dalembert;
-using namespace dalembert::models;
 
 constexpr double pi = std::numbers::pi;
 constexpr std::array times{0.1, 0.5, 1.3, 3.1};
@@ -74,3 +72,4 @@ TEST(DrivenPivot, StandsUpsideDownIfDrivenFastEnough) {
 }
 
 }  // namespace
+}  // namespace dalembert::models::driven_pivot_test

@@ -8,10 +8,9 @@
 #include <cmath>
 #include <limits>
 
+namespace dalembert::models::elastic_strings_test {
 namespace {
 
-using namespace dalembert;
-using namespace dalembert::models;
 using Tied = ElasticStringCircle::Tied;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -98,3 +97,4 @@ TEST(ElasticStringCircle, DistancesOfPAreThoseOfTheNotes) {
 }
 
 }  // namespace
+}  // namespace dalembert::models::elastic_strings_test

@@ -13,7 +13,7 @@
 #include <limits>
 #include <numbers>
 
-namespace dalembert::models {
+namespace dalembert::models::events_test {
 namespace {
 
 constexpr double tolerance = 1e-10;
@@ -213,4 +213,4 @@ TEST_P(ModelsWithEvents, HandTheSpeedThroughACradleWithGaps) {
 }
 
 }  // namespace
-}  // namespace dalembert::models
+}  // namespace dalembert::models::events_test

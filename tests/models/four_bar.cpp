@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dalembert::models {
+namespace dalembert::models::four_bar_test {
 namespace {
 
 // The published benchmark, recomputed in extended precision (IFToMM A02, N = 2).
@@ -97,4 +97,4 @@ TEST(FourBar, IsAsAccurateAsRequiredAtATightTolerance) {
 }
 
 }  // namespace
-}  // namespace dalembert::models
+}  // namespace dalembert::models::four_bar_test

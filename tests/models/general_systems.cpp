@@ -13,7 +13,7 @@
 
 #include <string>
 
-namespace dalembert::models {
+namespace dalembert::models::general_systems_test {
 namespace {
 
 // The bounds of the requirements on the library (issue "Every system of the notes"), as fractions of
@@ -50,4 +50,4 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, GeneralSystem,
                          name_of);
 
 }  // namespace
-}  // namespace dalembert::models
+}  // namespace dalembert::models::general_systems_test

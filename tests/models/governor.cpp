@@ -8,10 +8,8 @@
 #include <cmath>
 #include <limits>
 
+namespace dalembert::models::governor_test {
 namespace {
-
-using namespace dalembert;
-using namespace dalembert::models;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr std::array times{0.1, 0.5, 1.3, 3.1};
@@ -86,3 +84,4 @@ TEST(Governor, AxisNeverPushesTheSleeveSidewaysBecauseTheTwoSidesAreAlike) {
 }
 
 }  // namespace
+}  // namespace dalembert::models::governor_test

@@ -8,10 +8,8 @@
 #include <cmath>
 #include <limits>
 
+namespace dalembert::models::hoops_test {
 namespace {
-
-using namespace dalembert;
-using namespace dalembert::models;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr std::array times{0.1, 0.5, 1.3, 3.1};
@@ -95,3 +93,4 @@ TEST(HoopAboutDiameter, BeadRestsAtTheBottomOrWhereTheTurningHoldsIt) {
 }
 
 }  // namespace
+}  // namespace dalembert::models::hoops_test

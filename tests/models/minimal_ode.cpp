@@ -6,9 +6,8 @@
 #include <cmath>
 #include <vector>
 
+namespace dalembert::models::minimal_ode_test {
 namespace {
-
-using namespace dalembert::models;
 
 TEST(MinimalOde, FollowsAnOscillatorToItsToleranceThroughAllTimesAskedFor) {
   const auto oscillator = [](const State& y, State& y_rate) {
@@ -46,3 +45,4 @@ TEST(MinimalOde, VisitsEveryTimeOnceAndInOnePass) {
 }
 
 }  // namespace
+}  // namespace dalembert::models::minimal_ode_test

@@ -9,10 +9,8 @@
 #include <limits>
 #include <numbers>
 
+namespace dalembert::models::parabolic_slide_test {
 namespace {
-
-using namespace dalembert;
-using namespace dalembert::models;
 
 constexpr std::array times{0.1, 0.4, 1.1, 2.7};
 
@@ -65,3 +63,4 @@ TEST(ParabolicSlide, ForceAtRestOnTheSlopeIsTheNormalPartOfTheWeight) {
 }
 
 }  // namespace
+}  // namespace dalembert::models::parabolic_slide_test

@@ -9,10 +9,8 @@
 #include <limits>
 #include <numbers>
 
+namespace dalembert::models::pendulum_rotation_test {
 namespace {
-
-using namespace dalembert;
-using namespace dalembert::models;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -43,3 +41,4 @@ TEST(PendulumRotation, AtHighEnergyATurnTakesAsLongAsTheNotesExpansionSays) {
 }
 
 }  // namespace
+}  // namespace dalembert::models::pendulum_rotation_test

@@ -8,10 +8,8 @@
 #include <array>
 #include <cmath>
 
+namespace dalembert::models::pendulum_separatrix_test {
 namespace {
-
-using namespace dalembert;
-using namespace dalembert::models;
 
 TEST(PendulumSeparatrix, KeepsItsEnergyAndItsTensionIsWhatNewtonDemands) {
   const PendulumSeparatrix pendulum{.mass = 2.0, .length = 0.8, .gravity = 9.81};
@@ -47,3 +45,4 @@ TEST(PendulumSeparatrix, TensionOfARunChangesSignWhereCoshIsRootSixAndIsRightOnB
 }
 
 }  // namespace
+}  // namespace dalembert::models::pendulum_separatrix_test

@@ -9,10 +9,8 @@
 #include <limits>
 #include <numbers>
 
+namespace dalembert::models::plane_pendulum_test {
 namespace {
-
-using namespace dalembert;
-using namespace dalembert::models;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -70,3 +68,4 @@ TEST(PlanePendulum, TensionIsThriceTheWeightAtTheBottomAndNoneAtRestOnTheHorizon
 }
 
 }  // namespace
+}  // namespace dalembert::models::plane_pendulum_test

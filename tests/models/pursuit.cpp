@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace dalembert::models {
+namespace dalembert::models::pursuit_test {
 namespace {
 
 constexpr double tolerance = 1e-8;
@@ -67,4 +67,4 @@ TEST(Pursuit, EndsAtCaptureWithAClearStop) {
 }
 
 }  // namespace
-}  // namespace dalembert::models
+}  // namespace dalembert::models::pursuit_test

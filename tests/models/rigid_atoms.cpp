@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace dalembert::models {
+namespace dalembert::models::rigid_atoms_test {
 namespace {
 
 /// Errors grow by about the tolerance per step and, at the speed of turning, in proportion to time.
@@ -145,4 +145,4 @@ TEST(RigidBodyOfAtoms, InThePlaneHasThreeDegreesOfFreedom) {
 }
 
 }  // namespace
-}  // namespace dalembert::models
+}  // namespace dalembert::models::rigid_atoms_test

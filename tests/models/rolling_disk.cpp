@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dalembert::models {
+namespace dalembert::models::rolling_disk_test {
 namespace {
 
 constexpr double tolerance = 1e-8;
@@ -78,4 +78,4 @@ TEST(RollingDiskOnSlope, DoesNotGoDownTheSlopeOnTheAverage) {
 }
 
 }  // namespace
-}  // namespace dalembert::models
+}  // namespace dalembert::models::rolling_disk_test

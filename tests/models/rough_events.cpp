@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace dalembert::models {
+namespace dalembert::models::rough_events_test {
 namespace {
 
 constexpr double tolerance = 1e-10;
@@ -165,4 +165,4 @@ TEST_P(ModelsWithFriction, ThePuckTurnsIntoThePull) {
 }
 
 }  // namespace
-}  // namespace dalembert::models
+}  // namespace dalembert::models::rough_events_test

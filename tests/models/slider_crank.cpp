@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace dalembert::models {
+namespace dalembert::models::slider_crank_test {
 namespace {
 
 // SUNDIALS' example idasSlCrank at rtol = atol = 1e-6 prints five digits; the tolerance may have moved the
@@ -48,4 +48,4 @@ TEST(SliderCrank, EndsAtThePublishedValues) {
 }
 
 }  // namespace
-}  // namespace dalembert::models
+}  // namespace dalembert::models::slider_crank_test

@@ -8,10 +8,8 @@
 #include <array>
 #include <cmath>
 
+namespace dalembert::models::sliding_pivot_test {
 namespace {
-
-using namespace dalembert;
-using namespace dalembert::models;
 
 constexpr std::array times{0.1, 0.4, 1.1, 2.7};
 
@@ -69,3 +67,4 @@ TEST(SlidingPivot, IsThePlanePendulumIfTheBlockIsHeavy) {
 }
 
 }  // namespace
+}  // namespace dalembert::models::sliding_pivot_test

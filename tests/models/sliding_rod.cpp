@@ -9,10 +9,8 @@
 #include <limits>
 #include <numbers>
 
+namespace dalembert::models::sliding_rod_test {
 namespace {
-
-using namespace dalembert;
-using namespace dalembert::models;
 
 constexpr std::array times{0.1, 0.3, 0.7, 1.6};
 constexpr double h = 1e-3;
@@ -94,3 +92,4 @@ TEST(SlidingRod, MomentumAlongTheTrackIsBetaOfTheNotes) {
 }
 
 }  // namespace
+}  // namespace dalembert::models::sliding_rod_test

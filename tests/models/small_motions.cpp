@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dalembert::models {
+namespace dalembert::models::small_motions_test {
 namespace {
 
 TEST(SmallMotions, AreThoseOfTheClosedForms) {
@@ -26,4 +26,4 @@ TEST(LaguerreZeros, AreThePublishedOnes) {
 }
 
 }  // namespace
-}  // namespace dalembert::models
+}  // namespace dalembert::models::small_motions_test

@@ -22,10 +22,8 @@
 /// the mean over releases at a and -a. So the relative deviation from T0 is c a^2 (1 + O(a^2)): it falls by 4
 /// when a is halved, and extrapolated to a = 0 over a^2 it is c. With x'' = -w^2 x - A x^2 - B x^3, c = 5
 /// A^2/(12 w^4) - 3 B/(8 w^2) (Lindstedt; Landau and Lifshitz, Mechanics, 28).
+namespace dalembert::models::small_oscillations_test {
 namespace {
-
-using namespace dalembert;
-using namespace dalembert::models;
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
@@ -240,3 +238,4 @@ TEST(SmallOscillations, InTheConeGoByTheTurningOfTheCircularOrbit) {
 }
 
 }  // namespace
+}  // namespace dalembert::models::small_oscillations_test

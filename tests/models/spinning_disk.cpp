@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dalembert::models {
+namespace dalembert::models::spinning_disk_test {
 namespace {
 
 constexpr double tolerance = 1e-8;
@@ -144,4 +144,4 @@ TEST(SpinningDisk, BelowTheCriticalSpeedItFallsOver) {
 }
 
 }  // namespace
-}  // namespace dalembert::models
+}  // namespace dalembert::models::spinning_disk_test

@@ -17,10 +17,8 @@
 #include <string>
 
 /// The library against the hand derivations, and what a run must conserve or account for.
+namespace dalembert::models::systems_of_the_notes_test {
 namespace {
-
-using namespace dalembert;
-using namespace dalembert::models;
 
 constexpr double tolerance = 1e-8;
 
@@ -177,3 +175,4 @@ TEST(PowerOfTheDrive, OfADrivenPivotIsTheForceOnItTimesItsVelocity) {
 }
 
 }  // namespace
+}  // namespace dalembert::models::systems_of_the_notes_test

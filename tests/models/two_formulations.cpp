@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dalembert::models {
+namespace dalembert::models::two_formulations_test {
 namespace {
 
 /// Of two seconds or so the errors of both runs are within 100 times the tolerance.
@@ -23,4 +23,4 @@ TEST(CrossCheck, OfEverySystemWhoseLagrangianTheNotesGiveAgrees) { expect_agreem
 TEST(EquivalentLagrangians, HaveTheSameMotion) { expect_agreement(equivalent_lagrangians()); }
 
 }  // namespace
-}  // namespace dalembert::models
+}  // namespace dalembert::models::two_formulations_test

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace dalembert {
+namespace dalembert::accelerations_test {
 namespace {
 
 /// On a circle of radius L the acceleration is -v^2 r/L^2 along the rod and the part of g across it.
@@ -130,4 +130,4 @@ TEST(Accelerations, CloseToASingularPositionAreRightOrCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::accelerations_test

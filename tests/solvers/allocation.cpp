@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace dalembert {
+namespace dalembert::allocation_test {
 namespace {
 
 TEST(Allocation, IsCounted) {
@@ -71,4 +71,4 @@ TEST(Allocation, OfARunDoesNotDependOnItsLength) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::allocation_test

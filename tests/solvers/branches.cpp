@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace dalembert {
+namespace dalembert::branches_test {
 namespace {
 
 using testing::HasSubstr;
@@ -236,4 +236,4 @@ TEST(Branches, ThatForkWithinOneStepAreAllFollowed) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::branches_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace dalembert {
+namespace dalembert::changes_test {
 namespace {
 
 using testing::AllOf;
@@ -223,4 +223,4 @@ TEST(Change, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::changes_test

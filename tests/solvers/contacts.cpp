@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace dalembert {
+namespace dalembert::contacts_test {
 namespace {
 
 using testing::AllOf;
@@ -198,4 +198,4 @@ TEST(Unilateral, RefusesWhatItIsNotFor) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::contacts_test

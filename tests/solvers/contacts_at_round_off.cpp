@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace dalembert {
+namespace dalembert::contacts_at_round_off_test {
 namespace {
 
 /// Contacts that touch, close and open at the limits of round-off.
@@ -75,4 +75,4 @@ TEST_P(ContactsAtRoundOff, OfASlotWithoutPlayStopWhatIsThrownAcross) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::contacts_at_round_off_test

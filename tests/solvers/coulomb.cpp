@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace dalembert {
+namespace dalembert::coulomb_test {
 namespace {
 
 using testing::AllOf;
@@ -240,4 +240,4 @@ TEST(Coulomb, RefusesWhatItIsNotFor) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::coulomb_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace dalembert {
+namespace dalembert::coulomb_in_space_test {
 namespace {
 
 class CoulombFrictionInSpace : public WithEvents {};
@@ -83,4 +83,4 @@ TEST_P(CoulombFrictionInSpace, OfCoupledPucksGoesAgainstTheirAccelerations) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::coulomb_in_space_test

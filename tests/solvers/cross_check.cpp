@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace dalembert {
+namespace dalembert::cross_check_test {
 namespace {
 
 using testing::AllOf;
@@ -87,4 +87,4 @@ TEST(CrossCheck, SaysWhatDoesNotFitTogether) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::cross_check_test

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace dalembert {
+namespace dalembert::diagnosis_test {
 namespace {
 
 /// A bob of 1 kg on a rod: in units of its mass, length and time a force is 9.81 N. 53184 of them have grown
@@ -23,4 +23,4 @@ TEST(Diagnosis, NamesAMultiplierOnlyIfItHasGrown) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::diagnosis_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dalembert {
+namespace dalembert::discontinuity_test {
 namespace {
 
 using testing::AllOf;
@@ -247,4 +247,4 @@ TEST_P(Friction, ThatIsSmoothedCreeps) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::discontinuity_test

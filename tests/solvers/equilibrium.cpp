@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace dalembert {
+namespace dalembert::equilibrium_test {
 namespace {
 
 using testing::AllOf;
@@ -284,4 +284,4 @@ TEST(Equilibrium, OfALightParticleIsNotTakenForOneBesideAStiffSpring) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::equilibrium_test

@@ -13,8 +13,7 @@
 #include <functional>
 #include <numbers>
 
-using namespace dalembert;
-
+namespace dalembert::erk_test {
 namespace {
 
 constexpr double g = 9.81;
@@ -283,3 +282,4 @@ TEST(Erk, FirstFewStepsEndWhereTheyAreAskedTo) {
 }
 
 }  // namespace
+}  // namespace dalembert::erk_test

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <string>
 
-namespace dalembert {
+namespace dalembert::events_test {
 namespace {
 
 using testing::AllOf;
@@ -200,4 +200,4 @@ TEST_P(Events, BeforeAFailureAreKept) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::events_test

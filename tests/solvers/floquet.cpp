@@ -9,7 +9,7 @@
 #include <complex>
 #include <numbers>
 
-namespace dalembert {
+namespace dalembert::floquet_test {
 namespace {
 
 using std::numbers::pi;
@@ -177,4 +177,4 @@ TEST(Floquet, AreNoneOfWhatCannotMove) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::floquet_test

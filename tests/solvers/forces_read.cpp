@@ -6,7 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
-namespace dalembert {
+namespace dalembert::forces_read_test {
 namespace {
 
 using testing::AllOf;
@@ -150,4 +150,4 @@ TEST(ForcesRead, OnlyWhatIsHeldByTheGroundActsOnIt) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::forces_read_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace dalembert {
+namespace dalembert::friction_test {
 namespace {
 
 using testing::AllOf;
@@ -240,4 +240,4 @@ TEST_P(Sliding, ALawNeedsNoDerivativeWhereThereIsNoForce) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::friction_test

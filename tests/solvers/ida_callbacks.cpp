@@ -4,7 +4,7 @@
 
 #include <new>
 
-namespace dalembert {
+namespace dalembert::ida_callbacks_test {
 namespace {
 
 /// What `guarded` needs of the stepper.
@@ -28,4 +28,4 @@ TEST(IdaCallbacks, AnyOtherExceptionIsKeptForTheCaller) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::ida_callbacks_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace dalembert {
+namespace dalembert::impacts_test {
 namespace {
 
 class Impacts : public WithEvents {};
@@ -207,4 +207,4 @@ TEST_P(Impacts, AreReadBetweenSamplesAndStepByStep) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::impacts_test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace dalembert {
+namespace dalembert::in_line_test {
 namespace {
 
 class TwoLinkages : public testing::TestWithParam<Stepper> {};
@@ -51,4 +51,4 @@ TEST_P(TwoLinkages, InLineAtOnceGiveNoForceThatTheirStateDoesNotDetermine) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::in_line_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace dalembert {
+namespace dalembert::lagrangian_test {
 namespace {
 
 using testing::ElementsAre;
@@ -254,4 +254,4 @@ TEST_P(LagrangianMotions, StopWhereTheInertiaIsLostOnTheWay) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::lagrangian_test

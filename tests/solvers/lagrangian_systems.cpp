@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace dalembert {
+namespace dalembert::lagrangian_systems_test {
 namespace {
 
 using testing::AllOf;
@@ -180,4 +180,4 @@ TEST(RouthReduction, IsRefusedWhereTheMomentumIsNotConserved) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::lagrangian_systems_test

@@ -1,14 +1,11 @@
 #pragma once
 
+#include "accurate_runs.h"
 #include <dalembert/dalembert.h>
 
 #include <cmath>
 
 namespace dalembert {
-
-constexpr double g = 9.81;
-/// Runs of a few seconds err by some tens of this.
-constexpr double tolerance = 1e-10, bound = 100.0 * tolerance;
 
 /// A pendulum in polar coordinates whose rod is a constraint r = 1: lambda = -tension = -(phi'^2 + g cos
 /// phi).

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dalembert {
+namespace dalembert::lone_bodies_test {
 namespace {
 
 /// One particle and what it touches: the scene has no length but that of its path.
@@ -100,4 +100,4 @@ TEST_P(LoneBodies, SlideOnASphereInItsScales) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::lone_bodies_test

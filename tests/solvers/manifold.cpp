@@ -9,7 +9,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-namespace dalembert {
+namespace dalembert::manifold_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -111,4 +111,4 @@ TEST_F(ManifoldTest, ViolationsAreDistancesAndSpeeds) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::manifold_test

@@ -12,7 +12,7 @@
 ///
 /// X and V being twice the sizes of position and velocity, and `growth` how much the motion itself
 /// magnifies a deviation (1 for stable ones).
-namespace dalembert {
+namespace dalembert::motion_test {
 namespace {
 
 constexpr double tolerance = 1e-9;
@@ -178,4 +178,4 @@ TEST(Motion, APendulumOnAnEvenlyMovingPivotHangsStill) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::motion_test

@@ -11,7 +11,7 @@
 
 #include <numeric>
 
-namespace dalembert {
+namespace dalembert::newton_matrix_test {
 namespace {
 
 ActiveRows all_rows(const System& system) {
@@ -244,4 +244,4 @@ TEST_F(NewtonMatrixTest, SolvesWithoutConstraints) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::newton_matrix_test

@@ -14,7 +14,7 @@
 #include <complex>
 #include <limits>
 
-namespace dalembert {
+namespace dalembert::normal_modes_test {
 namespace {
 
 using testing::HasSubstr;
@@ -397,4 +397,4 @@ TEST(NormalModes, AreRefusedWhereConstraintsTouch) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::normal_modes_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace dalembert {
+namespace dalembert::options_test {
 namespace {
 
 using testing::AllOf;
@@ -91,4 +91,4 @@ TEST(Options, GivenTimesAreTaken) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::options_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dalembert {
+namespace dalembert::order_guard_test {
 namespace {
 
 /// Steps of the length that `step` gives for each order, until time `end`; the number taken.
@@ -59,4 +59,4 @@ TEST(OrderGuard, GivesUpWhereTheVibrationIsPartOfTheMotion) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::order_guard_test

@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-namespace dalembert {
+namespace dalembert::problem_test {
 namespace {
 
 /// Of a run with 20 outputs: start, projections, both steppers, recovery of forces.
@@ -128,4 +128,4 @@ TEST(Problem, KeepsTheLastOfManyChoicesOfRows) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::problem_test

@@ -5,11 +5,13 @@
 
 #include <vector>
 
-namespace dalembert {
+namespace dalembert::readings_test {
 namespace {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 TEST(Readings, FixedAndDrivenPointsAreReadLikeParticles) {
   const Pendulum pendulum;
@@ -125,4 +127,4 @@ TEST(Readings, TheForceOnAParticleLooksAtWhatTouchesItOnly) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::readings_test

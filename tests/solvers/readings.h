@@ -9,12 +9,11 @@
 /// Shared by the tests of readings.
 namespace dalembert {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr Stepper both[] = {Stepper::ida, Stepper::erk};
 
 /// Round-off of a linear system of a few equations with numbers of size 1 to 100, in units in the last place:
 /// each of its quantities is a sum of some tens of products, and its condition here is below 10.
-constexpr double round_off = 1e3 * epsilon * 100.0;
+constexpr double round_off = 1e3 * std::numeric_limits<double>::epsilon() * 100.0;
 
 /// A compound pendulum of mass m, inertia I about its centre, whose hinge is d from it: with the angle phi of
 /// the arm from the vertical, (I + m d^2) phi'' = -m g d sin phi and (I + m d^2) phi'^2/2 = m g d (cos phi -

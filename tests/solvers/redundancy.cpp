@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace dalembert {
+namespace dalembert::redundancy_test {
 namespace {
 
 using testing::AllOf;
@@ -134,4 +134,4 @@ TEST_F(TwinRods, ThatBeginToContradictEachOtherStopTheRunByName) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::redundancy_test

@@ -8,7 +8,7 @@
 #include <random>
 
 /// Random scenes with Coulomb's friction: it never adds energy, and never exceeds its bound.
-namespace dalembert {
+namespace dalembert::rough_scenes_test {
 namespace {
 
 constexpr double g = 9.81, tolerance = 1e-6;
@@ -94,4 +94,4 @@ TEST_P(RoughScenes, NeverGainEnergy) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::rough_scenes_test

@@ -15,8 +15,7 @@
 #include <numeric>
 #include <random>
 
-using namespace dalembert;
-
+namespace dalembert::saddle_test {
 namespace {
 
 ActiveRows all_rows(const System& system) {
@@ -291,3 +290,4 @@ TEST(NewtonMatrix, KeepsStiffForces) {
 }
 
 }  // namespace
+}  // namespace dalembert::saddle_test

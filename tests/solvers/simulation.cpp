@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace dalembert {
+namespace dalembert::simulation_test {
 namespace {
 
 using testing::AllOf;
@@ -260,4 +260,4 @@ TEST(Simulation, WhatAnObserverThrowsIsItsOwn) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::simulation_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace dalembert {
+namespace dalembert::sparse_lu_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -161,4 +161,4 @@ TEST(SparseLU, RecoversFromASingularMatrix) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::sparse_lu_test

@@ -11,7 +11,7 @@
 
 /// Verdicts on scenes in which what grows is small beside something else: each was once called stable.
 
-namespace dalembert {
+namespace dalembert::stability_test {
 namespace {
 
 using testing::HasSubstr;
@@ -239,4 +239,4 @@ static_assert(ReadAsTemporary<const Equilibrium<2>&> && !ReadAsTemporary<Equilib
               "what is read does not outlive its owner");
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::stability_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace dalembert {
+namespace dalembert::start_test {
 namespace {
 
 using testing::AllOf;
@@ -196,4 +196,4 @@ TEST(Start, OfAFrameThatIsDrivenFollowsItsDrive) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::start_test

@@ -7,7 +7,7 @@
 
 /// Where constraints are redundant the forces are the least squares of those of the constraints that the user
 /// stated; what bodies are made of has no effect.
-namespace dalembert {
+namespace dalembert::stated_forces_test {
 namespace {
 
 using testing::AllOf;
@@ -290,4 +290,4 @@ TEST(StatedForces, OfRotorsAreTorques) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::stated_forces_test

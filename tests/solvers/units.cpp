@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dalembert {
+namespace dalembert::units_test {
 namespace {
 
 struct Units {
@@ -136,4 +136,4 @@ TEST(Units, ACycloidTakesAsManyStepsInAny) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::units_test

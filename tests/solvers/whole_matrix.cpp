@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dalembert {
+namespace dalembert::whole_matrix_test {
 namespace {
 
 /// A rod, a blade, a spring and a damper on two particles.
@@ -90,4 +90,4 @@ TEST_F(WholeMatrixTest, IsSingularForTwoEqualRows) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::whole_matrix_test

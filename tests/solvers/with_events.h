@@ -1,5 +1,6 @@
 #pragma once
 
+#include "accurate_runs.h"
 #include <dalembert/dalembert.h>
 #include <dalembert/tests/both_steppers.h>
 
@@ -7,10 +8,6 @@
 
 /// Shared by the tests of events, contacts and friction.
 namespace dalembert {
-
-constexpr double g = 9.81, tolerance = 1e-10;
-/// A run of a few seconds errs by some tens of its tolerance, and so do the times at which it gets anywhere.
-constexpr double bound = 100.0 * tolerance;
 
 class WithEvents : public testing::TestWithParam<Stepper> {
  protected:
