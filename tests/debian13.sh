@@ -27,12 +27,13 @@ inside apt-get update -qq
 inside apt-get install -qq -y --no-install-recommends g++ cmake ninja-build libeigen3-dev libsundials-dev \
   libsuitesparse-dev libboost-dev libcli11-dev libgtest-dev libgmock-dev pkgconf
 
-# The tree as it is, with what is not committed; what was built there before is built on.
+# The tree as it is, with what is not committed, and nothing else; what was built there before is built on.
+rm -rf "$root/dalembert"
 mkdir -p "$root/dalembert"
-git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -u -t "$root/dalembert" --
+git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -p -t "$root/dalembert" --
 
 build() {
-  inside cmake -S /dalembert -B /build -G Ninja -DCMAKE_BUILD_TYPE=Release -DDALEMBERT_BENCH=OFF \
+  inside cmake -S /dalembert -B /build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DDALEMBERT_BENCH=OFF \
     -DCMAKE_CXX_FLAGS="-Wall -Wextra -Wpedantic -Wconversion"
   inside cmake --build /build "$@"
 }
