@@ -19,6 +19,11 @@ set(pc_solvers "-lsundials_ida -lsundials_nvecserial -lklu -lbtf -lcolamd -lldl 
 if(SUNDIALS_VERSION VERSION_GREATER_EQUAL 7)
   string(REPLACE "nvecserial" "nvecserial -lsundials_core" pc_solvers "${pc_solvers}")
 endif()
+cmake_path(GET SUNDIALS_DIR PARENT_PATH pc_sundials) # <where its libraries are>/cmake/sundials
+cmake_path(GET pc_sundials PARENT_PATH pc_sundials)
+if(NOT pc_sundials IN_LIST CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES)
+  string(PREPEND pc_solvers "-L${pc_sundials} ")
+endif()
 if(NOT BUILD_SHARED_LIBS)
   set(pc_libs " ${pc_solvers}")
 endif()
