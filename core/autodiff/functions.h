@@ -4,14 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <numbers>
 
 namespace dalembert {
 
 /// For equations that are evaluated with plain numbers, too: without these a number finds no max and min, and
-/// of abs perhaps C's, which is one of int. NaN wins, or a fault of an equation would be lost in max(0.0,
-/// sqrt(x)).
-[[nodiscard]] inline double abs(double a) { return std::abs(a); }
+/// of abs perhaps C's, which is one of int. (A template, so that ::abs(double) is preferred where it is
+/// visible, too, and not ambiguous.) NaN wins, or a fault of an equation would be lost in max(0.0, sqrt(x)).
+template <std::floating_point T>
+[[nodiscard]] T abs(T a) {
+  return std::abs(a);
+}
 [[nodiscard]] inline double max(double a, double b) { return a < b || std::isnan(b) ? b : a; }
 [[nodiscard]] inline double min(double a, double b) { return b < a || std::isnan(b) ? b : a; }
 

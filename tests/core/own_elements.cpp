@@ -41,8 +41,29 @@ struct Circle {
 
 }  // namespace someone
 
+/// And where a using-directive has them all found.
+namespace someone_with_all_names {
+
+using namespace dalembert;
+
+auto wedge(Particle<2> p) {
+  return potential(points(p), [](auto r) { return 3.0 * abs(r.x()) + max(r.y(), 0.0); });
+}
+
+}  // namespace someone_with_all_names
+
 namespace dalembert::own_elements_test {
 namespace {
+
+/// Energies are asked of an equation with plain numbers, slopes with those that carry derivatives.
+TEST(OwnElements, CallAbsAndMaxOfPlainNumbersToo) {
+  Scene<2> scene;
+  const auto p = scene.add_particle({.mass = 1.0, .position = {-0.5, 0.25}});
+  const auto wedge = scene.add(someone_with_all_names::wedge(p));
+  const Simulation<2> at_start(scene, {.t_end = 1.0});
+  EXPECT_EQ(at_start.energy(), 1.75);
+  EXPECT_EQ(at_start.force(wedge, p), Vec<2>(3.0, -1.0));
+}
 
 /// On a unit circle at (1, 0) with v = (0, 2): F = -2 r - v/2 + lambda v/4, and lambda = -v^2 + 2.
 TEST(OwnElements, OfAnotherNamespaceAreElementsLikeAnyOther) {
