@@ -99,17 +99,57 @@ template <class Path>
   return Driven<Position::RowsAtCompileTime, Path>{std::move(path)};
 }
 
-/// Anything with a position. `inputs` is how many numbers of that position are unknowns (none or
-/// all), so that equations are differentiated with respect to those only; they are a constant linear
-/// function of `coordinates` entries of q, given by `map()` unless they are those entries. `driven`
-/// says that the position depends on time explicitly.
+namespace detail {
+
 template <class P>
-concept Point = requires {
+concept HasSizes = requires {
   { P::dimension } -> std::convertible_to<int>;
   { P::inputs } -> std::convertible_to<int>;
   { P::coordinates } -> std::convertible_to<int>;
   { P::driven } -> std::convertible_to<bool>;
 };
+
+/// What a scene has given out, or what is made of that.
+template <class P>
+concept OfScene = std::same_as<P, Particle<P::dimension>> || std::same_as<P, Rotor>;
+template <class P>
+concept OfParticles = requires(const P& point) {
+  { point.particles[0] } -> std::convertible_to<Particle<P::dimension>>;
+};
+
+template <class P>
+concept HasMap = requires(const P& point) {
+  point.map();
+};
+
+/// Which entries of q a point reads, and its numbers out of these.
+template <class P>
+concept HasCoordinates = (OfScene<P> || OfParticles<P>)&&P::inputs == P::dimension && !P::driven
+                         && HasMap<P> == (P::inputs != P::coordinates) &&
+                         requires(const P& point, std::span<const double> q) {
+  { point.reads() } -> std::convertible_to<std::array<int, static_cast<std::size_t>(P::coordinates)>>;
+  requires ColumnOf<std::remove_cvref_t<decltype(point.gather(q))>, P::inputs>;
+};
+
+template <class P>
+concept HasPath = P::driven && P::coordinates == 0 && requires(const P& point) {
+  requires ColumnOf<std::remove_cvref_t<decltype(point.path(0.0))>, P::dimension>;
+};
+
+template <class P>
+concept HasPosition = !P::driven && P::coordinates == 0 && requires(const P& point) {
+  requires ColumnOf<std::remove_cvref_t<decltype(point.position)>, P::dimension>;
+};
+
+}  // namespace detail
+
+/// Anything with a position. `inputs` is how many numbers of that position are unknowns (none or
+/// all), so that equations are differentiated with respect to those only; they are a constant linear
+/// function of `coordinates` entries of q, given by `map()` unless they are those entries. `driven`
+/// says that the position depends on time explicitly, as `path(t)`.
+template <class P>
+concept Point = detail::HasSizes<P> &&((P::inputs > 0 && detail::HasCoordinates<P>) ||
+                                       (P::inputs == 0 && (detail::HasPath<P> || detail::HasPosition<P>)));
 
 /// The points that a constraint or force acts on, in the order of its equation's arguments.
 template <Point... P>

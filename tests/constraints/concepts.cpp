@@ -7,6 +7,29 @@ namespace dalembert {
 static_assert(Point<Fixed<2>> && Point<Particle<3>> && Point<Rotor>);
 static_assert(Point<BodyPoint<2>> && Point<BodyPoint<3>> && Point<BodyPoint<3, 2>>);
 
+// What lacks, or contradicts, one thing that is asked of a point.
+template <int Dimension, int Inputs, int Coordinates, bool IsDriven>
+struct Sizes {
+  static constexpr int dimension = Dimension, inputs = Inputs, coordinates = Coordinates;
+  static constexpr bool driven = IsDriven;
+};
+struct WithoutPlace : Sizes<2, 0, 0, false> {};
+struct WithPlaceInSpace : Sizes<2, 0, 0, false> {
+  Vec<3> position;
+};
+struct WithoutPath : Sizes<2, 0, 0, true> {
+  Vec<2> position;
+};
+template <int Inputs, int Coordinates>
+struct OfOneParticle : Sizes<2, Inputs, Coordinates, false> {
+  std::array<Particle<2>, 1> particles;
+  [[nodiscard]] std::array<int, static_cast<std::size_t>(Coordinates)> reads() const;
+  [[nodiscard]] Vec<Inputs> gather(std::span<const double> q) const;
+};
+static_assert(Point<OfOneParticle<2, 2>>);
+static_assert(!Point<OfOneParticle<1, 2>> && !Point<OfOneParticle<2, 4>>);
+static_assert(!Point<WithoutPlace> && !Point<WithPlaceInSpace> && !Point<WithoutPath> && !Point<double>);
+
 static_assert(PotentialForce<Spring<Fixed<2>, Particle<2>>>);
 static_assert(LawForce<Damper<Particle<3>, Particle<3>>>);
 static_assert(PotentialForce<Torque> && LawForce<QuadraticDrag<Particle<3>>>);
