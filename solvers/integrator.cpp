@@ -79,7 +79,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
     double nearest_contact = std::numeric_limits<double>::infinity();
   };
 
-  /// The constraints that hold at times only, if there are any: where the others hold, with those in force
+  /// The constraints that do not always hold, if there are any: where the others hold, with those in force
   /// that are, after the impacts of the start.
   std::unique_ptr<Transitions> conditional() {
     const auto numbers = system->conditional();
@@ -159,7 +159,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
     } catch (const Error& fault) {
       throw stop(fault.what(), reached());
     } catch (...) {
-      stop("an exception broke it off", reached());
+      stop("an exception interrupted it", reached());
       throw;
     }
   }
@@ -204,7 +204,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
   std::vector<double> times;
   std::shared_ptr<const System> system;
   Begin begin;
-  std::unique_ptr<Transitions> transitions;  // if any constraint holds at times only
+  std::unique_ptr<Transitions> transitions;  // if any constraint does not always hold
   Stepping stepping;
   Moment now, next;
   std::shared_ptr<const System> read_from;  // `now` is of its layout

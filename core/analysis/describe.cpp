@@ -27,7 +27,7 @@ std::string rotors(std::size_t count) {
 /// By count: where there are more equations than coordinates some depend on others.
 std::string freedom(std::size_t coordinates, std::size_t equations) {
   if (equations <= coordinates) return std::to_string(coordinates - equations);
-  return "not to be counted: " + std::to_string(equations - coordinates) + " equations too many";
+  return "overdetermined by " + std::to_string(equations - coordinates) + " equations";
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ std::string System::describe(double t, std::span<const double> q) const {
     std::string labels;
     for (const auto& label : set.constraints) labels += (labels.empty() ? "" : ", ") + label;
     out << labels << ": " << (set.holonomic ? "integrable" : "not integrable") << '\n';
-    for (const auto& label : set.holonomic_alone) out << "  but " << label << " by itself is holonomic\n";
+    for (const auto& label : set.integrable_alone) out << "  but " << label << " by itself is integrable\n";
   }
   return out.str();
 }

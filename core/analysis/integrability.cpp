@@ -92,7 +92,7 @@ Forms forms(const System& system, double t, std::span<const double> q) {
 /// of freedom, and are left out.
 std::vector<std::vector<std::size_t>> connected_rows(const System& system) {
   const auto first_column = [&system](std::size_t r) { return system.w_columns()[system.row(r).front()]; };
-  const auto rigid = [&system](std::size_t r) { return !system.law(r).yields(); };
+  const auto rigid = [&system](std::size_t r) { return !system.law(r).compliant(); };
   DisjointSets coordinates(system.coordinates());
   for (std::size_t r = 0; r < system.rows(); ++r) {
     if (!rigid(r)) continue;
@@ -149,7 +149,7 @@ std::vector<Integrability> integrability(const System& system, double t, std::sp
       if (verdict.holonomic) break;
       std::vector<std::size_t> alone(set.begin(), first);
       alone.push_back(r);
-      if (integrable(at, alone, holonomic)) verdict.holonomic_alone.push_back(system.row_label(r));
+      if (integrable(at, alone, holonomic)) verdict.integrable_alone.push_back(system.row_label(r));
     }
     verdicts.push_back(std::move(verdict));
   }

@@ -13,8 +13,8 @@ struct Integrability {
   /// The whole set is integrable: together with the scene's holonomic constraints it is
   /// equivalent to equations between coordinates and time.
   bool holonomic = false;
-  /// If the set is not: those of its equations that are holonomic each by itself.
-  std::vector<std::string> holonomic_alone;
+  /// If the set is not: those of its equations that are integrable each by itself.
+  std::vector<std::string> integrable_alone;
 };
 
 /// Judges the nonholonomic constraints of a system at a state (notes, mln37), set by set.

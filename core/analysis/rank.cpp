@@ -39,7 +39,7 @@ Columns with_elongations(const System& system, const Columns& rows) {
   std::vector<Eigen::Triplet<double>> entries;
   const double half = std::sqrt(0.5);
   for (int r = 0; r < rows.cols(); ++r) {
-    const bool yields = system.law(number(r)).yields();
+    const bool yields = system.law(number(r)).compliant();
     for (Columns::InnerIterator it(rows, r); it; ++it)
       entries.emplace_back(static_cast<int>(it.row()), r, (yields ? half : 1.0) * it.value());
     if (yields) entries.emplace_back(static_cast<int>(rows.rows()) + r, r, half);
@@ -129,7 +129,7 @@ std::vector<std::size_t> parallel_rows(const System& system, const Columns& colu
                                        std::span<const std::size_t> active, double threshold) {
   if (!system.compliant() || clearly_independent(columns)) return {};
   std::vector<char> is_compliant;
-  for (std::size_t r = 0; r < system.rows(); ++r) is_compliant.push_back(system.law(r).compliance > 0.0);
+  for (std::size_t r = 0; r < system.rows(); ++r) is_compliant.push_back(system.law(r).compliant());
   const auto carrying = independent_among(columns, is_compliant, {threshold});
   std::vector<std::size_t> parallel;
   for (std::size_t k = 0; k < active.size(); ++k) {

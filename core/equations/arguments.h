@@ -63,11 +63,15 @@ using PointTuple = typename detail::WithoutReferences<
 template <class Element>
 using PointFacts = PointsOf<PointTuple<Element>>;
 
-/// The three ways to look at a coordinate r with velocity v that is input number k:
-/// as a plain number, as the k-th variable, or as a function of time along the motion.
-struct AsNumber {
-  double operator()(double r, double /*v*/, int /*k*/) const { return r; }
+namespace detail {
+
+/// The ways to look at a coordinate r with velocity v that is input number k:
+/// as a plain number, as a constant, as the k-th variable, or as a function of time along the motion.
+template <class S>
+struct AsConstant {
+  S operator()(double r, double /*v*/, int /*k*/) const { return S(r); }
 };
+using AsNumber = AsConstant<double>;
 template <class S>
 struct AsInput {
   S operator()(double r, double /*v*/, int k) const { return S::input(r, k); }
@@ -136,8 +140,8 @@ template <class S, class Element, class Lift>
                              int first = 0) {
   const auto& points = element.points();
   const auto each = [&]<std::size_t... I>(std::index_sequence<I...>) {
-    return std::make_tuple(
-        position<S>(std::get<I>(points), t, at, lift, first + PointFacts<Element>::first_input[I])...);
+    return std::make_tuple(detail::position<S>(std::get<I>(points), t, at, lift,
+                                               first + PointFacts<Element>::first_input[I])...);
   };
   return each(std::make_index_sequence<PointFacts<Element>::count>{});
 }
@@ -148,8 +152,8 @@ template <class S, class Element, class Lift>
                               int first = 0) {
   const auto& points = element.points();
   const auto each = [&]<std::size_t... I>(std::index_sequence<I...>) {
-    return std::make_tuple(
-        velocity<S>(std::get<I>(points), t, at, lift, first + PointFacts<Element>::first_input[I])...);
+    return std::make_tuple(detail::velocity<S>(std::get<I>(points), t, at, lift,
+                                               first + PointFacts<Element>::first_input[I])...);
   };
   return each(std::make_index_sequence<PointFacts<Element>::count>{});
 }
@@ -208,5 +212,7 @@ template <class Element>
   });
   return inputs;
 }
+
+}  // namespace detail
 
 }  // namespace dalembert

@@ -19,6 +19,8 @@ struct ElementFault {
   std::string what;
 };
 
+namespace detail {
+
 /// Calls `f(element, index)` for every element from `i` to before `end`; a failure reports the index.
 template <class Element, class F>
 void for_each_element(const std::vector<Element>& elements, std::size_t i, std::size_t end, const F& f) {
@@ -47,6 +49,8 @@ void for_each_element(const std::vector<Element>& elements, std::span<const char
   }
 }
 
+}  // namespace detail
+
 /// Sizes that all constraints of one type have in common.
 struct ConstraintShape {
   std::string_view kind;
@@ -59,12 +63,18 @@ struct ConstraintShape {
   std::string_view singular;  ///< what it means if the gradient vanishes or has no value
 };
 
-/// How a row gives way to its multiplier: to g + C lambda = 0 and psi + C lambda' = 0. Rigid rows do not.
+/// The law of a row: g + C lambda = 0, and so psi + C lambda' = 0; of a rigid one C = 0.
 struct RowLaw {
-  double compliance = 0.0;  ///< C [length / force, at unit gradient]
+  double compliance = 0.0;  ///< C [length / force, at unit gradient], d residual / d lambda
 
   /// Whether its residuals depend on its own multiplier: an entry in the lower right block.
-  [[nodiscard]] bool yields() const { return compliance > 0.0; }
+  [[nodiscard]] bool compliant() const { return compliance > 0.0; }
+  /// Of g and lambda, or of psi and lambda'.
+  [[nodiscard]] double residual(double g, double lambda) const { return g + compliance * lambda; }
+  /// The lambda of a g, or the lambda' of a psi, if it is compliant.
+  [[nodiscard]] double multiplier(double g) const { return -g / compliance; }
+  /// What its spring stores [energy].
+  [[nodiscard]] double energy(double lambda) const { return 0.5 * compliance * lambda * lambda; }
 };
 
 /// Where a constraint batch writes its part of the equations. Row r of constraint c is number
@@ -181,7 +191,7 @@ class Elements {
 
   void add(Element element) {
     std::array<int, width> read{};
-    read_coordinates(element, read);
+    detail::read_coordinates(element, read);
     coordinates_.insert(coordinates_.end(), read.begin(), read.end());
     try {
       all_.push_back(std::move(element));
@@ -201,7 +211,7 @@ class Elements {
       for (std::size_t k = 0; k < all_.size(); ++k) all.push_back(k == i ? element : all_[k]);
       all_.swap(all);
     }
-    read_coordinates(element, std::span(coordinates_).subspan(i * width, width));
+    detail::read_coordinates(element, std::span(coordinates_).subspan(i * width, width));
   }
   /// See detail::forces_at_points; `rows` rows of w and of `out` per element.
   void forces_at_points(int rows, std::span<const double> w, std::span<const double> lengths,

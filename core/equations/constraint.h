@@ -151,16 +151,16 @@ template <class Points, class F>
 /// the signature is not differentiated. (Driven points bring their own time along.)
 template <class C>
 concept HolonomicConstraint = ActsOnPoints<C> && !VelocityLevel<C> &&
-                              (applicable<C, detail::ProbePositions<C>> ||
-                               applicable_with_time<C, detail::Probe<C>, detail::ProbePositions<C>>);
+                              (detail::applicable<C, detail::ProbePositions<C>> ||
+                               detail::applicable_with_time<C, detail::Probe<C>, detail::ProbePositions<C>>);
 
 /// A nonholonomic constraint a(t, r_1, ..., r_k, v_1, ..., v_k) = 0, linear (affine) in the
 /// velocities: like a holonomic one, but marked `velocity_level` and called with the velocities
 /// after the positions.
 template <class C>
 concept NonholonomicConstraint = ActsOnPoints<C> && VelocityLevel<C> &&
-    (applicable<C, detail::ProbeMotion<C>> ||
-     applicable_with_time<C, detail::Probe<C>, detail::ProbeMotion<C>>);
+    (detail::applicable<C, detail::ProbeMotion<C>> ||
+     detail::applicable_with_time<C, detail::Probe<C>, detail::ProbeMotion<C>>);
 
 namespace detail {
 

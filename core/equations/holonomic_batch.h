@@ -33,8 +33,8 @@ class HolonomicBatch final : public ConstraintBatch {
 
   void evaluate(const Instant& at, const ConstraintValues& out) const override {
     using S = Dual<inputs + timed, 1>;
-    for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {
-      const auto g = residual<S>(c, time<S>(at.t), at, AsInput<S>{});
+    detail::for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {
+      const auto g = residual<S>(c, time<S>(at.t), at, detail::AsInput<S>{});
       const auto coordinate = elements_.coordinates(i);
       for (int k = 0; k < rows; ++k) {
         const S g_k = detail::row_of<S>(g, k);
@@ -46,7 +46,7 @@ class HolonomicBatch final : public ConstraintBatch {
         double psi = 0.0;
         if constexpr (timed) psi = g_k.gradient[inputs];
         std::array<double, width> w;
-        pull_back(c, g_k.gradient.data(), w.data());
+        detail::pull_back(c, g_k.gradient.data(), w.data());
         for (std::size_t j = 0; j < width; ++j) {
           out.w[row * width + j] = w[j];
           psi += w[j] * at.v[static_cast<std::size_t>(coordinate[j])];
@@ -70,8 +70,8 @@ class HolonomicBatch final : public ConstraintBatch {
 
   void bias(const Instant& at, std::span<double> gamma) const override {
     using S = Dual<1, 2>;
-    for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {
-      const auto g = residual<S>(c, S::input(at.t, 0), at, AlongMotion<S>{});
+    detail::for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {
+      const auto g = residual<S>(c, S::input(at.t, 0), at, detail::AlongMotion<S>{});
       for (int k = 0; k < rows; ++k) {
         const double second = detail::row_of<S>(g, k).hessian(0, 0);
         detail::require_finite(std::isfinite(second), i, "has no finite second derivative");
@@ -83,8 +83,8 @@ class HolonomicBatch final : public ConstraintBatch {
   void gaps(const Instant& at, std::span<double> g, std::span<double> rate) const override {
     if constexpr (OneSided<C>) {
       using S = Dual<1, 2>;
-      for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
-        const S along = detail::row_of<S>(residual<S>(c, S::input(at.t, 0), at, AlongMotion<S>{}), 0);
+      detail::for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
+        const S along = detail::row_of<S>(residual<S>(c, S::input(at.t, 0), at, detail::AlongMotion<S>{}), 0);
         detail::require_finite(std::isfinite(along.value), i, "is not a finite number");
         g[i] = along.value;
         rate[i] = along.gradient[0];
@@ -95,9 +95,9 @@ class HolonomicBatch final : public ConstraintBatch {
   void linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
                  std::span<double> stiffness) const override {
     using S = Dual<inputs + timed, 2>;
-    for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {
-      const auto g = residual<S>(c, time<S>(at.t), at, AsInput<S>{});
-      const auto v = gather_inputs(c, at.v);
+    detail::for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {
+      const auto g = residual<S>(c, time<S>(at.t), at, detail::AsInput<S>{});
+      const auto v = detail::gather_inputs(c, at.v);
       std::array<double, inputs * inputs> curvature{};
       for (int k = 0; k < rows; ++k) {
         const std::size_t row = i * rows + static_cast<std::size_t>(k);
@@ -110,10 +110,10 @@ class HolonomicBatch final : public ConstraintBatch {
           if constexpr (timed) sum += g_k.hessian(inputs, a);
           psi_r[static_cast<std::size_t>(a)] = sum;
         }
-        pull_back(c, psi_r.data(), psi_q.data() + row * width);
+        detail::pull_back(c, psi_r.data(), psi_q.data() + row * width);
         detail::add_block<inputs>(lambda[row], g_k.hessian, 0, curvature.data());
       }
-      pull_back_block(c, curvature.data(), stiffness.data() + i * width * width);
+      detail::pull_back_block(c, curvature.data(), stiffness.data() + i * width * width);
     });
   }
 
@@ -128,7 +128,7 @@ class HolonomicBatch final : public ConstraintBatch {
   }
   template <class S, class Lift>
   [[nodiscard]] static auto residual(const C& c, const S& t, const Instant& at, const Lift& lift) {
-    return call<detail::takes_time<C>>(c, t, positions<S>(c, t, at, lift));
+    return detail::call<detail::takes_time<C>>(c, t, detail::positions<S>(c, t, at, lift));
   }
 
   Elements<C> elements_;

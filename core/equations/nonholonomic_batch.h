@@ -30,15 +30,15 @@ class NonholonomicBatch final : public ConstraintBatch {
 
   void evaluate(const Instant& at, const ConstraintValues& out) const override {
     using S = Dual<inputs, 1>;
-    for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {
-      const auto a = residual<S>(c, S(at.t), at, Held<S>{}, AsInput<S>{}, 0);
+    detail::for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {
+      const auto a = residual<S>(c, S(at.t), at, detail::AsConstant<S>{}, detail::AsInput<S>{}, 0);
       for (int k = 0; k < rows; ++k) {
         const S a_k = detail::row_of<S>(a, k);
         detail::require_finite(std::isfinite(a_k.value), i, "is not a finite number");
         detail::require_finite(detail::all_finite(a_k.gradient), i, "has no finite gradient");
         const std::size_t row = i * rows + static_cast<std::size_t>(k);
         out.psi[row] = a_k.value;
-        pull_back(c, a_k.gradient.data(), out.w.data() + row * width);
+        detail::pull_back(c, a_k.gradient.data(), out.w.data() + row * width);
       }
     });
   }
@@ -50,8 +50,9 @@ class NonholonomicBatch final : public ConstraintBatch {
 
   void bias(const Instant& at, std::span<double> gamma) const override {
     using S = Dual<1, 1>;
-    for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {
-      const auto a = residual<S>(c, S::input(at.t, 0), at, AlongMotion<S>{}, Held<S>{}, 0);
+    detail::for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {
+      const auto a =
+          residual<S>(c, S::input(at.t, 0), at, detail::AlongMotion<S>{}, detail::AsConstant<S>{}, 0);
       for (int k = 0; k < rows; ++k) {
         const double rate = detail::row_of<S>(a, k).gradient[0];
         detail::require_finite(std::isfinite(rate), i, "has no finite derivative");
@@ -63,8 +64,8 @@ class NonholonomicBatch final : public ConstraintBatch {
   void gaps(const Instant& at, std::span<double> /*g*/, std::span<double> u) const override {
     if constexpr (Rough<C>) {
       using S = Dual<1, 1>;  // as in `bias`
-      for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
-        const auto a = residual<S>(c, S(at.t), at, Held<S>{}, Held<S>{}, 0);
+      detail::for_each_element(elements_.all(), [&](const C& c, std::size_t i) {
+        const auto a = residual<S>(c, S(at.t), at, detail::AsConstant<S>{}, detail::AsConstant<S>{}, 0);
         for (int k = 0; k < rows; ++k) {
           const double slip = detail::row_of<S>(a, k).value;
           detail::require_finite(std::isfinite(slip), i, "is not a finite number");
@@ -77,35 +78,30 @@ class NonholonomicBatch final : public ConstraintBatch {
   void linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
                  std::span<double> stiffness) const override {
     using S = Dual<2 * inputs, 2>;
-    for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {
-      const auto a = residual<S>(c, S(at.t), at, AsInput<S>{}, AsInput<S>{}, inputs);
+    detail::for_each_element(elements_.all(), left_out(), [&](const C& c, std::size_t i) {
+      const auto a = residual<S>(c, S(at.t), at, detail::AsInput<S>{}, detail::AsInput<S>{}, inputs);
       std::array<double, inputs * inputs> turning{};
       for (int k = 0; k < rows; ++k) {
         const std::size_t row = i * rows + static_cast<std::size_t>(k);
         const S a_k = detail::row_of<S>(a, k);
         detail::require_finite(detail::all_finite(a_k.gradient) && detail::all_finite(a_k.hessian), i,
                                "has no finite second derivative");
-        require_linear(a_k, gather_inputs(c, at.v), i);
-        pull_back(c, a_k.gradient.data(), psi_q.data() + row * width);
+        require_linear(a_k, detail::gather_inputs(c, at.v), i);
+        detail::pull_back(c, a_k.gradient.data(), psi_q.data() + row * width);
         detail::add_block<inputs>(lambda[row], a_k.hessian, inputs, turning.data());
       }
-      pull_back_block(c, turning.data(), stiffness.data() + i * width * width);
+      detail::pull_back_block(c, turning.data(), stiffness.data() + i * width * width);
     });
   }
 
  private:
-  /// A quantity that is held while others vary.
-  template <class S>
-  struct Held {
-    S operator()(double x, double /*rate*/, int /*k*/) const { return S(x); }
-  };
-
   template <class S, class LiftPosition, class LiftVelocity>
   [[nodiscard]] static auto residual(const C& c, const S& t, const Instant& at, const LiftPosition& lift_r,
                                      const LiftVelocity& lift_v, int first_velocity) {
-    return call<detail::takes_time<C>>(
+    return detail::call<detail::takes_time<C>>(
         c, t,
-        std::tuple_cat(positions<S>(c, t, at, lift_r), velocities<S>(c, t, at, lift_v, first_velocity)));
+        std::tuple_cat(detail::positions<S>(c, t, at, lift_r),
+                       detail::velocities<S>(c, t, at, lift_v, first_velocity)));
   }
 
   /// d^2 a/dv^2 vanishes for an equation linear in v; 1e-9 of the first derivative is far above the

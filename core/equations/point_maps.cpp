@@ -26,14 +26,14 @@ using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, mo
 
 }  // namespace
 
-void pull_back(std::span<const PointMap> maps, const double* gradient, double* out) {
+void pull_back_by(std::span<const PointMap> maps, const double* gradient, double* out) {
   for (const PointMap& map : maps) {
     for (int k = 0; k < map.coordinates; ++k) *out++ = pulled_back(map, k, gradient);
     gradient += map.inputs;
   }
 }
 
-void pull_back_block(std::span<const PointMap> maps, const double* block, double* out) {
+void pull_back_block_by(std::span<const PointMap> maps, const double* block, double* out) {
   int inputs = 0;
   for (const PointMap& map : maps) inputs += map.inputs;
   for (const PointMap& left : maps) {

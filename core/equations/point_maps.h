@@ -17,10 +17,10 @@ struct PointMap {
 
 /// A gradient with respect to the positions as one with respect to the coordinates: out = L^T g, with L the
 /// map of all points.
-void pull_back(std::span<const PointMap> maps, const double* gradient, double* out);
+void pull_back_by(std::span<const PointMap> maps, const double* gradient, double* out);
 
 /// A matrix of second derivatives likewise: out = L^T B L. B by columns, `out` by rows.
-void pull_back_block(std::span<const PointMap> maps, const double* block, double* out);
+void pull_back_block_by(std::span<const PointMap> maps, const double* block, double* out);
 
 /// What the multipliers of one constraint exert at the points it was stated for, whatever these are made
 /// of. A row of W is w = u L, with u the gradient with respect to the positions of the points. So

@@ -30,15 +30,13 @@ template <class Element>
   return maps;
 }
 
-}  // namespace detail
-
 /// A gradient with respect to the inputs of an element, as one with respect to its coordinates.
 template <class Element>
 void pull_back(const Element& element, const double* gradient, double* out) {
   if constexpr (PointFacts<Element>::direct) {
     std::copy_n(gradient, PointFacts<Element>::coordinates, out);
   } else {
-    detail::pull_back(detail::point_maps(element), gradient, out);
+    pull_back_by(point_maps(element), gradient, out);
   }
 }
 
@@ -51,8 +49,10 @@ void pull_back_block(const Element& element, const double* block, double* out) {
       for (int column = 0; column < n; ++column) out[row * n + column] = block[column * n + row];
     }
   } else {
-    detail::pull_back_block(detail::point_maps(element), block, out);
+    pull_back_block_by(point_maps(element), block, out);
   }
 }
+
+}  // namespace detail
 
 }  // namespace dalembert

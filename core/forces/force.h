@@ -60,7 +60,7 @@ template <class E>
 void scatter(const E& element, const Vec<PointFacts<E>::inputs>& f, std::span<const int> places,
              std::span<double> F) {
   std::array<double, static_cast<std::size_t>(PointFacts<E>::coordinates)> own;
-  dalembert::pull_back(element, f.data(), own.data());
+  detail::pull_back(element, f.data(), own.data());
   for (std::size_t k = 0; k < own.size(); ++k) F[static_cast<std::size_t>(places[k])] += own[k];
 }
 
@@ -78,8 +78,8 @@ void write_slopes(const E& element, std::size_t i, const VecOf<S, PointFacts<E>:
       F_v[at] = f[row].gradient[n + column];
     }
   }
-  dalembert::pull_back_block(element, F_r.data(), stiffness.data() + i * width * width);
-  dalembert::pull_back_block(element, F_v.data(), damping.data() + i * width * width);
+  detail::pull_back_block(element, F_r.data(), stiffness.data() + i * width * width);
+  detail::pull_back_block(element, F_v.data(), damping.data() + i * width * width);
 }
 
 }  // namespace detail
@@ -88,15 +88,15 @@ void write_slopes(const E& element, std::size_t i, const VecOf<S, PointFacts<E>:
 /// Force and stiffness follow: F_i = -dV/dr_i.
 template <class E>
 concept PotentialForce = ActsOnPoints<E> &&
-    (applicable<detail::EnergyOf<E>, detail::ProbePositions<E>> ||
-     applicable_with_time<detail::EnergyOf<E>, detail::Probe<E>, detail::ProbePositions<E>>);
+    (detail::applicable<detail::EnergyOf<E>, detail::ProbePositions<E>> ||
+     detail::applicable_with_time<detail::EnergyOf<E>, detail::Probe<E>, detail::ProbePositions<E>>);
 
 /// A force given by its law: `points()` and `force([t,] r_1, ..., r_k, v_1, ..., v_k)`, which
 /// returns the force on each point: a vector for a single point, else a std::tuple of vectors.
 template <class E>
 concept LawForce = ActsOnPoints<E> &&
-    (applicable<detail::ForceOf<E>, detail::ProbeMotion<E>> ||
-     applicable_with_time<detail::ForceOf<E>, detail::Probe<E>, detail::ProbeMotion<E>>);
+    (detail::applicable<detail::ForceOf<E>, detail::ProbeMotion<E>> ||
+     detail::applicable_with_time<detail::ForceOf<E>, detail::Probe<E>, detail::ProbeMotion<E>>);
 
 /// Forces of one type that have a potential: F = -V_r, dF/dq = -V_rr.
 template <PotentialForce E>
@@ -104,7 +104,7 @@ class PotentialBatch final : public ForceBatch {
   static constexpr int inputs = PointFacts<E>::inputs;
   static constexpr int width = PointFacts<E>::coordinates;
   static constexpr bool takes_time =
-      applicable_with_time<detail::EnergyOf<E>, detail::Probe<E>, detail::ProbePositions<E>>;
+      detail::applicable_with_time<detail::EnergyOf<E>, detail::Probe<E>, detail::ProbePositions<E>>;
 
  public:
   /// What Scene::add asks for.
@@ -125,8 +125,8 @@ class PotentialBatch final : public ForceBatch {
 
   void add_force(const Instant& at, const Multipliers& /*lambda*/, std::span<double> F) const override {
     using S = Dual<inputs, 1>;
-    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      const S V = potential<S>(e, at, AsInput<S>{});
+    detail::for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      const S V = potential<S>(e, at, detail::AsInput<S>{});
       detail::require_finite(isfinite(V), i, "is not a finite number or has no finite gradient");
       detail::scatter(e, -V.gradient, elements_.coordinates(i), F);
     });
@@ -134,37 +134,38 @@ class PotentialBatch final : public ForceBatch {
 
   void power(const Instant& at, const Multipliers& /*lambda*/, std::span<double> out) const override {
     using S = Dual<inputs, 1>;
-    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      out[i] = -potential<S>(e, at, AsInput<S>{}).gradient.dot(gather_inputs(e, at.v));
+    detail::for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      out[i] = -potential<S>(e, at, detail::AsInput<S>{}).gradient.dot(detail::gather_inputs(e, at.v));
     });
   }
 
   void linearise(const Instant& at, const Multipliers& /*lambda*/, std::span<double> stiffness,
                  std::span<double> /*damping*/) const override {
     using S = Dual<inputs, 2>;
-    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      const S V = potential<S>(e, at, AsInput<S>{});
+    detail::for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      const S V = potential<S>(e, at, detail::AsInput<S>{});
       detail::require_finite(detail::all_finite(V.hessian), i, "has no finite second derivative");
       const decltype(V.hessian) F_r = -V.hessian;
-      pull_back_block(e, F_r.data(), stiffness.data() + i * width * width);
+      detail::pull_back_block(e, F_r.data(), stiffness.data() + i * width * width);
     });
   }
 
   void force(std::size_t element, const Instant& at, std::span<const double> /*lambda*/,
              std::span<double> out) const override {
     using S = Dual<inputs, 1>;
-    for_each_element(elements_.all(), element, element + 1, [&](const E& e, std::size_t) {
-      const S V = potential<S>(e, at, AsInput<S>{});
+    detail::for_each_element(elements_.all(), element, element + 1, [&](const E& e, std::size_t) {
+      const S V = potential<S>(e, at, detail::AsInput<S>{});
       detail::require_finite(isfinite(V), element, "is not a finite number or has no finite gradient");
       const Vec<inputs> f = -V.gradient;
-      pull_back(e, f.data(), out.data());
+      detail::pull_back(e, f.data(), out.data());
     });
   }
 
   [[nodiscard]] double energy(const Instant& at) const override {
     double sum = 0.0;
-    for_each_element(elements_.all(),
-                     [&](const E& e, std::size_t) { sum += potential<double>(e, at, AsNumber{}); });
+    detail::for_each_element(elements_.all(), [&](const E& e, std::size_t) {
+      sum += potential<double>(e, at, detail::AsNumber{});
+    });
     return sum;
   }
 
@@ -172,7 +173,7 @@ class PotentialBatch final : public ForceBatch {
   template <class S, class Lift>
   [[nodiscard]] static S potential(const E& e, const Instant& at, const Lift& lift) {
     const S t(at.t);
-    return S(call<takes_time>(detail::EnergyOf<E>{e}, t, positions<S>(e, t, at, lift)));
+    return S(detail::call<takes_time>(detail::EnergyOf<E>{e}, t, detail::positions<S>(e, t, at, lift)));
   }
 
   Elements<E> elements_;

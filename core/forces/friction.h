@@ -47,8 +47,8 @@ using ProbeFriction = decltype(std::tuple_cat(
 /// `friction([t,] lambda, r_1, ..., r_k, v_1, ..., v_k)`, which returns the force on each point.
 template <class E>
 concept FrictionForce = ActsOnPoints<E> && ReadsMultiplier<E> &&
-    (applicable<detail::FrictionOf<E>, detail::ProbeFriction<E>> ||
-     applicable_with_time<detail::FrictionOf<E>, detail::Probe<E>, detail::ProbeFriction<E>>);
+    (detail::applicable<detail::FrictionOf<E>, detail::ProbeFriction<E>> ||
+     detail::applicable_with_time<detail::FrictionOf<E>, detail::Probe<E>, detail::ProbeFriction<E>>);
 
 /// A user's own force that depends on a multiplier; made by `friction_law`.
 template <int Rows, class Points, class Law>

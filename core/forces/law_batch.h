@@ -32,7 +32,7 @@ class LawBatch final : public ForceBatch {
   static constexpr int inputs = PointFacts<E>::inputs;
   static constexpr int width = PointFacts<E>::coordinates;
   static constexpr int rows = detail::LawTraits<E>::rows;
-  static constexpr bool takes_time = applicable_with_time<Function, detail::Probe<E>, Arguments>;
+  static constexpr bool takes_time = detail::applicable_with_time<Function, detail::Probe<E>, Arguments>;
 
  public:
   /// What Scene::add asks for.
@@ -64,26 +64,29 @@ class LawBatch final : public ForceBatch {
   [[nodiscard]] std::span<const int> constraints() const override { return constraints_; }
 
   void add_force(const Instant& at, const Multipliers& lambda, std::span<double> F) const override {
-    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      const Vec<inputs> f = forces<double>(e, at, own(lambda, i), AsNumber{}, AsNumber{}, AsNumber{});
+    detail::for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      const Vec<inputs> f =
+          forces<double>(e, at, own(lambda, i), detail::AsNumber{}, detail::AsNumber{}, detail::AsNumber{});
       detail::require_finite(detail::all_finite(f), i, "is not a finite number");
       detail::scatter(e, f, elements_.coordinates(i), F);
     });
   }
 
   void power(const Instant& at, const Multipliers& lambda, std::span<double> out) const override {
-    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      out[i] = forces<double>(e, at, own(lambda, i), AsNumber{}, AsNumber{}, AsNumber{})
-                   .dot(gather_inputs(e, at.v));
+    detail::for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      out[i] =
+          forces<double>(e, at, own(lambda, i), detail::AsNumber{}, detail::AsNumber{}, detail::AsNumber{})
+              .dot(detail::gather_inputs(e, at.v));
     });
   }
 
   void force(std::size_t element, const Instant& at, std::span<const double> lambda,
              std::span<double> out) const override {
-    for_each_element(elements_.all(), element, element + 1, [&](const E& e, std::size_t) {
-      const Vec<inputs> f = forces<double>(e, at, lambda, AsNumber{}, AsNumber{}, AsNumber{});
+    detail::for_each_element(elements_.all(), element, element + 1, [&](const E& e, std::size_t) {
+      const Vec<inputs> f =
+          forces<double>(e, at, lambda, detail::AsNumber{}, detail::AsNumber{}, detail::AsNumber{});
       detail::require_finite(detail::all_finite(f), element, "is not a finite number");
-      pull_back(e, f.data(), out.data());
+      detail::pull_back(e, f.data(), out.data());
     });
   }
 
@@ -94,28 +97,24 @@ class LawBatch final : public ForceBatch {
   void linearise(const Instant& at, const Multipliers& lambda, std::span<double> stiffness,
                  std::span<double> damping) const override {
     using S = Dual<2 * inputs, 1>;
-    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      const VecOf<S, inputs> f = forces<S>(e, at, own(lambda, i), AsInput<S>{}, AsInput<S>{}, Held<S>{});
+    detail::for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      const VecOf<S, inputs> f = forces<S>(e, at, own(lambda, i), detail::AsInput<S>{}, detail::AsInput<S>{},
+                                           detail::AsConstant<S>{});
       detail::write_slopes<E, S>(e, i, f, stiffness, damping);
     });
   }
 
  private:
-  /// A quantity that is held while others vary.
-  template <class S>
-  struct Held {
-    S operator()(double x, double /*rate*/, int /*k*/) const { return S(x); }
-  };
-
   void write_slope(const Instant& at, const Multipliers& lambda, std::span<double> out) const {
     using S = Dual<rows, 1>;
-    for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      const VecOf<S, inputs> f = forces<S>(e, at, own(lambda, i), Held<S>{}, Held<S>{}, AsInput<S>{});
+    detail::for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
+      const VecOf<S, inputs> f = forces<S>(e, at, own(lambda, i), detail::AsConstant<S>{},
+                                           detail::AsConstant<S>{}, detail::AsInput<S>{});
       for (int r = 0; r < rows; ++r) {
         Vec<inputs> f_lambda;
         for (int k = 0; k < inputs; ++k) f_lambda[k] = f[k].gradient[r];
         detail::require_finite(detail::all_finite(f_lambda), i, "has no finite derivative");
-        pull_back(e, f_lambda.data(), out.data() + (i * rows + static_cast<std::size_t>(r)) * width);
+        detail::pull_back(e, f_lambda.data(), out.data() + (i * rows + static_cast<std::size_t>(r)) * width);
       }
     });
   }
@@ -144,9 +143,9 @@ class LawBatch final : public ForceBatch {
                                                const LiftPosition& lift_r, const LiftVelocity& lift_v,
                                                const LiftMultiplier& lift) {
     const S t(at.t);
-    const auto arguments = std::tuple_cat(multiplier<S>(lambda, lift), positions<S>(e, t, at, lift_r),
-                                          velocities<S>(e, t, at, lift_v, inputs));
-    return detail::forces_on_inputs<S, E>(call<takes_time>(Function{e}, t, arguments));
+    const auto arguments = std::tuple_cat(multiplier<S>(lambda, lift), detail::positions<S>(e, t, at, lift_r),
+                                          detail::velocities<S>(e, t, at, lift_v, inputs));
+    return detail::forces_on_inputs<S, E>(detail::call<takes_time>(Function{e}, t, arguments));
   }
 
   Elements<E> elements_;

@@ -61,8 +61,8 @@ struct LagrangeEquations {
 
 template <int N>
 typename LagrangeEquations<N>::Solved LagrangeEquations<N>::solved(const Instant& at) const {
-  const Vec<N> q = scale.cwiseProduct(gather_inputs(*this, at.q)),
-               v = scale.cwiseProduct(gather_inputs(*this, at.v));
+  const Vec<N> q = scale.cwiseProduct(detail::gather_inputs(*this, at.q)),
+               v = scale.cwiseProduct(detail::gather_inputs(*this, at.v));
   const LagrangeTerms<N> terms = lagrangian->terms(at.t, q, v);
   Vec<N> f = terms.force(v);
   for (const auto& Q : forces) f += Q(at.t, q, v);
@@ -82,8 +82,9 @@ typename LagrangeEquations<N>::Solved LagrangeEquations<N>::solved(const Instant
 
 template <int N>
 double LagrangeEquations<N>::energy(const Instant& at) const {
-  const Vec<N> v = gather_inputs(*this, at.v), q_rate = scale.cwiseProduct(v);
-  return lagrangian->terms(at.t, scale.cwiseProduct(gather_inputs(*this, at.q)), q_rate).energy(q_rate) -
+  const Vec<N> v = detail::gather_inputs(*this, at.v), q_rate = scale.cwiseProduct(v);
+  return lagrangian->terms(at.t, scale.cwiseProduct(detail::gather_inputs(*this, at.q)), q_rate)
+             .energy(q_rate) -
          0.5 * v.squaredNorm();
 }
 
@@ -106,25 +107,25 @@ class LagrangeBatch final : public ForceBatch {
   [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
 
   void add_force(const Instant& at, const Multipliers& /*lambda*/, std::span<double> F) const override {
-    for_each_element(elements_.all(), [&](const Element& e, std::size_t i) {
+    detail::for_each_element(elements_.all(), [&](const Element& e, std::size_t i) {
       detail::scatter(e, force_of(e, i, at), elements_.coordinates(i), F);
     });
   }
   void power(const Instant& at, const Multipliers& /*lambda*/, std::span<double> out) const override {
-    for_each_element(elements_.all(), [&](const Element& e, std::size_t i) {
-      out[i] = force_of(e, i, at).dot(gather_inputs(e, at.v));
+    detail::for_each_element(elements_.all(), [&](const Element& e, std::size_t i) {
+      out[i] = force_of(e, i, at).dot(detail::gather_inputs(e, at.v));
     });
   }
   void force(std::size_t element, const Instant& at, std::span<const double> /*lambda*/,
              std::span<double> out) const override {
-    for_each_element(elements_.all(), element, element + 1, [&](const Element& e, std::size_t i) {
+    detail::for_each_element(elements_.all(), element, element + 1, [&](const Element& e, std::size_t i) {
       const Vec<N> f = force_of(e, i, at);
       std::copy_n(f.data(), N, out.data());
     });
   }
   [[nodiscard]] double energy(const Instant& at) const override {
     double sum = 0.0;
-    for_each_element(elements_.all(), [&](const Element& e, std::size_t) { sum += e.energy(at); });
+    detail::for_each_element(elements_.all(), [&](const Element& e, std::size_t) { sum += e.energy(at); });
     return sum;
   }
 
@@ -133,7 +134,7 @@ class LagrangeBatch final : public ForceBatch {
   /// coordinate's unit and of the largest velocity.
   void linearise(const Instant& at, const Multipliers& /*lambda*/, std::span<double> stiffness,
                  std::span<double> damping) const override {
-    for_each_element(elements_.all(), [&](const Element& e, std::size_t i) {
+    detail::for_each_element(elements_.all(), [&](const Element& e, std::size_t i) {
       const double speed = typical_speed(e, i, at);
       std::vector<double> q(at.q.begin(), at.q.end()), v(at.v.begin(), at.v.end());
       for (int k = 0; k < N; ++k) {
@@ -164,7 +165,7 @@ class LagrangeBatch final : public ForceBatch {
   }
   /// A velocity of the size of those there are, or that the force gives over a unit.
   [[nodiscard]] static double typical_speed(const Element& e, std::size_t i, const Instant& at) {
-    const double size = std::max(gather_inputs(e, at.v).cwiseAbs().maxCoeff(),
+    const double size = std::max(detail::gather_inputs(e, at.v).cwiseAbs().maxCoeff(),
                                  std::sqrt(force_of(e, i, at).cwiseAbs().maxCoeff()));
     return size > 0.0 ? size : 1.0;
   }

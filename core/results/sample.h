@@ -51,12 +51,12 @@ class Sample {
   template <Point P>
   [[nodiscard]] Vec<D> position(const P& point) const {
     require_known(point);
-    return finite<P>(dalembert::position<double>(point, flat_.time, instant(), AsNumber{}, 0));
+    return finite<P>(detail::position<double>(point, flat_.time, instant(), detail::AsNumber{}, 0));
   }
   template <Point P>
   [[nodiscard]] Vec<D> velocity(const P& point) const {
     require_known(point);
-    return finite<P>(dalembert::velocity<double>(point, flat_.time, instant(), AsNumber{}, 0));
+    return finite<P>(detail::velocity<double>(point, flat_.time, instant(), detail::AsNumber{}, 0));
   }
   template <Point P>
   [[nodiscard]] Vec<D> acceleration(const P& point) const {
@@ -193,7 +193,7 @@ class Sample {
   }
   template <Point P>
   void require_known(const P& point) const {
-    if constexpr (requires { point.particles; }) {
+    if constexpr (detail::OfParticles<P>) {
       for (const auto& particle : point.particles) require_known(particle);
     } else if constexpr (P::coordinates > 0) {
       layout_->require(point);

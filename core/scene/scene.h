@@ -116,8 +116,8 @@ class Scene {
   void replace(Rotor rotor, const RotorState& state);
 
   /// Takes a constraint out of force, and puts it back: while released it exerts no force, and its equation
-  /// need not be satisfied. Throws InvalidArgument for a handle of another scene, and for constraints that
-  /// hold only at times (`unilateral`, `coulomb`).
+  /// need not be satisfied. Throws InvalidArgument for a handle of another scene, and for those that do
+  /// not always hold (`unilateral`, `coulomb`).
   template <int Rows>
   void release(Constraint<Rows> constraint) {
     layout_.require(constraint);
@@ -236,7 +236,7 @@ class Scene {
   }
   template <Point P>
   void admit_point(const P& point, const Label& label, Surroundings& around) const {
-    if constexpr (requires { point.particles; }) {
+    if constexpr (detail::OfParticles<P>) {
       for (const auto& particle : point.particles) admit_point(particle, label, around);
     } else if constexpr (P::coordinates > 0) {
       if (!layout_.has(point)) refuse_point(point.scene, label);

@@ -31,7 +31,7 @@ template <int D>
 void Scene<D>::set_released(int constraint, bool released) {
   Layout::Constraint& its = layout_.constraints[static_cast<std::size_t>(constraint)];
   if (its.holds.contact || its.holds.roughness)
-    throw InvalidArgument(its.label() + " holds only at times: it cannot be released or imposed");
+    throw InvalidArgument(its.label() + " does not always hold: it cannot be released or imposed");
   its.holds.released = released;
 }
 

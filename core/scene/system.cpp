@@ -80,7 +80,7 @@ void System::place_constraints() {
     if (shape.holonomic) holonomic_rows_ = rows();
   }
   rows_in_force_ = rows();
-  compliant_rows_ = static_cast<std::size_t>(std::ranges::count_if(laws_, &RowLaw::yields));
+  compliant_rows_ = static_cast<std::size_t>(std::ranges::count_if(laws_, &RowLaw::compliant));
 }
 
 std::vector<char> System::angles() const {
@@ -197,7 +197,7 @@ double System::kinetic_energy(std::span<const double> v) const {
 
 double System::elastic_energy(std::span<const double> lambda) const {
   double V = 0.0;
-  for (std::size_t r = 0; r < lambda.size(); ++r) V += 0.5 * laws_[r].compliance * lambda[r] * lambda[r];
+  for (std::size_t r = 0; r < lambda.size(); ++r) V += laws_[r].energy(lambda[r]);
   return V;
 }
 

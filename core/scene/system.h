@@ -99,7 +99,7 @@ class System {
   /// Those that their scene has released.
   [[nodiscard]] std::vector<std::size_t> released() const;
   /// The label of one that does not always hold; empty if all do.
-  [[nodiscard]] std::string held_at_times() const;
+  [[nodiscard]] std::string conditional_label() const;
   /// g and psi of the rows of these at an instant, also of those that are not in force; 0 in
   /// other rows. Throws like `evaluate`.
   void gaps(const Instant& at, std::span<double> g, std::span<double> psi) const;

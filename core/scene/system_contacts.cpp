@@ -31,7 +31,7 @@ std::vector<std::size_t> System::released() const {
   return constraints_that(*layout_, [](const Condition& c) { return c.released; });
 }
 
-std::string System::held_at_times() const {
+std::string System::conditional_label() const {
   for (const Layout::Constraint& c : layout_->constraints)
     if (c.holds.contact || c.holds.roughness || c.holds.released) return c.label();
   return {};

@@ -12,4 +12,8 @@ struct StepFailure {
   double time;
 };
 
+[[nodiscard]] inline StepFailure linearly_dependent(double time) {
+  return {"the constraints became linearly dependent", time};
+}
+
 }  // namespace dalembert

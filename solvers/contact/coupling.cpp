@@ -40,7 +40,7 @@ Coupling::Coupling(std::shared_ptr<const System> of, const std::vector<std::size
       others_(rows_besides(*system_, contacts, e_)),
       matrix_(Problem(system_).pattern(others_.rows)) {
   const System& system = *system_;
-  if (!matrix_.factorise({.w = e_.w})) throw StepFailure{"the constraints became linearly dependent", at.t};
+  if (!matrix_.factorise({.w = e_.w})) throw linearly_dependent(at.t);
   const auto n = static_cast<Index>(contacts.size());
   for (const std::size_t c : contacts) {
     const Layout::Constraint& its = system.layout()->constraints[c];

@@ -142,8 +142,7 @@ DryFriction::Motion DryFriction::solve(const std::vector<std::size_t>& open, con
   Manifold manifold(problem, independent_rows(*system, e.w), scales_.lengths());
   Motion motion{std::vector<double>(at.q.size()), std::vector<double>(system->rows())};
   std::vector<double> v(at.v.begin(), at.v.end());
-  if (!manifold.solve_motion(at.t, at.q, v, motion.a, motion.lambda))
-    throw StepFailure{"the constraints became linearly dependent", at.t};
+  if (!manifold.solve_motion(at.t, at.q, v, motion.a, motion.lambda)) throw linearly_dependent(at.t);
   motion.unique.assign(manifold.unique().begin(), manifold.unique().end());
   return motion;
 }

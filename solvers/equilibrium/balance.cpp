@@ -32,10 +32,10 @@ void require_frictionless(const System& system) {
 }
 
 void require_bilateral(const System& system) {
-  const auto label = system.held_at_times();
+  const auto label = system.conditional_label();
   if (label.empty()) return;
   throw InvalidScene("Equilibria of scene \"" + system.layout()->scene + "\": " + label +
-                     " holds only at times; state it as a bilateral one, and check the sign of its force");
+                     " does not always hold; state it as a bilateral one, and check the sign of its force");
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ void Balance::evaluate(State& s) const {
   s.off = 0.0;
   const auto lengths = scales_.lengths();
   for (std::size_t r = 0; r < s.distance.size(); ++r) {
-    s.distance[r] += system_->law(r).compliance * s.lambda[r];
+    s.distance[r] = system_->law(r).residual(s.distance[r], s.lambda[r]);
     s.off = std::max(s.off,
                      std::abs(s.distance[r]) / gradient_length(*system_, e.w, lengths, r) / scales_.length);
   }

@@ -22,11 +22,11 @@ using Eigen::MatrixXd;
 /// end of the step.
 const double r6 = std::sqrt(6.0);
 const std::array<double, 3> c{(4.0 - r6) / 10.0, (4.0 + r6) / 10.0, 1.0};
-const std::array<std::array<double, 3>, 3> a{{
+const Eigen::Matrix3d a{
     {(88.0 - 7.0 * r6) / 360.0, (296.0 - 169.0 * r6) / 1800.0, (-2.0 + 3.0 * r6) / 225.0},
     {(296.0 + 169.0 * r6) / 1800.0, (88.0 + 7.0 * r6) / 360.0, (-2.0 - 3.0 * r6) / 225.0},
     {(16.0 - r6) / 36.0, (16.0 + r6) / 36.0, 1.0 / 9.0},
-}};
+};
 
 /// The multipliers of a sample. Where positions give a spring's force too roughly to be read it is good
 /// enough here: its error enters K by no more than its stiffness times their round-off.
@@ -36,14 +36,13 @@ std::vector<double> multipliers(const System& system, const FlatSample& at) {
   system.evaluate({at.time, at.q, at.v}, e);
   for (std::size_t r = 0; r < lambda.size(); ++r) {
     if (std::isfinite(lambda[r])) continue;
-    const double C = system.law(r).compliance;
-    if (C == 0.0) {
+    if (!system.law(r).compliant()) {
       std::ostringstream what;
       what << "The force of " << system.row_label(r) << " is not determined at t = " << at.time
            << ", so neither is the growth of disturbances there";
       throw NoEquilibrium(what.str());
     }
-    lambda[r] = -e.g[r] / C;
+    lambda[r] = system.law(r).multiplier(e.g[r]);
   }
   return lambda;
 }
@@ -89,7 +88,7 @@ MatrixXd radau_step(std::span<const Disturbances> nodes, double h, const MatrixX
     A.block(row, row, 2 * n, 2 * n).setIdentity();
     for (Index j = 0; j < 3; ++j) {
       const Disturbances& node = nodes[static_cast<std::size_t>(j)];
-      const double a_ij = a[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+      const double a_ij = a(i, j);
       const Index column = j * size;
       A.block(row, column + n, n, n).diagonal().array() -= h * a_ij;
       A.block(row, column + 2 * n + m, n, mh) -= a_ij * node.G.transpose();

@@ -31,9 +31,9 @@ void require_period(const System& system, double period) {
          << ", must be finite and > 0";
     throw InvalidArgument(what.str());
   }
-  if (const auto label = system.held_at_times(); !label.empty())
+  if (const auto label = system.conditional_label(); !label.empty())
     throw InvalidScene("Floquet multipliers: " + label +
-                       " holds only at times; they are defined for scenes without such constraints");
+                       " does not always hold; they are defined for scenes without such constraints");
   if (system.frictional())
     throw InvalidScene("Floquet multipliers: " + system.force_of_friction(0) +
                        " reads a multiplier; they are defined for scenes without such forces");

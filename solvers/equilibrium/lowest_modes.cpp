@@ -202,7 +202,7 @@ void require_conservative(const System& system, const LinearTerms& terms, std::s
 void require_all(const System& system, const LinearTerms& terms, std::size_t found, std::size_t wanted) {
   const ActiveRows rows = independent_rows(system, terms.w);
   const auto rigid = static_cast<std::size_t>(
-      std::ranges::count_if(rows.rows, [&](std::size_t r) { return !system.law(r).yields(); }));
+      std::ranges::count_if(rows.rows, [&](std::size_t r) { return !system.law(r).compliant(); }));
   const std::size_t there = system.coordinates() - rigid;
   if (found >= std::min(wanted, there)) return;
   throw InvalidScene("Normal modes of scene \"" + system.layout()->scene + "\": of " +

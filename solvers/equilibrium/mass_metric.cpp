@@ -53,7 +53,7 @@ MassMetric::MassMetric(const System& system, const LinearTerms& terms,
   Index rigid = 0;
   for (const std::size_t r : rows) {
     const VectorXd w = scaled_row(system, terms.w, r, place, root);
-    if (system.law(r).compliance > 0.0) {
+    if (system.law(r).compliant()) {
       K += w * (w / system.law(r).compliance).transpose();
       continue;
     }

@@ -115,7 +115,7 @@ void require_told_from_zero(const System& system, const Modes& found) {
   if (told) return;
   throw InvalidScene(
       "Normal modes of scene \"" + system.layout()->scene +
-      "\": the lowest cannot be told from 0 beside what is stiffest in it; leave out what is stiff "
+      "\": the lowest eigenvalues are below the round-off of the largest; leave out what is stiff "
       "and does not act on them, or make it rigid");
 }
 

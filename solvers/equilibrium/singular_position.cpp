@@ -35,7 +35,7 @@ bool is_singular_position(const System& system, const RotatingFrame& frame, cons
   if (independent_rows(system, e.w).size() == system.rows()) return false;
   std::vector<std::size_t> rigid;
   for (std::size_t r = 0; r < system.holonomic_rows(); ++r)
-    if (!system.law(r).yields()) rigid.push_back(r);
+    if (!system.law(r).compliant()) rigid.push_back(r);
   MatrixXd W = MatrixXd::Zero(static_cast<Index>(rigid.size()), static_cast<Index>(system.coordinates()));
   Eigen::VectorXd length(W.rows());
   for (Index k = 0; k < W.rows(); ++k) {

@@ -68,8 +68,8 @@ ErkStepper::State::State(const Problem& problem, const Start& start, const Optio
   system->evaluate({options.t_start, start.q, start.v}, e);
   const auto lengths = scales.lengths();
   for (std::size_t r = 0; r < start.lambda.size(); ++r) {
-    const bool spring = system->law(r).compliance > 0.0;
-    const double impulse = spring ? impulse_of_row(*system, e.w, lengths, r, scales.speed()) : 0.0;
+    const double impulse =
+        system->law(r).compliant() ? impulse_of_row(*system, e.w, lengths, r, scales.speed()) : 0.0;
     force_of_spring.push_back(impulse / scales.time);
   }
 }

@@ -138,11 +138,12 @@ StepFailure ErkStepper::State::why_not_over(Node& before) {
                 "is an impact, which the equations do not describe; end the run here, or round it off",
             before.t};
   const std::string what = switches.others(before.side, next.side);
-  return {(what.empty() ? std::string("the motion") : what) +
-              " switches here, and no step leads on: either both sides drive the motion back to the switch, "
-              "or it "
-              "jumps by more than double precision resolves. Smooth the switch, or end the run here",
-          before.t};
+  return {
+      (what.empty() ? std::string("the motion") : what) +
+          " switches here, and no solution continues: either both sides drive the motion back to the switch, "
+          "or it "
+          "jumps by more than double precision resolves. Smooth the switch, or end the run here",
+      before.t};
 }
 
 /// After a step over a switch, whether the motion behind it leads back to it at once, as it led to it from

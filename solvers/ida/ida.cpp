@@ -89,7 +89,7 @@ std::string IdaStepper::State::explain(int code) const {
       return fault_or(
           asked_for < tight ? std::string("Newton's iteration does not converge: ") + too_tight
           : sine() < constants.close_to_dependent
-              ? "Newton's iteration does not converge; the constraints are close to dependent here"
+              ? "Newton's iteration does not converge; the constraints are nearly linearly dependent here"
               : "Newton's iteration does not converge; look for a discontinuous or very stiff force");
     case IDA_TOO_MUCH_ACC:
       return "the tolerance asks for more than double precision can deliver; ask for a looser one";

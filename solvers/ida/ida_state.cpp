@@ -44,7 +44,7 @@ IdaStepper::State::State(const Problem& problem, const Start& start, const Optio
   system->evaluate(instant(t, y.get()), e);
   for (std::size_t r = 0; r < m(); ++r) {
     const auto row = rows.rows[r];
-    if (system->law(row).compliance > 0.0) yp0[2 * n() + r] = -e.psi[row] / system->law(row).compliance;
+    if (system->law(row).compliant()) yp0[2 * n() + r] = system->law(row).multiplier(e.psi[row]);
   }
   find_impulses();
 
@@ -99,9 +99,8 @@ void IdaStepper::State::residual(double at, N_Vector x, N_Vector xp, N_Vector r)
       r2[i] += e.w[j] * active[k];
       if (holonomic) r1[i] += e.w[j] * mu[k];
     }
-    const double C = system->law(row).compliance;
-    r3[k] = e.psi[row] + C * rates[k];
-    if (holonomic) r4[k] = e.g[row] + C * active[k];
+    r3[k] = system->law(row).residual(e.psi[row], rates[k]);
+    if (holonomic) r4[k] = system->law(row).residual(e.g[row], active[k]);
   }
   for (const std::size_t k : rows.parallel) r3[k] = mu[k];
 }

@@ -50,7 +50,7 @@ NewtonMatrix::NewtonMatrix(const Problem& problem, const ActiveRows& rows, doubl
   const System& system = *system_;
   const Islands& islands = problem.islands();
   for (const std::size_t row : rows.rows) {
-    if (row >= system.holonomic_rows() || system.law(row).yields())
+    if (row >= system.holonomic_rows() || system.law(row).compliant())
       needs_k1_[islands.of_row(system, row)] = 1;
   }
   for (std::size_t k = 0; k < system.friction_pattern().size(); ++k) {

@@ -29,7 +29,7 @@ Vibrations fastest_vibrations(const System& system, std::span<const double> w,
 
   square = 0.0;
   for (std::size_t r = 0; r < system.rows(); ++r) {
-    if (system.law(r).compliance > 0.0)
+    if (system.law(r).compliant())
       square = std::max(square, inverse_effective_mass(system, w, r) / system.law(r).compliance);
   }
   fastest.of_compliance = std::sqrt(square);

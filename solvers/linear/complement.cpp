@@ -61,7 +61,7 @@ ComplementPattern::Plan ComplementPattern::plan(const System& system, std::span<
           plan.entries.empty() || plan.entries.back().row != p.row || plan.entries.back().column != p.column;
       if (p.row == p.column && first_of_place) {
         const std::size_t row = rows[p.row];
-        if (system.law(row).yields()) plan.compliant.push_back({row, plan.entries.size()});
+        if (system.law(row).compliant()) plan.compliant.push_back({row, plan.entries.size()});
       }
       plan.entries.push_back({p.row, p.column});
       plan.products.push_back({0, p.a, p.b, 1});

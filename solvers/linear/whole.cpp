@@ -36,7 +36,7 @@ WholePattern::Plan WholePattern::plan(const System& system, std::span<const std:
       plan.entries.push_back({own, next});
       plan.entries.push_back({next, own});
     }
-    if (system.law(r).yields()) plan.entries.push_back({next, next});
+    if (system.law(r).compliant()) plan.entries.push_back({next, next});
     ++next;
   }
   if (blocks == SaddleValues::Blocks::symmetric) return plan;
@@ -81,7 +81,7 @@ bool WholeMatrix::factorise(const SaddleValues& values) {
       lu_.add(entry++, -values.w[k]);
       lu_.add(entry++, lower[k]);
     }
-    if (system.law(r).yields()) lu_.add(entry++, values.s.empty() ? 0.0 : values.s[r]);
+    if (system.law(r).compliant()) lu_.add(entry++, values.s.empty() ? 0.0 : values.s[r]);
   }
   for (const std::size_t k : p.slope_) lu_.add(entry++, -values.slope[k]);
   for (const std::size_t k : p.stiffness_) lu_.add(entry++, -values.h * values.forces->stiffness[k]);

@@ -62,20 +62,20 @@ void Manifold::follow(const Springs& springs) {
 /// Makes the residuals of compliant rows those of g + C lambda.
 void Manifold::add_springs() {
   for (std::size_t r = 0; r < springs_.lambda.size(); ++r) {
-    const double C = system_->law(r).compliance;
-    if (C == 0.0) continue;
+    const RowLaw& law = system_->law(r);
+    if (!law.compliant()) continue;
     if (!following_) {
-      springs_.lambda[r] = -e_.g[r] / C;
-      springs_.rate[r] = -e_.psi[r] / C;
+      springs_.lambda[r] = law.multiplier(e_.g[r]);
+      springs_.rate[r] = law.multiplier(e_.psi[r]);
     }
-    e_.g[r] = following_ ? e_.g[r] + C * springs_.lambda[r] : 0.0;
-    e_.psi[r] = following_ ? e_.psi[r] + C * springs_.rate[r] : 0.0;
+    e_.g[r] = following_ ? law.residual(e_.g[r], springs_.lambda[r]) : 0.0;
+    e_.psi[r] = following_ ? law.residual(e_.psi[r], springs_.rate[r]) : 0.0;
   }
 }
 
 void Manifold::weigh_springs() {
   for (std::size_t r = 0; r < s_.size(); ++r) {
-    if (system_->law(r).yields())
+    if (system_->law(r).compliant())
       s_[r] = following_ ? springs_.c * springs_.c * system_->law(r).compliance
                          : rigid * inverse_effective_mass(*system_, e_.w, r);
   }
@@ -172,7 +172,7 @@ void Manifold::add_to_springs(const std::vector<double>& from, double fraction, 
   const std::size_t n = x_.size() - rows_.rows.size();
   for (std::size_t k = 0; k < rows_.rows.size(); ++k) {
     const auto r = rows_.rows[k];
-    if (system_->law(r).compliance > 0.0) to[r] = from[r] + fraction * springs_.c * springs_.c * x_[n + k];
+    if (system_->law(r).compliant()) to[r] = from[r] + fraction * springs_.c * springs_.c * x_[n + k];
   }
 }
 
@@ -195,7 +195,7 @@ bool Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
   for (std::size_t k = 0; k < rows_.rows.size(); ++k) {
     const auto r = rows_.rows[k];
     x_[n + k] = -gamma_[r];
-    if (system_->law(r).yields())
+    if (system_->law(r).compliant())
       x_[n + k] += s_[r] * springs_.lambda[r] - system_->law(r).compliance * springs_.second[r];
   }
   if (!friction_) {

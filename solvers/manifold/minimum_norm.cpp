@@ -40,7 +40,7 @@ double rounding(const System& system, const Instant& at, const System::Evaluatio
   for (std::size_t i = 0; i < lengths.size(); ++i)
     size = std::max(size, roundings * epsilon * std::abs(at.q[i]) * lengths[i]);
   for (std::size_t r = 0; r < e.g.size(); ++r) {
-    if (!system.law(r).yields() && e.g[r] != 0.0)
+    if (!system.law(r).compliant() && e.g[r] != 0.0)
       size = std::max(size, std::abs(e.g[r]) / gradient_length(system, e.w, lengths, r));
   }
   return size;

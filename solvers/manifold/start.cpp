@@ -22,7 +22,7 @@ void evaluate_relaxed(const System& system, const Instant& at, System::Evaluatio
   system.evaluate(at, e);
   for (auto* residual : {&e.g, &e.psi}) {
     for (std::size_t r = 0; r < residual->size(); ++r) {
-      if (system.law(r).yields()) (*residual)[r] = 0.0;
+      if (system.law(r).compliant()) (*residual)[r] = 0.0;
     }
   }
 }
@@ -83,7 +83,7 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
     }
   }
   for (std::size_t r = 0; r < residual.size(); ++r) {
-    if (system.law(r).yields() || std::abs(residual[r]) <= 1e-6 * scale + rounding) continue;
+    if (system.law(r).compliant() || std::abs(residual[r]) <= 1e-6 * scale + rounding) continue;
     throw InconsistentStart(
         system.row_label(r) +
         " contradicts the other constraints: no accelerations satisfy all of them; remove or "
@@ -200,8 +200,7 @@ Start begin_changed(const Problem& problem, const Start& before, double t, std::
   system.evaluate({t, start.q, start.v}, e);
   start.rows = independent_rows(system, e.w);
   Manifold manifold(problem, start.rows, lengths);
-  if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda))
-    throw StepFailure{"the constraints became linearly dependent", t};
+  if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda)) throw linearly_dependent(t);
   return start;
 }
 
@@ -225,7 +224,7 @@ std::vector<double> take_over(const Problem& problem, const Scales& scales, doub
   for (std::size_t i = 0; i < v.size(); ++i) fastest = std::max(fastest, std::abs(v[i]) * lengths[i]);
   Manifold manifold(problem, independent_rows(system, e.w), lengths);
   if (!manifold.project_impulsively(t, q, v, impulses) || !manifold.solve_motion(t, q, v, a, lambda))
-    throw StepFailure{"the constraints became linearly dependent", t};
+    throw linearly_dependent(t);
   const Violation left = velocity_violation(system, manifold.equations(), lengths);
   if (left.size > least * fastest)
     refuse(left, " contradicts the other constraints from here on: its speed is off by ");
@@ -249,8 +248,7 @@ Start begin_anew(const Problem& problem, const Start& before, double t, std::spa
   start.rows = independent_rows(system, e.w, before.rows);
   Manifold manifold(problem, start.rows, start.scales.lengths());
   manifold.project_positions(t, start.q, start.v, converged_to * start.scales.length);
-  if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda))
-    throw StepFailure{"the constraints became linearly dependent", t};
+  if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda)) throw linearly_dependent(t);
   return start;
 }
 

@@ -35,7 +35,7 @@ TEST(Integrability, OfTheUprightDiskIsNone) {
   const auto sets = judged(scene);
   ASSERT_EQ(sets.size(), 1U);
   EXPECT_FALSE(sets[0].holonomic);
-  EXPECT_TRUE(sets[0].holonomic_alone.empty());
+  EXPECT_TRUE(sets[0].integrable_alone.empty());
   EXPECT_THAT(scene.describe(),
               HasSubstr("UprightRolling \"coin\", UprightRolling \"coin\": not integrable"));
 }

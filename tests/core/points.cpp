@@ -37,7 +37,7 @@ TEST(Points, OnlyParticlesAreInputs) {
 
 TEST(Points, TheCoordinatesReadAreThoseOfTheParticlesInOrder) {
   std::array<int, 4> coordinates{};
-  read_coordinates(Pair<Particle<2>, Particle<2>>{{1, 2, 1}, {0, 0, 1}}, coordinates);
+  detail::read_coordinates(Pair<Particle<2>, Particle<2>>{{1, 2, 1}, {0, 0, 1}}, coordinates);
   EXPECT_EQ(coordinates, (std::array<int, 4>{2, 3, 0, 1}));
 }
 
@@ -54,11 +54,11 @@ TEST(Driven, PathTakesItsDimensionFromWhatItReturns) {
 TEST(Driven, VelocityAndAccelerationAreDerivativesOfThePath) {
   const auto point = driven([](auto t) { return vec(sin(2.0 * t), t * t * t); });
   const double t = 0.6;
-  const Vec<2> v = driven_velocity<double>(point, t);
+  const Vec<2> v = detail::driven_velocity<double>(point, t);
   EXPECT_DOUBLE_EQ(v.x(), 2.0 * std::cos(2.0 * t));
   EXPECT_DOUBLE_EQ(v.y(), 3.0 * t * t);
   using S = Dual<1, 1>;
-  const auto with_rate = driven_velocity<S>(point, S::input(t, 0));
+  const auto with_rate = detail::driven_velocity<S>(point, S::input(t, 0));
   EXPECT_DOUBLE_EQ(with_rate.x().value, v.x());
   EXPECT_DOUBLE_EQ(with_rate.x().gradient[0], -4.0 * std::sin(2.0 * t));
   EXPECT_DOUBLE_EQ(with_rate.y().gradient[0], 6.0 * t);
@@ -66,7 +66,7 @@ TEST(Driven, VelocityAndAccelerationAreDerivativesOfThePath) {
 
 TEST(Driven, APointThatStandsStillHasNoVelocity) {
   const auto point = driven([](auto) { return vec(1.0, 2.0); });
-  EXPECT_EQ(driven_velocity<double>(point, 3.0), Vec<2>::Zero());
+  EXPECT_EQ(detail::driven_velocity<double>(point, 3.0), Vec<2>::Zero());
 }
 
 }  // namespace
