@@ -97,8 +97,9 @@ class LagrangianMotion {
   [[nodiscard]] Reactions determined(std::size_t i) const {
     Reactions now = reactions(i);
     if (now.sine < std::sqrt(tolerance_) || now.rank < rank_)
-      throw UndeterminedForce("The constraints of \"" + system_.name() + "\" are close to dependent at t = " +
-                              detail::text(times()[i]) + ": the state does not determine their forces");
+      throw UndeterminedForce("The constraints of \"" + system_.name() +
+                              "\" are nearly linearly dependent at t = " + detail::text(times()[i]) +
+                              ": the state does not determine their forces");
     return now;
   }
   template <class Read>

@@ -27,13 +27,13 @@ void add_skate(Draft<D>& draft) {
             }));
 }
 
-/// Holonomic in disguise: two particles that keep their distance; and a particle with a wheel.
+/// Integrable: two particles that keep their distance; and a particle with a wheel.
 template <int D>
-void add_disguised(Draft<D>& draft) {
+void add_integrable(Draft<D>& draft) {
   const Place<D> a = draft.particle(), b = draft.particle();
   if (a.owner == b.owner && draft.plan.kind != Plan::Kind::invalid) return;
   if (!draft.take(1, {a.owner, b.owner})) return;
-  draft.add(call_text("disguised rod", a.text, b.text),
+  draft.add(call_text("integrable rod", a.text, b.text),
             nonholonomic(points(handle(a), handle(b)),
                          [=](auto r_a, auto r_b, auto v_a, auto v_b) { return (r_b - r_a).dot(v_b - v_a); }));
 }
@@ -56,7 +56,7 @@ void add_own_nonholonomic(Draft<D>& draft) {
     case 0:
       return add_skate(draft);
     case 1:
-      return add_disguised(draft);
+      return add_integrable(draft);
     default:
       return add_rack(draft);
   }

@@ -58,15 +58,16 @@ TEST(Catalogue, ConeAndDoublePendulumAreAsAccurateAsRequired) {
   EXPECT_LE(pendulum.error_force, 1e-3);
 }
 
-/// Falling tolerances for every model. A tighter tolerance may be worse than a looser one by `slack`.
-void expect_errors_fall(const AnyModel& any, double slack) {
+/// Falling tolerances for every model. A tighter tolerance may be worse than a looser one by a factor of
+/// `margin`.
+void expect_errors_fall(const AnyModel& any, double margin) {
   std::visit(
       [&](const auto& model) {
         double best_position = INFINITY, best_force = INFINITY;
         for (const double tolerance : tolerances) {
           const Measurement m = measured(model, tolerance);
-          EXPECT_LE(m.error_position, slack * best_position) << model.name << " at " << tolerance;
-          EXPECT_LE(m.error_force, slack * best_force) << model.name << " at " << tolerance;
+          EXPECT_LE(m.error_position, margin * best_position) << model.name << " at " << tolerance;
+          EXPECT_LE(m.error_force, margin * best_force) << model.name << " at " << tolerance;
           best_position = std::min(best_position, m.error_position);
           best_force = std::min(best_force, m.error_force);
         }
