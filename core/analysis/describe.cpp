@@ -27,7 +27,7 @@ std::string rotors(std::size_t count) {
 /// By count: where there are more equations than coordinates some depend on others.
 std::string freedom(std::size_t coordinates, std::size_t equations) {
   if (equations <= coordinates) return std::to_string(coordinates - equations);
-  return "overdetermined by " + std::to_string(equations - coordinates) + " equations";
+  return "undetermined (" + std::to_string(equations - coordinates) + " equations more than coordinates)";
 }
 
 }  // namespace
