@@ -31,9 +31,11 @@ const Particle<D>& handle(const Place<D>& place) {
 
 /// One of the ways in which a scene is stated and started.
 struct Statement {
-  bool lean = false;        ///< without what is redundant
-  double more_speed = 0.0;  ///< added to every initial velocity along `axis` [length / time]
-  double more_spin = 0.0;   ///< to every angular velocity [1 / time]
+  bool lean = false;         ///< without what is redundant
+  bool springs = false;      ///< compliant rods as forces
+  bool regularised = false;  ///< Coulomb's friction by a law that is smooth at rest
+  double more_speed = 0.0;   ///< added to every initial velocity along `axis` [length / time]
+  double more_spin = 0.0;    ///< to every angular velocity [1 / time]
   int axis = 0;
 };
 /// Which statements an element belongs to.
@@ -67,6 +69,7 @@ class Draft {
   Random random;
   const Plan& plan;
   Scene<D> scene{"fuzz"};
+  std::vector<Event<D>> events;
 
   /// A number as meant, or in an invalid scene now and then a wrong one.
   [[nodiscard]] double number(double meant) {
@@ -106,6 +109,8 @@ class Draft {
   void add_rotor();
   [[nodiscard]] const Vec<D>& origin() const { return origin_; }
   [[nodiscard]] const std::vector<Place<D>>& particles() const { return particles_; }
+  [[nodiscard]] const Statement& statement() const { return statement_; }
+  [[nodiscard]] const Body* last_body() const { return bodies_.empty() ? nullptr : &bodies_.back(); }
 
   /// Whether a sensible scene has room for a constraint of this many rows on these owners; takes it.
   [[nodiscard]] bool take(int rows, std::initializer_list<int> owners);
@@ -220,6 +225,14 @@ void add_one_sided(Draft<D>& draft);
 template <int D>
 void add_rough(Draft<D>& draft);
 
+/// Speed below which regularised friction is weaker than Coulomb's, as a part of the plan's; and how far that
+/// may take a motion over the two times that a product runs, as a part of its length: it creeps where the
+/// other sticks, at up to a few times this speed.
+inline constexpr double regularised_below = 3e-3, regularised_within = 0.1;
+
+/// A scene of the features of its plan.
+template <int D>
+void fill_product(Draft<D>& draft);
 /// A whole scene.
 template <int D>
 void fill(Draft<D>& draft);

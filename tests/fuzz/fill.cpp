@@ -44,6 +44,7 @@ template <int D>
 void fill(Draft<D>& draft) {
   const Plan& plan = draft.plan;
   if (plan.family == Family::one_sided || plan.family == Family::rough) return fill_one_sided(draft);
+  if (plan.family == Family::products) return fill_product(draft);
   if (plan.family == Family::redundant) add_redundant(draft);
   for (int i = 0; i < plan.bodies; ++i) draft.add_body();
   for (int i = 0; i < plan.rotors; ++i) draft.add_rotor();

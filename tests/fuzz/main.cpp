@@ -40,7 +40,7 @@ void print(const Task& task) {
 int main(int argc, char** argv) {
   CLI::App app("Random scenes: each must be refused with a reason, or run and keep its constraints.");
   std::uint64_t seed = 1, count = 300;
-  std::string steppers = "both", family = "all", file;
+  std::string steppers = "both", family = "all", file, pairs;
   std::vector<std::uint64_t> only;
   int longest = 60;
   bool list = false;
@@ -49,11 +49,13 @@ int main(int argc, char** argv) {
   app.add_option("--stepper", steppers)->check(CLI::IsMember({"ida", "erk", "both"}))->capture_default_str();
   app.add_option("--only", only, "write down the scenes of these seeds and what becomes of them");
   app.add_option("--family", family, "of scenes; redundant and kinked ones are run against a twin")
-      ->check(CLI::IsMember({"any", "redundant", "kinked", "one-sided", "rough", "all"}))
+      ->check(CLI::IsMember({"any", "redundant", "kinked", "one-sided", "rough", "products", "all"}))
       ->capture_default_str();
   app.add_option("--corpus", file, "run the scenes of this file first");
   app.add_option("--longest", longest, "a scene that takes more processor time hangs [s]; the slowest take 4")
       ->capture_default_str();
+  app.add_option("--pairs", pairs,
+                 "write what became of every pair of features of products to this CSV file");
   app.add_flag("--list", list, "a line for every scene");
   CLI11_PARSE(app, argc, argv);
 
@@ -78,5 +80,5 @@ int main(int argc, char** argv) {
     for (const Task& task : tasks) print(task);
     return 0;
   }
-  return run_all(tasks, longest, list) == 0 ? 0 : 1;
+  return run_all(tasks, longest, list, pairs) == 0 ? 0 : 1;
 }

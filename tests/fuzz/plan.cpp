@@ -93,7 +93,38 @@ void make_one_sided(Random& random, Plan& plan) {
   plan.lossless = !rough && random.chance(0.3);
 }
 
+/// Two to four features. Tolerances from loose to tight, over as long as errors stay of their own order.
+void make_product(Random& random, Plan& plan) {
+  Options& o = plan.options;
+  for (int n = 2 + random.below(3); n > 0; --n) {
+    const Feature feature = features[static_cast<std::size_t>(random.below(drawn_features))];
+    if (!plan.has(feature)) plan.features.push_back(feature);
+  }
+  o.t_start = random.chance(0.7) ? 0.0 : plan.time * random.between(-10.0, 10.0);
+  o.t_end = o.t_start + plan.time * random.decades(-0.5, 0.3);
+  o.tolerance = random.decades(-12.0, -4.0);
+  o.samples = 11;
+  o.sample_interval = 0.0;
+  o.times.clear();
+  o.max_steps = 10 * most_steps;
+  o.assemble = true;
+  o.dense = plan.has(Feature::dense);
+  plan.spread = 0.3;
+  plan.particles = 1 + random.below(3);
+  plan.bodies = plan.rotors = 0;
+  plan.still = plan.has(Feature::driven) ? 0.2 : 1.0;
+}
+
+/// The features that follow from options.
+void add_options(Plan& plan) {
+  plan.features.push_back(plan.options.stepper == Stepper::ida ? Feature::ida : Feature::erk);
+  if (plan.options.tolerance > 1e-6) plan.features.push_back(Feature::loose);
+  if (plan.options.tolerance < 1e-9) plan.features.push_back(Feature::tight);
+}
+
 }  // namespace
+
+bool Plan::has(Feature feature) const { return std::ranges::find(features, feature) != features.end(); }
 
 const char* name(Plan::Kind kind) {
   return kind == Plan::Kind::sensible ? "sensible" : kind == Plan::Kind::wild ? "wild" : "invalid";
@@ -125,12 +156,14 @@ const char* name(Family family) {
       return "kinked";
     case Family::one_sided:
       return "one-sided";
-    default:
+    case Family::rough:
       return "rough";
+    default:
+      return "products";
   }
 }
 
-Plan random_plan(Random& random, Family family) {
+Plan random_plan(Random& random, Family family, Stepper stepper) {
   Plan plan;
   plan.family = family;
   const double kind = random.uniform();
@@ -154,9 +187,13 @@ Plan random_plan(Random& random, Family family) {
   if (plan.kind == Plan::Kind::invalid && random.chance(0.2)) spoil(random, plan.options);
   if (family == Family::one_sided || family == Family::rough) {
     make_one_sided(random, plan);
+  } else if (family == Family::products) {
+    make_product(random, plan);
   } else if (family != Family::any) {
     make_comparable(random, plan);
   }
+  plan.options.stepper = stepper;
+  if (family == Family::products) add_options(plan);
   return plan;
 }
 

@@ -26,7 +26,15 @@ void add_friction(Draft<D>& draft, const Place<D>& p, const auto& surface, const
         const auto& particle = std::get<Particle<D>>(p.point);
         const auto touch = touching<D>(particle, surface);
         const auto presses = may_leave ? draft.scene.add(unilateral(touch)) : draft.scene.add(touch);
-        draft.scene.add(coulomb(presses, Slip{particle, surface}, mu, mu + more));
+        if (!draft.statement().regularised || may_leave || more > 0.0) {
+          draft.scene.add(coulomb(presses, Slip{particle, surface}, mu, mu + more));
+        } else {
+          const double slow = regularised_below * draft.plan.speed();
+          draft.scene.add(friction_law(presses, points(particle), [mu, slow](auto lambda, auto, auto v) {
+            using std::abs, std::sqrt;
+            return (-mu * abs(lambda) / sqrt(v.squaredNorm() + slow * slow) * v).eval();
+          }));
+        }
       });
 }
 

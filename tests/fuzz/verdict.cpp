@@ -1,4 +1,4 @@
-#include "verdict.h"
+#include "comparison.h"
 
 #include <algorithm>
 #include <cstring>
@@ -56,6 +56,7 @@ template <int D>
 std::string run(Draft<D>& draft, std::string& detail) {
   const Family family = draft.plan.family;
   if (family == Family::redundant || family == Family::kinked) return fault_of_twins(draft, detail);
+  if (family == Family::products) return fault_of_product(draft, detail);
   const double way = draft.random.uniform();
   if (way < 0.1) describe(draft);
   if (way > 0.9) return walk(draft);
@@ -87,7 +88,8 @@ Verdict judge_draft(Draft<D>& draft) {
   } catch (const IntegrationFailure& error) {
     v.outcome = "IntegrationFailure";
     v.message = error.what();
-    v.fault = fault_of_run(draft, error.template trajectory<D>(), error.time(), v.detail);
+    if (draft.plan.family != Family::products)  // there the library judges its own
+      v.fault = fault_of_run(draft, error.template trajectory<D>(), error.time(), v.detail);
     if (!std::isfinite(error.time())) v.fault = "the time of failure is not finite";
   } catch (const InconsistentStart& error) {
     v.outcome = "InconsistentStart";
@@ -120,6 +122,7 @@ Verdict judge_draft(Draft<D>& draft) {
           << o.times.size() << " times, tolerance " << o.tolerance << ", max_steps " << o.max_steps
           << ", assemble " << o.assemble << '\n';
   v.log = options.str() + draft.log();
+  for (const Feature feature : draft.plan.features) v.features += std::string(name(feature)) + ' ';
   return v;
 }
 
@@ -127,8 +130,7 @@ Verdict judge_draft(Draft<D>& draft) {
 
 Verdict judge(const Task& task) {
   Random random(task.seed);
-  Plan plan = random_plan(random, task.family);
-  plan.options.stepper = task.stepper;
+  const Plan plan = random_plan(random, task.family, task.stepper);
   if (random.chance(0.5)) {
     Draft<2> draft(random, plan);
     return judge_draft(draft);

@@ -24,8 +24,9 @@ struct Verdict {
   std::string outcome;  ///< "ran", or the type of the error
   std::string message;  ///< of the error
   std::string fault;
-  std::string log;     ///< how to write the scene down by hand
-  std::string detail;  ///< size of what was measured, for whoever looks into limits
+  std::string log;         ///< how to write the scene down by hand
+  std::string features{};  ///< of products, by name
+  std::string detail;      ///< size of what was measured, for whoever looks into limits
 };
 
 /// Makes the scene and runs it.

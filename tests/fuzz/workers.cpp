@@ -1,5 +1,7 @@
 #include "workers.h"
 
+#include "pairs.h"
+
 #include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -25,8 +27,9 @@ void tell(std::FILE* out, const Verdict& v) {
     std::ranges::replace(text, '\n', ' ');
     return text;
   };
-  std::fprintf(out, "%s\n%s\n%s\n%s\n", v.outcome.c_str(), line(v.log.substr(0, v.log.find(' '))).c_str(),
-               line(v.message).c_str(), line(v.fault).c_str());
+  for (const std::string& text :
+       {v.outcome, v.log.substr(0, v.log.find(' ')), v.message, v.fault, v.features})
+    std::fprintf(out, "%s\n", line(text).c_str());
   std::fflush(out);
 }
 
@@ -55,7 +58,8 @@ class Tally {
   explicit Tally(bool list) : list_(list) {}
 
   void add(const Task& task, const std::string& outcome, const std::string& kind, const std::string& message,
-           const std::string& fault) {
+           const std::string& fault, const std::string& has) {
+    if (task.family == Family::products) pairs_.add(has, outcome, message, fault);
     const std::string family = dalembert::fuzz::name(task.family);
     ++outcomes_[(task.family == Family::any ? kind : family) + ' ' + outcome];
     if (!fault.empty()) ++faults_;
@@ -64,7 +68,9 @@ class Tally {
               << dalembert::name(task.stepper) << ' ' << kind << ' ' << outcome << ": "
               << (fault.empty() ? message : fault + " | " + message) << std::endl;
   }
-  int report() const {
+  int report(const std::string& pairs) const {
+    pairs_.report();
+    if (!pairs.empty()) pairs_.write(pairs);
     for (const auto& [what, count] : outcomes_) std::cout << count << ' ' << what << '\n';
     std::cout << faults_ << " faults\n";
     return faults_;
@@ -73,6 +79,7 @@ class Tally {
  private:
   bool list_;
   int faults_ = 0;
+  Pairs pairs_;
   std::map<std::string, int> outcomes_;
 };
 
@@ -98,9 +105,9 @@ std::size_t run_some(const std::vector<Task>& tasks, std::size_t first, int long
     return true;
   };
   std::size_t i = first;
-  std::string outcome, kind, message, fault;
-  while (next_line(outcome) && next_line(kind) && next_line(message) && next_line(fault))
-    tally.add(tasks[i++], outcome, kind, message, fault);
+  std::string outcome, kind, message, fault, has;
+  while (next_line(outcome) && next_line(kind) && next_line(message) && next_line(fault) && next_line(has))
+    tally.add(tasks[i++], outcome, kind, message, fault, has);
   std::free(text);
   std::fclose(in);
   int status = 0;
@@ -108,16 +115,16 @@ std::size_t run_some(const std::vector<Task>& tasks, std::size_t first, int long
   const std::size_t end = std::min(first + batch, tasks.size());
   if (status == 0 && i == end) return end;
   const Task& at_fault = tasks[std::min(i, end - 1)];  // all told: what was found at the end, a leak
-  tally.add(at_fault, "died", "", "", ending(status, longest));
+  tally.add(at_fault, "died", "", "", ending(status, longest), "");
   return std::min(i + 1, end);
 }
 
 }  // namespace
 
-int run_all(const std::vector<Task>& tasks, int longest, bool list) {
+int run_all(const std::vector<Task>& tasks, int longest, bool list, const std::string& pairs) {
   Tally tally(list);
   for (std::size_t i = 0; i < tasks.size();) i = run_some(tasks, i, longest, tally);
-  return tally.report();
+  return tally.report(pairs);
 }
 
 }  // namespace dalembert::fuzz
