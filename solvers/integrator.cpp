@@ -23,16 +23,34 @@ double processor_time() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+/// Reading the clock takes as long as a step of a small scene: not to be read at every sample.
 class Stopwatch {
  public:
-  explicit Stopwatch(double& total) : total_(total) {}
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-  ~Stopwatch() { total_ += processor_time() - start_; }
+  /// Switches it on or off for as long as this lives.
+  class While {
+   public:
+    While(Stopwatch& watch, bool runs) : watch_(watch), before_(watch.runs_) { watch_.set(runs); }
+    While(const While&) = delete;
+    While& operator=(const While&) = delete;
+    ~While() { watch_.set(before_); }
+
+   private:
+    Stopwatch& watch_;
+    bool before_;
+  };
+
+  [[nodiscard]] double read() const { return runs_ ? total_ + (processor_time() - since_) : total_; }
 
  private:
-  double& total_;
-  double start_ = processor_time();
+  void set(bool runs) {
+    const double now = processor_time();
+    if (runs_) total_ += now - since_;
+    since_ = now;
+    runs_ = runs;
+  }
+
+  double total_ = 0.0, since_ = 0.0;
+  bool runs_ = false;
 };
 
 /// An impact would have to give impulses to what reads the force of a contact.
@@ -134,6 +152,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
   template <class Observe>
   void for_each_sample(const Observe& observe) {
     require_not_stopped();
+    const Stopwatch::While timed(stopwatch, true);
     for (const double t : times) {
       if (t < now.t) continue;
       if (t > now.t) guarded([&] { go_to(t); });
@@ -152,7 +171,6 @@ struct DALEMBERT_HIDDEN Integrator::State {
   void guarded(const F& f) {
     require_not_stopped();
     try {
-      const Stopwatch stopwatch(run_time);
       f();
     } catch (const StepFailure& failure) {
       throw stop(failure.what, failure.time);
@@ -180,7 +198,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
 
   [[nodiscard]] Statistics statistics() const {
     Statistics s = stepping.statistics();
-    s.run_time = run_time;
+    s.run_time = stopwatch.read();
     return s;
   }
 
@@ -210,7 +228,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
   std::shared_ptr<const System> read_from;  // `now` is of its layout
   std::optional<EventLog> log;              // if there is anything to be listed
   long steps = 0;
-  double run_time = 0.0;
+  Stopwatch stopwatch;
   std::optional<IntegrationFailure> stopped;
   Record record = empty_record();
 };
@@ -236,6 +254,7 @@ void Integrator::step() {
     throw InvalidArgument(what.str());
   }
   s.require_not_ended("step()");
+  const Stopwatch::While timed(s.stopwatch, true);
   s.guarded([&s] {
     if (s.reached() < s.options.t_end && !s.ended()) s.step_once(s.options.t_end);
     s.visit(s.reached());
@@ -251,13 +270,17 @@ void Integrator::advance_to(double t) {
     throw InvalidArgument(what.str());
   }
   if (t > s.now.t) s.require_not_ended("advance_to");
+  const Stopwatch::While timed(s.stopwatch, true);
   s.guarded([&] { s.go_to(t); });
 }
 
 void Integrator::run(const std::function<void(const FlatSample&)>& observe) {
   if (state_->options.dense)
     throw InvalidArgument("dense = true keeps all steps for Trajectory::at: not where no sample is kept");
-  state_->for_each_sample(observe);
+  state_->for_each_sample([&](const FlatSample& sample) {
+    const Stopwatch::While untimed(state_->stopwatch, false);  // it is the user's
+    observe(sample);
+  });
 }
 
 std::shared_ptr<const Record> Integrator::run() {

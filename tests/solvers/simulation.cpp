@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ctime>
+
 namespace dalembert::simulation_test {
 namespace {
 
@@ -251,6 +253,30 @@ TEST(Simulation, StepsToTheEndFromAnywhereBefore) {
 }
 
 /// It is no fault of the run.
+/// Processor time of the process [s].
+double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+TEST(Simulation, RunTimeIsThatOfTheLibraryInEveryWayToRun) {
+  const EachKind each;
+  const Options options{.t_end = 1.0, .samples = 11};
+  EXPECT_GT(simulate(each.scene, options).statistics().run_time, 0.0);
+  Simulation<2> sim(each.scene, options);
+  EXPECT_EQ(sim.statistics().run_time, 0.0);
+  sim.step();
+  const double first = sim.statistics().run_time;
+  EXPECT_GT(first, 0.0);
+  sim.advance_to(0.5);
+  EXPECT_GT(sim.statistics().run_time, first);
+  // An observer that takes far longer than the run, 0.2 s in all, does not count.
+  const Statistics observed = simulate(each.scene, options, [](const Sample<2>&) {
+    const double since = processor_time();
+    while (processor_time() - since < 0.02) {
+    }
+  });
+  EXPECT_GT(observed.run_time, 0.0);
+  EXPECT_LT(observed.run_time, 0.2);
+}
+
 TEST(Simulation, WhatAnObserverThrowsIsItsOwn) {
   const Pendulum pendulum;
   const auto late = driven([](auto t) { return vec(1.0 / (t - 0.5), 0.0); });
