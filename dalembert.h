@@ -3,13 +3,14 @@
 /// The whole library. Points, forces, a scene:
 #include <dalembert/core/points/points.h>
 /// its results and analysis;
-#include <dalembert/core/analysis/audit.h>
+#include <dalembert/core/analysis/virtual_work.h>
 #include <dalembert/core/analysis/integrability.h>
 #include <dalembert/core/forces/fields.h>
 #include <dalembert/core/forces/forces.h>
 #include <dalembert/core/forces/friction.h>
 #include <dalembert/core/lagrange/embedding.h>
 #include <dalembert/core/lagrange/routhian.h>
+#include <dalembert/core/results/ledger.h>
 #include <dalembert/core/results/trajectory.h>
 #include <dalembert/core/scene/scene.h>
 /// constraints, and the bodies that they hold together;

@@ -1,3 +1,4 @@
+#include <dalembert/bench/audit.h>
 #include <dalembert/bench/diagrams.h>
 #include <dalembert/bench/events.h>
 #include <dalembert/bench/extremes.h>
@@ -168,6 +169,21 @@ void add_extremes(CLI::App& app, int& failures) {
   command->callback([options, &failures] { failures = bench::extremes(*options); });
 }
 
+void add_audit(CLI::App& app, int& failures) {
+  const auto options = std::make_shared<bench::AuditTable>();
+  CLI::App* command = app.add_subcommand(
+      "audit", "Every law of mechanics that a result must obey against its limit, in all models and extremes");
+  command->add_option("--tolerance", options->tolerances, "Between 1e-13 and 0.1")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--repeat", options->repeats, "Pairs of runs of which the median cost counts; 0: none")
+      ->check(CLI::Range(0, 10'000))
+      ->capture_default_str();
+  command->add_flag("--quick", options->quick, "Of the extremes only the part that takes seconds");
+  add_report_options(*command, options->report);
+  command->callback([options, &failures] { failures = bench::audit(*options); });
+}
+
 void add_modes(CLI::App& app, int& failures) {
   const auto options = std::make_shared<bench::ModesTable>();
   CLI::App* command = app.add_subcommand(
@@ -232,6 +248,7 @@ int main(int argc, char** argv) try {
   add_leave_out(app, failures);
   add_ratios(app);
   add_extremes(app, failures);
+  add_audit(app, failures);
   add_modes(app, failures);
   add_events(app, failures);
   add_diagrams(app);

@@ -5,14 +5,14 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 case ${1:-} in
   '')
-    work_precision=(--repeat 5) scaling=(--size 10,100,1000,10000) ratios=() leave_out=() extremes=()
+    work_precision=(--repeat 5) scaling=(--size 10,100,1000,10000) ratios=() leave_out=() extremes=() audit=()
     sensitivity=() chart=()
     kernels=(--benchmark_min_time=0.2)
     ;;
   --quick)
     work_precision=(--repeat 1) scaling=(--size 10,100)
     ratios=(--scene plane-pendulum,cone,double-pendulum --repeat 1) leave_out=(--size 10 --repeat 1)
-    extremes=(--quick)
+    extremes=(--quick) audit=(--quick --repeat 1 --tolerance 1e-6)
     sensitivity=(--constant safety,share_of_a_step) chart=(--points 20)
     kernels=(--benchmark_min_time=0.001)
     ;;
@@ -42,6 +42,7 @@ $bench scaling --stepper ida,erk,hand --tolerance 1e-5 --t-end 0.05 --csv $repor
 $bench extremes --csv $report/extremes.csv "${extremes[@]}" || status=$?
 gnuplot -e "csv='$report/extremes.csv'; report='$report'" bench/extremes.gp
 
+$bench audit --csv $report/audit.csv "${audit[@]}" || status=$?
 $bench modes --csv $report/modes.csv || status=$?
 $bench events --csv $report/events.csv || status=$?
 $bench diagrams --directory $report "${chart[@]}"

@@ -26,9 +26,10 @@ std::vector<FlatEvent> with_transitions(std::vector<FlatEvent> events, const Tra
 }  // namespace
 
 EventLog::EventLog(std::vector<FlatEvent> events, Transitions* transitions,
-                   const Transitions::Change* at_start, Stepping& stepping)
+                   const Transitions::Change* at_start, Auditor* auditor, Stepping& stepping)
     : asked_for_(events.size()),
       transitions_(transitions),
+      auditor_(auditor),
       seen_(stepping.system(), stepping.start(), changes(events)),
       watch_(with_transitions(std::move(events), transitions), *stepping.system().layout()),
       changes_(asked_for_),
@@ -42,6 +43,7 @@ EventLog::EventLog(std::vector<FlatEvent> events, Transitions* transitions,
     before.v = change.v_before;
     before.energy += stepping.system().kinetic_energy(before.v) - stepping.system().kinetic_energy(after.v);
     for (Record* record : {&before_, &after_}) record->go_on_with(stepping.system().layout());
+    audit(change, after);
     list(change, before, after);
   }
   begin_anew(t, stepping);
@@ -98,6 +100,7 @@ void EventLog::look(Stepping& stepping) {
 
 void EventLog::list(const Occurrence& one, Stepping& stepping) {
   const FlatSample at = read(stepping, one.time);
+  if (auditor_ != nullptr) auditor_->instant(at);
   for (Record* record : {&before_, &after_}) {
     record->go_on_with(stepping.system().layout());
     record->append(at);
@@ -117,6 +120,7 @@ void EventLog::carry_out(Stepping& stepping) {
   const double t = change_->time;
   (void)read(stepping, t);
   const Moment before = seen_;
+  if (auditor_ != nullptr) auditor_->sample(before.flat());
   std::vector<double> q = before.q;
   Transitions::Change change = pass(before.flat(), stepping, q);
   require_progress(stepping);
@@ -124,7 +128,9 @@ void EventLog::carry_out(Stepping& stepping) {
   stepping.begin_changed(t, system_, q, change.v);
   open_pulling(change, t, stepping);
   after_.go_on_with(stepping.system().layout());
-  list(change, before.flat(), read(stepping, t));
+  const FlatSample after = read(stepping, t);
+  audit(change, after);
+  list(change, before.flat(), after);
   begin_anew(t, stepping);
 }
 
@@ -190,6 +196,7 @@ Transitions::Change EventLog::change_scene(const FlatSample& at, Stepping& stepp
   if (next.system->rows() != at.lambda.size() || next.system->coordinates() != at.q.size() ||
       next.system->layout()->forces.size() != stepping.system().layout()->forces.size())
     refuse("its change adds to the scene; add everything before the run, and release or impose it there");
+  if (auditor_ != nullptr) auditor_->restate(next.system);
   const Problem always(next.system->without(next.system->conditional()));
   std::vector<double> v = next.v;
   const auto impulses = take_over(always, stepping.start().scales, at.time, next.q, v, stepping.tolerance());
@@ -210,6 +217,11 @@ void EventLog::open_pulling(Transitions::Change& change, double t, Stepping& ste
     stepping.begin_changed(t, transitions_->system(), q, v);
     now = read(stepping, t);
   }
+}
+
+void EventLog::audit(const Transitions::Change& change, const FlatSample& after) {
+  if (auditor_ == nullptr) return;
+  auditor_->jump({after.time, after.q, change.v_before, after.v, change.impulses, change.what}, after);
 }
 
 /// With the states before and after it, and its impulses.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/core/results/trajectory.h>
+#include <dalembert/solvers/audit/auditor.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/contact/transitions.h>
 #include <dalembert/solvers/run/event_watch.h>
@@ -15,10 +16,10 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// times, found step by step, listed, and carried out.
 class EventLog {
  public:
-  /// At the start of a run. `transitions`, with what happened to them there, may be null, else they must
-  /// outlive this. Throws as EventWatch.
+  /// At the start of a run. `transitions`, with what happened to them there, and who audits what is listed
+  /// may be null, else they must outlive this. Throws as EventWatch.
   EventLog(std::vector<FlatEvent> events, Transitions* transitions, const Transitions::Change* at_start,
-           Stepping& stepping);
+           Auditor* auditor, Stepping& stepping);
 
   /// Whether any of them changes the scene.
   [[nodiscard]] static bool changes(const std::vector<FlatEvent>& events);
@@ -52,9 +53,11 @@ class EventLog {
   void begin_anew(double t, Stepping& stepping);
   void open_pulling(Transitions::Change& change, double t, Stepping& stepping);
   void list(const Transitions::Change& change, const FlatSample& before, const FlatSample& after);
+  void audit(const Transitions::Change& change, const FlatSample& after);
 
   std::size_t asked_for_;
   Transitions* transitions_;
+  Auditor* auditor_;
   Moment seen_;
   EventWatch watch_;
   std::vector<Accumulation> changes_;  // of each event that was asked for

@@ -1,6 +1,7 @@
 #include "dalembert/solvers/integrator.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/audit/auditor.h>
 #include <dalembert/solvers/event_log.h>
 #include <dalembert/solvers/run/diagnosis.h>
 #include <dalembert/solvers/stepping.h>
@@ -79,9 +80,11 @@ struct DALEMBERT_HIDDEN Integrator::State {
         stepping(transitions ? transitions->system() : system, begin.q, begin.v, o, begin.nearest_contact),
         now(*system, stepping.start(), EventLog::changes(events)),
         next(now) {
+    if (o.audit != Audited::off) auditor.emplace(system, o, [this](bool reached) { return claim(reached); });
     if (transitions) transitions->adopt(stepping.start().scales);
     if (!events.empty() || transitions)
-      log.emplace(std::move(events), transitions.get(), transitions ? &begin.change : nullptr, stepping);
+      log.emplace(std::move(events), transitions.get(), transitions ? &begin.change : nullptr,
+                  auditor ? &*auditor : nullptr, stepping);
     visit(o.t_start);                     // what the log has opened there exerts no force
   } catch (const StepFailure& failure) {  // before the first step it is a fault of the start
     throw InconsistentStart(failure.what);
@@ -117,7 +120,9 @@ struct DALEMBERT_HIDDEN Integrator::State {
 
   /// If anything fails the current moment stays as it is.
   void visit(double time) {
+    audit_to(time);
     stepping.read(time, next);
+    if (auditor) auditor->sample(next.flat());
     std::swap(now, next);
     read_from = stepping.shared_system();
   }
@@ -128,10 +133,28 @@ struct DALEMBERT_HIDDEN Integrator::State {
                             " was reached; raise it, or ask for a looser tolerance",
                         stepping.time()};
     }
+    audit_to(reached());
     if (log) log->carry_out(stepping);
     if (log && log->pending()) return;
     stepping.step(wanted);
+    if (auditor && auditor->follows_steps()) auditor->step(stepping.time(), stepping.velocities());
     if (log) log->look(stepping);
+  }
+
+  /// With a ledger every step is gone over, up to where the run stands.
+  void audit_to(double time) {
+    if (!auditor) return;
+    auditor->follow(time, [this](double t) {
+      stepping.read(t, next);
+      return next.flat();
+    });
+  }
+
+  [[nodiscard]] Claim claim(bool reached) const {
+    const Scales& scales = stepping.start().scales;
+    if (!reached && !scales.of_path) return {scales.length, scales.time, options.tolerance};
+    const Statistics so_far = stepping.statistics();
+    return {so_far.length, so_far.time, std::max(options.tolerance, so_far.accuracy)};
   }
 
   /// Where an event ends the run, or its last step went so far.
@@ -187,6 +210,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
     auto kept = std::make_shared<Record>(record);
     kept->statistics = statistics();
     kept->dense = stepping.dense(std::min(time, reached()));
+    keep_ledger(*kept);
     if (log) log->write(*kept);
     std::ostringstream what;
     what.precision(10);
@@ -199,7 +223,12 @@ struct DALEMBERT_HIDDEN Integrator::State {
   [[nodiscard]] Statistics statistics() const {
     Statistics s = stepping.statistics();
     s.run_time = stopwatch.read();
+    if (auditor) s.audit = auditor->read();
     return s;
+  }
+
+  void keep_ledger(Record& of) const {
+    if (auditor && auditor->ledger()) of.ledger = std::make_shared<const Ledger>(*auditor->ledger());
   }
 
   [[nodiscard]] Record empty_record() const {
@@ -226,6 +255,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
   Stepping stepping;
   Moment now, next;
   std::shared_ptr<const System> read_from;  // `now` is of its layout
+  std::optional<Auditor> auditor;           // unless the options turn it off
   std::optional<EventLog> log;              // if there is anything to be listed
   long steps = 0;
   Stopwatch stopwatch;
@@ -290,11 +320,13 @@ std::shared_ptr<const Record> Integrator::run() {
   s.for_each_sample([&s](const FlatSample& sample) {
     s.record.go_on_with(s.read_from->layout());
     s.record.append(sample);
+    if (s.auditor) s.auditor->keep(sample);
   });
   // The samples are handed over, not copied: they may be most of the memory.
   auto record = std::make_shared<Record>(std::exchange(s.record, s.empty_record()));
   record->statistics = s.statistics();
   record->dense = s.stepping.dense(s.reached());
+  s.keep_ledger(*record);
   if (s.log) s.log->write(*record);
   return record;
 }

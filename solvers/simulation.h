@@ -37,6 +37,7 @@ class Simulation : public Readings<D, Simulation<D>> {
   [[nodiscard]] double time() const { return sample().time(); }
   [[nodiscard]] Statistics statistics() const { return integrator_.statistics(); }
   [[nodiscard]] std::span<const Occurrence> events() const { return integrator_.events(); }
+  [[nodiscard]] Audit audit() const { return integrator_.statistics().audit; }
 
   /// All samples that the options ask for.
   [[nodiscard]] Trajectory<D> run() { return Trajectory<D>(integrator_.run()); }

@@ -47,6 +47,8 @@ class Stepping {
   /// EquationFault.
   void read(double t, Moment& m);
 
+  /// The stepper's own velocities where the last step ended.
+  [[nodiscard]] std::span<const double> velocities() { return interpolate(time()).v; }
   /// What it began from, or last began anew from.
   [[nodiscard]] const Start& start() const { return stretch_->start; }
   /// The constraint whose force has grown without bound where the last step ended, in words; empty if there

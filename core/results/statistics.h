@@ -1,5 +1,7 @@
 #pragma once
 
+#include <dalembert/core/results/audit.h>
+
 #include <string>
 
 namespace dalembert {
@@ -27,6 +29,7 @@ struct Statistics {
   double residual_position = 0.0;  ///< largest |g|/|grad g| at any sample [length]
   double residual_velocity = 0.0;  ///< largest |psi|/|W row| at any sample [speed]
   double correction = 0.0;         ///< largest move that put a sample onto its constraints [length]
+  Audit audit{};                   ///< what holding the results against the laws of mechanics has found
   double run_time = 0.0;           ///< processor time of integration and output, without set-up [s]
 
   /// One line for a log.

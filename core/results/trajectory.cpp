@@ -1,5 +1,7 @@
 #include "dalembert/core/results/trajectory.h"
 
+#include <dalembert/core/results/ledger.h>
+
 #include <algorithm>
 #include <iterator>
 
@@ -89,6 +91,12 @@ Sample<D> Trajectory<D>::sample(std::size_t i) const& {
                           std::to_string(size()) + ", counted from 0");
   }
   return {*record_->layout_of(i), record_->sample(i)};
+}
+
+template <int D>
+const Ledger& Trajectory<D>::ledger() const& {
+  if (!record_->ledger) throw InvalidArgument("ledger(): run it with the option .ledger = true");
+  return *record_->ledger;
 }
 
 template <int D>

@@ -17,6 +17,7 @@
 namespace dalembert {
 
 struct Record;
+struct Ledger;
 
 /// A run at all times, by the polynomials of its stepper (dense output).
 class DenseOutput {
@@ -47,6 +48,7 @@ struct Record {
   std::shared_ptr<const Record> after_events;  ///< and of the state after it,
   std::vector<double> impulses;                ///< with the impulses of all rows; both null or empty if no
                                                ///< constraint changes
+  std::shared_ptr<const Ledger> ledger{};      ///< if the option `ledger` asks for it
 
   /// Samples that are appended from here on are of this layout, which differs in what forces and masses are.
   void go_on_with(const std::shared_ptr<const Layout>& layout);
@@ -153,6 +155,10 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   }
   [[nodiscard]] Iterator begin() const { return {*record_, 0}; }
   [[nodiscard]] Iterator end() const { return {*record_, size()}; }
+  /// How well the run obeyed the laws of mechanics, see Audit; empty with the option audit = Audited::off.
+  [[nodiscard]] const Audit& audit() const& { return record_->statistics.audit; }
+  /// Its energies, work and momenta at every sample. Throws InvalidArgument without the option `ledger`.
+  [[nodiscard]] const Ledger& ledger() const&;
   [[nodiscard]] const Statistics& statistics() const& { return record_->statistics; }
   [[nodiscard]] Statistics statistics() const&& { return record_->statistics; }
 
@@ -179,6 +185,8 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   }
   // No views into a run that is gone when they are looked at: keep the run.
   void times() const&& = delete;
+  void audit() const&& = delete;
+  void ledger() const&& = delete;
   void sample(std::size_t) const&& = delete;
   void events() const&& = delete;
   void event_sample(std::size_t) const&& = delete;

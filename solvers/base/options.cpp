@@ -69,6 +69,8 @@ void validate(const Options& o) {
           "must lie between 1e-13, what double precision can deliver, and 0.1");
   require(std::isfinite(o.length) && o.length >= 0.0, "length", o.length,
           "must be finite and > 0, or 0 for the scene's own");
+  require(!(o.ledger && o.audit == Audited::off), "ledger", "true",
+          "needs an audit; choose Audited::error or Audited::report");
   require(o.max_steps > 0, "max_steps", o.max_steps, "must be > 0");
 }
 

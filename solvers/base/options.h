@@ -12,6 +12,13 @@ enum class Stepper {
 };
 [[nodiscard]] const char* name(Stepper stepper);
 
+/// What happens where the results of a run break a law of mechanics that its scene states: see Law.
+enum class Audited {
+  error,   ///< the run stops, and says which law, what breaks it, when, and by how much
+  report,  ///< it goes on; Trajectory::audit tells
+  off      ///< nobody looks; not with a ledger
+};
+
 /// Below this, round-off in the velocities of BDF's divided differences decides the step size.
 inline constexpr double smallest_tolerance = 1e-13;
 
@@ -38,6 +45,13 @@ struct Options {
   /// the run time (`dalembert-bench leave-out`). `erk` then evaluates the equations in the middle of each
   /// step too.
   bool dense = false;
+  /// Every sample and every impact is held against the laws of mechanics by code that shares nothing with the
+  /// steppers; see Law for what they are and Audit for what is found.
+  Audited audit = Audited::error;
+  /// Keep a Ledger: energies, work and momenta at every sample. The work is integrated over every step, and
+  /// its balance audited: of scenes with drives, friction or forces without a potential the only way to know.
+  /// Costs about as much as the run itself.
+  bool ledger = false;
   long max_steps = 10'000'000;  ///< give up after so many steps
 
   /// False: an initial state that violates a constraint is an error. True: it is projected onto the

@@ -1,7 +1,7 @@
 #include "dalembert/constraints/compliant.h"
 
 #include <dalembert/constraints/distance.h>
-#include <dalembert/core/analysis/audit.h>
+#include <dalembert/core/analysis/virtual_work.h>
 #include <dalembert/solvers/simulation.h>
 
 #include <gmock/gmock.h>

@@ -145,7 +145,7 @@ TEST_F(Friction, IsDescribed) {
 }
 
 // A block of 2 kg slides on a table at 3 m/s: N = 20, power -0.25 * 20 * 3.
-TEST(FrictionAudit, NamesItsPower) {
+TEST(FrictionPower, IsNamed) {
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -10.0}});
   const auto block = scene.add_particle({.mass = 2.0, .velocity = {3.0, 0.0}});
@@ -153,7 +153,7 @@ TEST(FrictionAudit, NamesItsPower) {
   scene.add(friction_law(table, points(block),
                          [](auto lambda, auto, auto v) { return (-0.25 * lambda * v.normalized()).eval(); }),
             "rough");
-  const Audit at = audit(scene, Simulation<2>(scene, {.t_end = 0.1}).sample());
+  const VirtualWork at = virtual_work(scene, Simulation<2>(scene, {.t_end = 0.1}).sample());
   ASSERT_EQ(at.forces.size(), 2U);
   EXPECT_EQ(at.forces[1].name, "FrictionLaw \"rough\"");
   EXPECT_NEAR(at.forces[1].power, -15.0, 1e-14);  // a few roundings

@@ -1,5 +1,5 @@
 #include "verdict.h"
-#include <dalembert/core/analysis/audit.h>
+#include <dalembert/core/analysis/virtual_work.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +22,8 @@ namespace {
 /// as the others imply them.)
 constexpr double held = 1e-8;
 /// d'Alembert's principle holds to round-off of as many products as the scene has coordinates. The
-/// audit takes two gradients within 1e-9 of each other for one: what their forces differ by may work.
-constexpr double audit_threshold = 1e-9;
+/// virtual_work takes two gradients within 1e-9 of each other for one: what their forces differ by may work.
+constexpr double virtual_work_threshold = 1e-9;
 /// The forces give accelerations that the constraints allow: to the 1e-6 of their largest term at
 /// which the library tells equations that agree from those that contradict each other. (What builds up
 /// the residual speed that is tolerated, within the time the scene takes, is tolerated as well.)
@@ -145,13 +145,13 @@ std::string Check::accelerations(std::string& detail) {
 }
 
 std::string Check::principle(std::string& detail) const {
-  const Audit found = audit(system, sample);
+  const VirtualWork found = virtual_work(system, sample);
   const auto n = static_cast<double>(system.coordinates());
-  return worst("virtual work", found.virtual_work,
-               (audit_threshold + 1000.0 * n * epsilon) * found.largest_force * n, {}, detail);
+  return worst("virtual work", found.largest,
+               (virtual_work_threshold + 1000.0 * n * epsilon) * found.largest_force * n, {}, detail);
 }
 
-/// Where forces are not determined there is nothing to audit, and the state is the stepper's own, right to
+/// Where forces are not determined there is nothing to check, and the state is the stepper's own, right to
 /// the accuracy of the run, and not projected onto the constraints.
 std::string Check::run(double accuracy, std::string& detail) {
   const bool determined = finite(sample.forces);

@@ -1,5 +1,5 @@
 #include "../solvers/scenes.h"
-#include <dalembert/core/analysis/audit.h>
+#include <dalembert/core/analysis/virtual_work.h>
 
 #include <gtest/gtest.h>
 
@@ -23,13 +23,13 @@ std::vector<double> numbers(const Trajectory<D>& run) {
   return all;
 }
 
-/// A scene made, described, run and audited from the beginning: all that a thread may do at once.
+/// A scene made, described, run and analysed from the beginning: all that a thread may do at once.
 std::vector<double> run_all_kinds(Stepper stepper) {
   const EachKind kinds;
   (void)kinds.scene.describe();
   const auto run = simulate(kinds.scene, {.t_end = 1.0, .samples = 11, .stepper = stepper});
   auto all = numbers(run);
-  all.push_back(audit(kinds.scene, run.sample(run.size() - 1)).virtual_work);
+  all.push_back(virtual_work(kinds.scene, run.sample(run.size() - 1)).largest);
   return all;
 }
 

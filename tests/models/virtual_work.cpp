@@ -1,11 +1,11 @@
-#include <dalembert/core/analysis/audit.h>
+#include <dalembert/core/analysis/virtual_work.h>
 #include <dalembert/models/catalogue.h>
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-namespace dalembert::models::audit_test {
+namespace dalembert::models::virtual_work_test {
 namespace {
 
 /// Round-off of a sum of a few hundred products, each of a force with a unit vector's component.
@@ -21,8 +21,8 @@ void expect_no_virtual_work(const Model<D>& model) {
   const auto run = simulate(observed.scene, {.t_end = model.t_end, .samples = 11});
   for (std::size_t i = 0; i < run.size(); ++i) {
     const FlatSample sample = run.sample(i).flat();
-    const Audit at = audit(system, sample);
-    EXPECT_LE(at.virtual_work, round_off * at.largest_force) << "sample " << i;
+    const VirtualWork at = virtual_work(system, sample);
+    EXPECT_LE(at.largest, round_off * at.largest_force) << "sample " << i;
     if (system.rheonomic()) continue;
     double speed = 0.0;
     for (const double v : sample.v) speed += std::abs(v);
@@ -40,4 +40,4 @@ TEST(Catalogue, ObeysDAlembertsPrinciple) {
 }
 
 }  // namespace
-}  // namespace dalembert::models::audit_test
+}  // namespace dalembert::models::virtual_work_test

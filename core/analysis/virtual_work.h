@@ -10,7 +10,7 @@
 namespace dalembert {
 
 /// d'Alembert's principle checked at one instant (notes, mln7), and the power of each constraint and force.
-struct Audit {
+struct VirtualWork {
   struct Power {
     std::string name;
     double power;  ///< positive: puts energy in [force length / time]
@@ -18,17 +18,17 @@ struct Audit {
   /// The largest work of the constraint forces in a virtual displacement of unit length, over a basis
   /// of all displacements that the constraints allow at a fixed time [force]. Round-off for ideal
   /// constraints.
-  double virtual_work = 0.0;
+  double largest = 0.0;
   double largest_force = 0.0;      ///< largest constraint force on a coordinate, to compare with
   std::vector<Power> constraints;  ///< Z . v of each: round-off unless it depends on time or is compliant
   std::vector<Power> forces;       ///< F . v of each; constant forces (gravity) together come first
 };
 
-/// Audits a state of a scene, with the forces of constraint found there.
-[[nodiscard]] Audit audit(const System& system, const FlatSample& sample);
+/// Of a state of a scene, with the forces of constraint found there.
+[[nodiscard]] VirtualWork virtual_work(const System& system, const FlatSample& sample);
 template <int D>
-[[nodiscard]] Audit audit(const Scene<D>& scene, const Sample<D>& sample) {
-  return audit(scene.system(), sample.flat());
+[[nodiscard]] VirtualWork virtual_work(const Scene<D>& scene, const Sample<D>& sample) {
+  return virtual_work(scene.system(), sample.flat());
 }
 
 }  // namespace dalembert

@@ -1,4 +1,4 @@
-#include "dalembert/core/analysis/audit.h"
+#include "dalembert/core/analysis/virtual_work.h"
 
 #include <dalembert/core/analysis/rank.h>
 #include <dalembert/core/errors.h>
@@ -20,7 +20,7 @@ Eigen::MatrixXd tangent_space(const System& system, std::span<const double> w) {
 
 }  // namespace
 
-Audit audit(const System& system, const FlatSample& sample) {
+VirtualWork virtual_work(const System& system, const FlatSample& sample) {
   const Instant at{sample.time, sample.q, sample.v};
   const Layout& layout = *system.layout();
   auto e = system.evaluation();
@@ -28,10 +28,10 @@ Audit audit(const System& system, const FlatSample& sample) {
   for (const auto& constraint : layout.constraints) {
     const auto own = constraint.slots().in(sample.forces);
     if (std::ranges::any_of(own, [](double Z) { return std::isnan(Z); }))
-      throw UndeterminedForce("No audit at this instant: the force of " + constraint.label() +
+      throw UndeterminedForce("No virtual work at this instant: the force of " + constraint.label() +
                               " is not determined; choose another time");
   }
-  Audit result;
+  VirtualWork result;
 
   Eigen::VectorXd Z = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(system.coordinates()));
   for (const auto& constraint : layout.constraints) {
@@ -45,7 +45,7 @@ Audit audit(const System& system, const FlatSample& sample) {
     result.constraints.push_back({constraint.label(), power});
   }
   const Eigen::VectorXd work = tangent_space(system, e.w).transpose() * Z;
-  if (work.size() > 0) result.virtual_work = work.cwiseAbs().maxCoeff();
+  if (work.size() > 0) result.largest = work.cwiseAbs().maxCoeff();
 
   result.forces.push_back({"constant forces", system.constant_power(sample.v)});
   system.for_each_force_power(at, sample.lambda, [&result](std::string name, double power) {

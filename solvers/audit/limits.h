@@ -1,0 +1,46 @@
+#pragma once
+
+#include <dalembert/core/scene/system.h>
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/base/numbers.h>
+
+#include <span>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// What a run claims about its results: that a position errs by `accuracy` times `length`, a velocity by that
+/// over `time` and relative to itself (angles: 1 in place of the length), a force by `accuracy` of the terms
+/// that it is in balance with.
+struct Claim {
+  double length = 1.0, time = 1.0;
+  double accuracy = 0.0;
+};
+
+/// The limits of an audit, all in this place. Each is what the claim allows to the quantities that a law is
+/// stated in, carried to its residual by its own derivatives,
+///
+///   |g| <= sum_j |W_j| (accuracy unit_j + r |q_j|),     |psi| <= sum_j |W_j| (accuracy (unit_j/T + |v_j|) +
+///   r |v_j|),   (1) |M a - F - W^T lambda| <= (accuracy + r) (|M a| + |F| + sum |W lambda|) (2)
+///
+/// and r, the round-off of the terms, is `roundings` epsilon: a sum of n terms errs by n epsilon of their
+/// magnitudes, and a matrix of n rows is factored with that times n at most.
+struct Limits {
+  Limits(const System& system, const Claim& claim);
+
+  void set(const Claim& claim);
+  [[nodiscard]] double unit(std::size_t i) const { return angle[i] ? 1.0 : length; }
+  [[nodiscard]] double position(std::size_t i, double q) const {
+    return accuracy * unit(i) + round_off * std::abs(q);
+  }
+  [[nodiscard]] double velocity(std::size_t i, double v) const {
+    return accuracy * (unit(i) / time + std::abs(v)) + round_off * std::abs(v);
+  }
+  /// Of what is the sum of terms of these magnitudes.
+  [[nodiscard]] double relative(double terms) const { return (accuracy + round_off) * terms; }
+
+  double length, time, accuracy, round_off;
+  std::vector<char> angle;
+};
+
+}  // namespace dalembert

@@ -1,0 +1,82 @@
+#include "dalembert/solvers/audit/work_balance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dalembert {
+
+bool conservative(const System& system) {
+  return !system.rheonomic() && !system.frictional() && system.damping_pattern().empty();
+}
+
+WorkBalance::WorkBalance(std::shared_ptr<const System> stated, const Claim& claim)
+    : stated_(std::move(stated)),
+      limits_(*stated_, claim),
+      watches_(conservative(*stated_)),
+      falls_(!stated_->rough().empty()),
+      v_(stated_->coordinates()) {
+  for (std::size_t r = 0; r < stated_->rows(); ++r)
+    if (stated_->law(r).compliant()) elastic_ += 0.5 / stated_->law(r).compliance;
+}
+
+void WorkBalance::begin(double time, double energy, std::span<const double> v) {
+  time_ = checked_ = time;
+  energy_ = energy;
+  kinetic_ = stated_->kinetic_energy(v);
+  changes_ = changes_before_ = last_ = 0.0;
+  size_ = std::abs(energy);
+  std::ranges::copy(v, v_.begin());
+}
+
+void WorkBalance::step(double time, std::span<const double> v) {
+  const double h = time - std::exchange(time_, time);
+  if (!(h > 0.0)) return;
+  const auto masses = stated_->masses();
+  last_ = 0.0;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const double unit = limits_.unit(i), a = std::abs(v[i] - v_[i]) / h, speed = std::abs(v[i]);
+    last_ += masses[i] * (a * unit + speed * (unit / limits_.time + speed));
+    v_[i] = v[i];
+  }
+  changes_ += last_;
+}
+
+/// At these positions, at a time between the last two samples: not half-way, where drives may have periods.
+bool WorkBalance::potentials_depend_on_time(const FlatSample& sample) const {
+  const double between = checked_ + 0.382 * (sample.time - checked_);
+  const double V = stated_->potential_energy({sample.time, sample.q, sample.v});
+  return stated_->potential_energy({between, sample.q, sample.v}) != V;
+}
+
+void WorkBalance::check(const FlatSample& sample, const Claim& claim, Findings& findings) {
+  watches_ = watches_ && !potentials_depend_on_time(sample);
+  if (!watches_) return;
+  limits_.set(claim);
+  const double unit = limits_.accuracy * limits_.length,
+               limit =
+                   limits_.accuracy * (changes_ + last_) + unit * unit * elastic_ + limits_.round_off * size_;
+  const double gain = sample.energy - energy_;
+  findings.weigh(Law::work, {}, sample.time, falls_ ? std::max(gain, 0.0) : std::abs(gain), limit);
+}
+
+void WorkBalance::check(const FlatSample& sample, double work, double error, const Claim& claim,
+                        Findings& findings) {
+  limits_.set(claim);
+  const double T = stated_->kinetic_energy(sample.v), unit = limits_.accuracy * limits_.length;
+  const double limit = limits_.accuracy * (changes_ - changes_before_ + 2.0 * last_) +
+                       unit * unit * elastic_ + error + limits_.round_off * (T + kinetic_ + size_);
+  findings.weigh(Law::work, {}, sample.time, std::abs(T - kinetic_ - work), limit);
+}
+
+void WorkBalance::accept(const FlatSample& sample) {
+  checked_ = sample.time;
+  kinetic_ = stated_->kinetic_energy(sample.v);
+  changes_before_ = changes_;
+  size_ = std::max(size_, std::abs(sample.energy) + kinetic_);
+  if (!falls_ || sample.energy > energy_) return;
+  energy_ = sample.energy;
+  changes_ = changes_before_ = 0.0;
+}
+
+}  // namespace dalembert
