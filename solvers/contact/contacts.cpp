@@ -1,5 +1,6 @@
 #include "dalembert/solvers/contact/contacts.h"
 
+#include <dalembert/core/analysis/islands.h>
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/base/step_failure.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -17,28 +19,33 @@ namespace dalembert {
 
 namespace {
 
-/// The largest force of constraint or inertia on any coordinate; never 0.
-double largest_force(const System& system, const FlatSample& now) {
-  double largest = std::numeric_limits<double>::min();
-  for (const double force : now.forces) largest = std::max(largest, std::abs(force));
-  for (std::size_t i = 0; i < now.a.size(); ++i)
-    largest = std::max(largest, system.masses()[i] * std::abs(now.a[i]));
-  return largest;
-}
-
-/// The length of a contact's gradient; 0 where it has none, as for a string of length 0.
-double gradient_of(const System& stated, std::size_t number, const Instant& at,
-                   std::span<const double> lengths) {
-  std::vector<std::size_t> others = stated.conditional();
-  std::erase(others, number);
-  const System alone = stated.without(others);
-  auto e = alone.evaluation();
+/// The length of each contact's gradient; 0 where it has none, as for a string of length 0.
+std::vector<double> gradients(const System& stated, const std::vector<std::size_t>& contacts,
+                              const Instant& at, std::span<const double> lengths) {
+  const auto of = [&](const System& system, std::size_t number, const System::Evaluation& e) {
+    return gradient_length(system, e.w, lengths, stated.layout()->constraints[number].own_rows().front());
+  };
+  const System together = stated.without(stated.rough());
+  auto e = together.evaluation();
+  std::vector<double> all;
   try {
-    alone.evaluate(at, e);
-  } catch (const EquationFault&) {
-    return 0.0;
+    together.evaluate(at, e);
+    for (const std::size_t number : contacts) all.push_back(of(together, number, e));
+    return all;
+  } catch (const EquationFault&) {  // of one of them
   }
-  return gradient_length(alone, e.w, lengths, stated.layout()->constraints[number].own_rows().front());
+  for (const std::size_t number : contacts) {
+    std::vector<std::size_t> others = stated.conditional();
+    std::erase(others, number);
+    const System alone = stated.without(others);
+    try {
+      alone.evaluate(at, e);
+      all.push_back(of(alone, number, e));
+    } catch (const EquationFault&) {
+      all.push_back(0.0);
+    }
+  }
+  return all;
 }
 
 }  // namespace
@@ -50,9 +57,11 @@ double nearest_contact(const System& stated, const Instant& at) {
   double farthest = 0.0;
   for (const double x : at.q) farthest = std::max(farthest, std::abs(x));
   double nearest = std::numeric_limits<double>::infinity();
-  for (const std::size_t number : stated.contacts()) {
-    const double gradient = gradient_of(stated, number, at, ones);
-    const double gap = std::abs(g[stated.layout()->constraints[number].own_rows().front()]);
+  const auto contacts = stated.contacts();
+  const auto lengths_of_gradients = gradients(stated, contacts, at, ones);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const double gradient = lengths_of_gradients[i];
+    const double gap = std::abs(g[stated.layout()->constraints[contacts[i]].own_rows().front()]);
     if (gap > round_off() * farthest * gradient) nearest = std::min(nearest, gap / gradient);
   }
   return nearest;
@@ -66,18 +75,20 @@ Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, d
       friction_(friction),
       g_(stated_->rows()),
       psi_(stated_->rows()) {
+  const Islands all = islands(*stated_);
   for (const std::size_t number : stated_->contacts()) {
     const Layout::Constraint& its = stated_->layout()->constraints[number];
     contacts_.push_back({.number = number,
                          .row = its.own_rows().front(),
                          .sign = its.holds.contact->sign(),
-                         .restitution = its.holds.contact->restitution});
+                         .restitution = its.holds.contact->restitution,
+                         .island = all.of_row(*stated_, its.own_rows().front())});
   }
   find_gaps(start);
+  const auto lengths_of_gradients = gradients(*stated_, stated_->contacts(), start, scales_.lengths());
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     Contact& c = contacts_[i];
-    const double gap = c.sign * g_[c.row],
-                 gradient = gradient_of(*stated_, c.number, start, scales_.lengths());
+    const double gap = c.sign * g_[c.row], gradient = lengths_of_gradients[i];
     const double allowed = rounding_of_the_user * scales_.length * gradient;
     if (std::abs(gap) <= allowed) touching_at_start_.push_back(i);
     c.gradient = gradient;
@@ -99,9 +110,20 @@ void Contacts::find_gaps(const Instant& at) const {
   gaps_at_ = at.t;
 }
 
+/// Of constraint or inertia on any coordinate; never 0.
+double Contacts::largest_force(const FlatSample& now) const {
+  if (forces_at_ == now.time) return largest_force_;
+  forces_at_ = now.time;
+  largest_force_ = std::numeric_limits<double>::min();
+  for (const double force : now.forces) largest_force_ = std::max(largest_force_, std::abs(force));
+  for (std::size_t i = 0; i < now.a.size(); ++i)
+    largest_force_ = std::max(largest_force_, stated_->masses()[i] * std::abs(now.a[i]));
+  return largest_force_;
+}
+
 double Contacts::switching(std::size_t contact, const FlatSample& now) const {
   const Contact& c = contacts_[contact];
-  if (c.closed) return c.sign * now.lambda[c.row] + tolerance_ * largest_force(*stated_, now);
+  if (c.closed) return c.sign * now.lambda[c.row] + tolerance_ * largest_force(now);
   if (now.time == c.opened_at) return c.rate_at_opening;
   if (gaps_at_ != now.time) find_gaps({now.time, now.q, now.v});
   const double gap = c.sign * g_[c.row], rate = c.sign * psi_[c.row];
@@ -112,19 +134,26 @@ double Contacts::switching(std::size_t contact, const FlatSample& now) const {
   return std::abs(gap) <= none ? 0.0 : gap / since;
 }
 
-/// Contacts that are closed or have no gap, those that have just reached 0, and those that will within the
-/// resolution of times.
+/// Contacts that have fallen, that have no gap, that have just reached 0, and those that will within the
+/// resolution of times; and those closed in the islands of these.
 std::vector<std::size_t> Contacts::touching(const Instant& at, const std::vector<std::size_t>& fallen) const {
   const double same_time = tolerance_ * scales_.time;
-  std::vector<std::size_t> touching;
+  std::vector<char> touches(contacts_.size(), 0);
+  std::set<std::size_t> islands;
   find_gaps(at);
+  for (const std::size_t i : fallen) touches[i] = 1;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const Contact& c = contacts_[i];
     const double gap = c.sign * g_[c.row], rate = c.sign * psi_[c.row];
     const double none = no_gap(c, at.q);
     const bool lies = gap <= none && rate <= still(c);
-    if (c.closed || among(fallen, i) || lies || (rate < 0.0 && gap + rate * same_time <= none))
-      touching.push_back(i);
+    if (!c.closed && (lies || (rate < 0.0 && gap + rate * same_time <= none))) touches[i] = 1;
+    if (touches[i] || everywhere_) islands.insert(c.island);
+  }
+  std::vector<std::size_t> touching;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Contact& c = contacts_[i];
+    if (touches[i] || (c.closed && islands.contains(c.island))) touching.push_back(i);
   }
   return touching;
 }
@@ -136,9 +165,11 @@ std::vector<std::size_t> Contacts::numbers(const std::vector<std::size_t>& chose
 }
 
 std::shared_ptr<const System> Contacts::only(const std::vector<std::size_t>& in_force) const {
+  std::vector<char> out(contacts_.size(), 1);
+  for (const std::size_t i : in_force) out[i] = 0;
   std::vector<std::size_t> others;
   for (std::size_t i = 0; i < contacts_.size(); ++i)
-    if (!among(in_force, i)) others.push_back(contacts_[i].number);
+    if (out[i]) others.push_back(contacts_[i].number);
   return std::make_shared<const System>(stated_->without(others));
 }
 
@@ -162,7 +193,7 @@ bool Contacts::open_pulling(const FlatSample& now, std::vector<Happening>& what)
   if (most == contacts_.end() || !may_open(*most)) return false;
   bool found = false;
   for (Contact& c : contacts_) {
-    const bool opens = friction_ ? &c == &*most : c.closed && !c.bears;
+    const bool opens = friction_ ? &c == &*most : c.closed && !c.bears && c.island == most->island;
     if (!opens) continue;
     open(c, now.time, 0.0);
     found = true;
@@ -234,6 +265,7 @@ std::vector<std::size_t> Contacts::restate(std::shared_ptr<const System> stated,
     }
   }
   settle();
+  everywhere_ = true;
   return touching;
 }
 
@@ -245,6 +277,7 @@ std::vector<std::size_t> Contacts::open() const {
 }
 
 void Contacts::settle() {
+  gaps_at_ = forces_at_ = never;  // the state watched goes on from another one
   std::vector<std::size_t> closed;
   for (std::size_t i = 0; i < contacts_.size(); ++i)
     if (contacts_[i].closed) closed.push_back(i);

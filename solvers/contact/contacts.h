@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,9 +33,11 @@ class Coupling;
 /// have a unique U+ and dU/dt. Energy changes by sum (1 - e) U- P / 2 <= 0. A contact with dU/dt = 0 by (2)
 /// is closed: it is in force, like any other constraint, until its force changes its sign.
 ///
+/// Each island of the scene has its own (1) and (2); only those where something happens are looked at.
+///
 /// Where impacts of a contact accumulate (see Accumulation) and at the speed of the last one it would move by
-/// less than the tolerance in the time left, all contacts with an impact since its previous one come to rest:
-/// that changes no later position.
+/// less than the tolerance in the time left, all contacts of its island with an impact since its previous one
+/// come to rest: that changes no later position.
 class Contacts {
  public:
   /// At a state that satisfies all other constraints; whether there is friction that sticks and slides.
@@ -95,6 +98,7 @@ class Contacts {
     std::size_t number;  // in the layout
     std::size_t row;
     double sign, restitution;
+    std::size_t island;
     bool closed = false, moved = false;  // though closed
     double closed_at = 0.0;
     bool bears = false;                 // by the forces of (2) that were found when it was last closed
@@ -108,15 +112,20 @@ class Contacts {
 
   [[nodiscard]] static bool among(const std::vector<std::size_t>& all, std::size_t contact);
   void find_gaps(const Instant& at) const;
+  [[nodiscard]] double largest_force(const FlatSample& now) const;
   [[nodiscard]] std::vector<std::size_t> touching(const Instant& at,
                                                   const std::vector<std::size_t>& fallen) const;
   [[nodiscard]] std::vector<std::size_t> numbers(const std::vector<std::size_t>& chosen) const;
   [[nodiscard]] std::shared_ptr<const System> only(const std::vector<std::size_t>& in_force) const;
   void solve_impact(const Coupling& coupling, const std::vector<std::size_t>& touching, double t,
                     Eigen::VectorXd& U, Change& change) const;
-  [[nodiscard]] std::optional<double> limit_of_impacts(const Change& change, const Instant& at);
-  static void rest(const Coupling& coupling, const std::vector<std::size_t>& resting, double limit,
-                   Change& change);
+  /// Of impacts that accumulate, and the last interval between two.
+  struct Limit {
+    double time, interval;
+  };
+  [[nodiscard]] std::map<std::size_t, Limit> limits_of_impacts(const Change& change, const Instant& at);
+  void rest(const Coupling& coupling, const std::vector<std::size_t>& touching,
+            const std::map<std::size_t, Limit>& limits, Eigen::VectorXd& U, Change& change) const;
   std::vector<Eigen::Index> open_separating(const std::vector<std::size_t>& touched, const Eigen::VectorXd& U,
                                             double t, Change& change);
   [[nodiscard]] double still(const Contact& contact) const;
@@ -127,6 +136,12 @@ class Contacts {
   void accelerate(Coupling& coupling, const std::vector<std::size_t>& touched,
                   const std::vector<std::size_t>& fallen, const std::vector<Eigen::Index>& resting,
                   const Instant& at, Change& change);
+  /// What (2) gives for a contact, and the unit and the largest without forces of what it is coupled with.
+  struct Pair {
+    double acceleration = 0.0, force = 0.0, unit = 0.0, largest = 0.0;
+  };
+  void settle(std::size_t contact, const std::vector<std::size_t>& fallen, const Pair& pair, double t,
+              Change& change);
   [[noreturn]] void refuse(const std::vector<std::size_t>& contacts, double t, const char* what) const;
   [[nodiscard]] double error_of_gap(const Contact& contact) const;
   [[nodiscard]] double no_gap(const Contact& contact, std::span<const double> q) const;
@@ -142,9 +157,12 @@ class Contacts {
   std::vector<Contact> contacts_;
   std::vector<std::size_t> touching_at_start_;
   bool begun_ = false;
-  std::vector<std::size_t> in_force_;                                  // of them
-  mutable std::vector<double> g_, psi_;                                // of all rows,
-  mutable double gaps_at_ = std::numeric_limits<double>::quiet_NaN();  // at this time of the state watched
+  bool everywhere_ = true;  // all islands are to be looked at: at the start, and after a change of the scene
+  std::vector<std::size_t> in_force_;    // of them
+  mutable std::vector<double> g_, psi_;  // of all rows,
+  static constexpr double never = std::numeric_limits<double>::quiet_NaN();
+  mutable double gaps_at_ = never;                          // at this time of the state watched
+  mutable double largest_force_ = 0.0, forces_at_ = never;  // likewise
 };
 
 }  // namespace dalembert

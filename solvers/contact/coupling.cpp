@@ -20,15 +20,19 @@ System::Evaluation evaluated(const System& system, const Instant& at) {
   return e;
 }
 
-/// An independent set of the rows of all constraints but the contacts.
+/// An independent set of the rows of all rigid constraints but the contacts.
 ActiveRows rows_besides(const System& system, const std::vector<std::size_t>& contacts,
                         const System::Evaluation& e) {
+  std::vector<std::size_t> out = contacts;
+  const auto& constraints = system.layout()->constraints;
+  for (std::size_t c = 0; c < constraints.size(); ++c)
+    if (system.law(constraints[c].own_rows().front()).compliant()) out.push_back(c);
   std::vector<double> w = e.w;
-  for (const std::size_t c : contacts) {
-    const auto row = system.layout()->constraints[c].own_rows().front();
-    for (const std::size_t k : system.row(row)) w[k] = 0.0;
+  for (const std::size_t c : out) {
+    for (const std::size_t row : constraints[c].own_rows())
+      for (const std::size_t k : system.row(row)) w[k] = 0.0;
   }
-  return independent_rows(system.without(contacts), w);
+  return independent_rows(system.without(out), w);
 }
 
 }  // namespace
@@ -37,25 +41,52 @@ Coupling::Coupling(std::shared_ptr<const System> of, const std::vector<std::size
                    const Instant& at)
     : system_(std::move(of)),
       e_(evaluated(*system_, at)),
+      problem_(system_),
       others_(rows_besides(*system_, contacts, e_)),
-      matrix_(Problem(system_).pattern(others_.rows)) {
-  const System& system = *system_;
+      matrix_(problem_.pattern(others_.rows)) {
   if (!matrix_.factorise({.w = e_.w})) throw linearly_dependent(at.t);
-  const auto n = static_cast<Index>(contacts.size());
   for (const std::size_t c : contacts) {
-    const Layout::Constraint& its = system.layout()->constraints[c];
+    const Layout::Constraint& its = system_->layout()->constraints[c];
     rows_.push_back(its.own_rows().front());
     signs_.push_back(its.holds.contact->sign());
-    std::vector<double> x(matrix_.size());
-    for (const std::size_t k : system.row(rows_.back())) x[system.w_columns()[k]] += signs_.back() * e_.w[k];
-    matrix_.solve(x);
-    responses_.push_back(std::move(x));
   }
-  S_.resize(n, n);
-  for (Index j = 0; j < n; ++j) {
-    for (Index i = 0; i < n; ++i)
-      S_(i, j) = along(static_cast<std::size_t>(i), responses_[static_cast<std::size_t>(j)]);
+  group();
+  respond();
+}
+
+void Coupling::group() {
+  const Islands& islands = problem_.islands();
+  std::vector<Places> all(islands.count);
+  for (std::size_t j = 0; j < rows_.size(); ++j) {
+    Places& own = all[islands.of_row(*system_, rows_[j])];
+    turns_.push_back(own.size());
+    own.push_back(static_cast<Index>(j));
   }
+  for (Places& own : all)
+    if (!own.empty()) islands_.push_back(std::move(own));
+}
+
+/// (1), for the first contact of each island, the second, and so on.
+void Coupling::respond() {
+  std::size_t turns = 0;
+  for (const Places& own : islands_) turns = std::max(turns, own.size());
+  responses_.assign(turns, std::vector<double>(matrix_.size()));
+  for (std::size_t j = 0; j < rows_.size(); ++j) {
+    for (const std::size_t k : system_->row(rows_[j]))
+      responses_[turns_[j]][system_->w_columns()[k]] += signs_[j] * e_.w[k];
+  }
+  for (auto& x : responses_) matrix_.solve(x);
+}
+
+Eigen::MatrixXd Coupling::S(const Places& contacts) const {
+  const auto n = static_cast<Index>(contacts.size());
+  Eigen::MatrixXd S(n, n);
+  const auto contact = [&](Index i) {
+    return static_cast<std::size_t>(contacts[static_cast<std::size_t>(i)]);
+  };
+  for (Index j = 0; j < n; ++j)
+    for (Index i = 0; i < n; ++i) S(i, j) = along(contact(i), responses_[turns_[contact(j)]]);
+  return S;
 }
 
 /// s W x of a contact.
@@ -66,7 +97,7 @@ double Coupling::along(std::size_t contact, std::span<const double> x) const {
 }
 
 VectorXd Coupling::rates(std::span<const double> v) const {
-  VectorXd U(S_.rows());
+  VectorXd U(static_cast<Index>(rows_.size()));
   for (Index i = 0; i < U.size(); ++i) {
     const auto c = static_cast<std::size_t>(i);
     const double rate = e_.psi[rows_[c]];
@@ -81,14 +112,25 @@ VectorXd Coupling::rates(std::span<const double> v) const {
   return U;
 }
 
+/// W^T lambda of the compliant rows.
+void Coupling::add_springs(std::span<double> force) const {
+  if (!system_->compliant()) return;
+  for (std::size_t r = 0; r < system_->holonomic_rows(); ++r) {
+    if (!system_->law(r).compliant()) continue;
+    const double lambda = system_->law(r).multiplier(e_.g[r]);
+    for (const std::size_t k : system_->row(r)) force[system_->w_columns()[k]] += e_.w[k] * lambda;
+  }
+}
+
 VectorXd Coupling::accelerations_without(const Instant& at) {
   system_->evaluate(at, e_);
   std::vector<double> gamma(system_->rows()), x(matrix_.size());
   system_->bias(at, gamma);
   std::ranges::copy(e_.force, x.begin());
+  add_springs(x);
   for (std::size_t r = 0; r < others_.size(); ++r) x[e_.force.size() + r] = -gamma[others_.rows[r]];
   matrix_.solve(x);
-  VectorXd accelerations(S_.rows());
+  VectorXd accelerations(static_cast<Index>(rows_.size()));
   for (Index i = 0; i < accelerations.size(); ++i) {
     const auto c = static_cast<std::size_t>(i);
     accelerations[i] = along(c, x) + signs_[c] * gamma[rows_[c]];
@@ -97,13 +139,18 @@ VectorXd Coupling::accelerations_without(const Instant& at) {
 }
 
 void Coupling::apply_impulses(const VectorXd& P, std::span<double> v, std::span<double> impulses) const {
-  for (std::size_t j = 0; j < rows_.size(); ++j) {
-    const double p = P[static_cast<Index>(j)];
-    for (std::size_t i = 0; i < v.size(); ++i) v[i] += p * responses_[j][i];
+  const Islands& islands = problem_.islands();
+  std::vector<double> p(islands.count);
+  for (std::size_t turn = 0; turn < responses_.size(); ++turn) {
+    std::ranges::fill(p, 0.0);
+    for (std::size_t j = 0; j < rows_.size(); ++j)
+      if (turns_[j] == turn) p[islands.of_row(*system_, rows_[j])] = P[static_cast<Index>(j)];
+    const auto& x = responses_[turn];
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] += p[islands.of_coordinate[i]] * x[i];
     for (std::size_t r = 0; r < others_.size(); ++r)
-      impulses[others_.rows[r]] += p * responses_[j][v.size() + r];
-    impulses[rows_[j]] += signs_[j] * p;
+      impulses[others_.rows[r]] += p[islands.of_row(*system_, others_.rows[r])] * x[v.size() + r];
   }
+  for (std::size_t j = 0; j < rows_.size(); ++j) impulses[rows_[j]] += signs_[j] * P[static_cast<Index>(j)];
 }
 
 }  // namespace dalembert

@@ -19,15 +19,25 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///   U+ = U- + S P,   S_ij = s_i W_i X_j,   [ M  -W_b^T ] [ X_j ]   [ s_j W_j^T ]
 ///                                          [ W_b  0    ] [ Y_j ] = [    0      ]             (1)
 ///
-/// with W_b an independent set of the rows of all other constraints, s the sign of each contact. The same S
-/// gives accelerations by forces.
+/// with W_b an independent set of the rows of all other rigid constraints, s the sign of each contact. The
+/// same S gives accelerations by forces. A compliant constraint is a force in both: lambda = -g/C, which no
+/// impulse changes, as it does not change g. (A stepper's own multipliers of compliant rows are in g: what is
+/// read from it has been projected onto g + C lambda = 0.)
+///
+/// Contacts of different islands (see Islands) are not coupled: one solution of (1) serves one contact of
+/// each.
 class Coupling {
  public:
+  using Places = std::vector<Eigen::Index>;
+
   /// `system` has the contacts with these numbers, and all other constraints, in force. Throws EquationFault,
   /// StepFailure where the others are dependent.
   Coupling(std::shared_ptr<const System> system, const std::vector<std::size_t>& contacts, const Instant& at);
 
-  [[nodiscard]] const Eigen::MatrixXd& S() const { return S_; }
+  /// The places, among the contacts, of those of each island that has any.
+  [[nodiscard]] const std::vector<Places>& islands() const { return islands_; }
+  /// S of contacts of one island.
+  [[nodiscard]] Eigen::MatrixXd S(const Places& contacts) const;
   /// Of the state that it was made for, whose velocities these are; 0 where they are round-off.
   [[nodiscard]] Eigen::VectorXd rates(std::span<const double> v) const;
   /// Of the contacts' rates, with the given velocities, if they exert no force. (M a - W_b^T lambda_b = F.)
@@ -36,16 +46,21 @@ class Coupling {
   void apply_impulses(const Eigen::VectorXd& P, std::span<double> v, std::span<double> impulses) const;
 
  private:
+  void group();
+  void respond();
+  void add_springs(std::span<double> force) const;
   [[nodiscard]] double along(std::size_t contact, std::span<const double> x) const;
 
   std::shared_ptr<const System> system_;
   System::Evaluation e_;
   std::vector<std::size_t> rows_;  // of the contacts
   std::vector<double> signs_;
+  Problem problem_;
   ActiveRows others_;
   SaddleMatrix matrix_;
-  std::vector<std::vector<double>> responses_;  // X_j, Y_j
-  Eigen::MatrixXd S_;
+  std::vector<Places> islands_;
+  std::vector<std::size_t> turns_;              // of each contact, its place within its island
+  std::vector<std::vector<double>> responses_;  // X_j, Y_j of all contacts with one turn
 };
 
 }  // namespace dalembert

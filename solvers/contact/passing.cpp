@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <optional>
 
 /// Contacts at an instant at which they change: impacts, and what is closed after them.
@@ -28,50 +30,79 @@ VectorXd units(const Eigen::MatrixXd& S) {
   return S.diagonal().unaryExpr([](double s) { return s > 0.0 ? 1.0 / std::sqrt(s) : 0.0; });
 }
 
-}  // namespace
-
-/// Solves (1). U becomes U+.
-void Contacts::solve_impact(const Coupling& coupling, const std::vector<std::size_t>& touching, double t,
-                            VectorXd& U, Change& change) const {
-  const VectorXd before = U;
-  VectorXd q = U;
-  for (Index i = 0; i < U.size(); ++i)
-    q[i] *= 1.0 + contacts_[touching[static_cast<std::size_t>(i)]].restitution;
-  const auto P = complementary_solution(coupling.S(), q);
-  if (!P)
-    refuse(touching, t, "no impulses end their approach; the constraints drive them against each other");
-  U += coupling.S() * *P;
-  const VectorXd unit = units(coupling.S());
-  clear_round_off(U, unit, before.cwiseProduct(unit).cwiseAbs().maxCoeff());
-  for (Index i = 0; i < U.size(); ++i)
-    if ((*P)[i] > 0.0) U[i] = before[i] - q[i];  // -e U-
-  coupling.apply_impulses(*P, change.v, change.impulses);
-  for (Index i = 0; i < U.size(); ++i)
-    if ((*P)[i] > 0.0) change.what.push_back({touching[static_cast<std::size_t>(i)], Happened::struck, t});
+/// Of the contacts that touch, those at these places.
+std::vector<std::size_t> those_at(const Coupling::Places& places, const std::vector<std::size_t>& touching) {
+  std::vector<std::size_t> its;
+  for (const Index k : places) its.push_back(touching[static_cast<std::size_t>(k)]);
+  return its;
 }
 
-/// Notes the impacts; where they accumulate, when they end.
-std::optional<double> Contacts::limit_of_impacts(const Change& change, const Instant& at) {
+}  // namespace
+
+/// Solves (1), of each island. U becomes U+.
+void Contacts::solve_impact(const Coupling& coupling, const std::vector<std::size_t>& touching, double t,
+                            VectorXd& U, Change& change) const {
+  VectorXd P = VectorXd::Zero(U.size());
+  for (const auto& island : coupling.islands()) {
+    const VectorXd before = U(island);
+    if (before.minCoeff() >= 0.0) continue;
+    const auto its = those_at(island, touching);
+    VectorXd q = before;
+    for (Index i = 0; i < q.size(); ++i)
+      q[i] *= 1.0 + contacts_[its[static_cast<std::size_t>(i)]].restitution;
+    const Eigen::MatrixXd S = coupling.S(island);
+    const auto p = complementary_solution(S, q);
+    if (!p) refuse(its, t, "no impulses end their approach; the constraints drive them against each other");
+    VectorXd after = before + S * *p;
+    const VectorXd unit = units(S);
+    clear_round_off(after, unit, before.cwiseProduct(unit).cwiseAbs().maxCoeff());
+    for (Index i = 0; i < after.size(); ++i) {
+      if (!((*p)[i] > 0.0)) continue;
+      after[i] = before[i] - q[i];  // -e U-
+      change.what.push_back({its[static_cast<std::size_t>(i)], Happened::struck, t});
+    }
+    U(island) = after;
+    P(island) = *p;
+  }
+  std::ranges::sort(change.what, {}, &Happening::contact);
+  coupling.apply_impulses(P, change.v, change.impulses);
+}
+
+/// Notes the impacts; the islands where they accumulate, and when they end there.
+std::map<std::size_t, Contacts::Limit> Contacts::limits_of_impacts(const Change& change, const Instant& at) {
   const double t = at.t;
   find_gaps(at);
-  std::optional<double> limit;
+  std::map<std::size_t, Limit> limits;
   for (const Happening& happening : change.what) {
     Contact& c = contacts_[happening.contact];
     Accumulation& impacts = c.impacts;
     impacts.add(t);
-    if (std::isfinite(impacts.limit()) &&
-        std::abs(psi_[c.row]) * impacts.left() <= tolerance_ * scales_.length * c.gradient)
-      limit = std::max(limit.value_or(t), impacts.limit());
+    if (!std::isfinite(impacts.limit()) ||
+        std::abs(psi_[c.row]) * impacts.left() > tolerance_ * scales_.length * c.gradient)
+      continue;
+    Limit& limit = limits.try_emplace(c.island, Limit{t, impacts.interval()}).first->second;
+    limit.time = std::max(limit.time, impacts.limit());
   }
-  return limit;
+  return limits;
 }
 
-/// Brings all rates to 0.
-void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& resting, double limit,
-                    Change& change) {
-  const VectorXd P = dense::least_squares(coupling.S(), -coupling.rates(change.v), rank_threshold);
+/// Brings all rates in these islands to 0, after the impacts there.
+void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& touching,
+                    const std::map<std::size_t, Limit>& limits, VectorXd& U, Change& change) const {
+  const auto limit_of = [&](std::size_t contact) { return limits.find(contacts_[contact].island); };
+  std::erase_if(change.what, [&](const Happening& one) { return limit_of(one.contact) != limits.end(); });
+  const VectorXd rates = coupling.rates(change.v);
+  VectorXd P = VectorXd::Zero(U.size());
+  for (const auto& island : coupling.islands()) {
+    const auto its = those_at(island, touching);
+    const auto limit = limit_of(its.front());
+    if (limit == limits.end()) continue;
+    P(island) = dense::least_squares(coupling.S(island), -rates(island), rank_threshold);
+    U(island).setZero();
+    for (const std::size_t i : its) change.what.push_back({i, Happened::rested, limit->second.time});
+  }
+  std::ranges::sort(change.what, {}, &Happening::contact);
   coupling.apply_impulses(P, change.v, change.impulses);
-  for (const std::size_t i : resting) change.what.push_back({i, Happened::rested, limit});
 }
 
 /// Rates that count as 0, of velocities at the start and after impacts at one time.
@@ -124,11 +155,8 @@ bool Contacts::add_slow(const Instant& at, std::vector<std::size_t>& touched) co
 }
 
 Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t>& fallen) {
-  const auto unchanged = [&] {
-    const std::vector<double> v(at.v.begin(), at.v.end());
-    return Change{v, v, std::vector<double>(stated_->rows())};
-  };
-  Change change = unchanged();
+  const std::vector<double> v(at.v.begin(), at.v.end());
+  Change change{v, v, std::vector<double>(stated_->rows())};
   const bool known_roughly = !begun_ || approaching();
   begun_ = true;
   auto touched = touching(at, fallen);
@@ -142,17 +170,21 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
   }
   if (U.minCoeff() < 0.0) {
     solve_impact(*coupling, touched, at.t, U, change);
-    if (const auto limit = limit_of_impacts(change, at)) {
-      const double shortest = contacts_[change.what.front().contact].impacts.interval();
-      for (std::size_t i = 0; i < contacts_.size(); ++i)
-        if (contacts_[i].impacts.last() >= at.t - shortest && !among(touched, i)) touched.push_back(i);
-      change = unchanged();
-      coupling.emplace(only(touched), numbers(touched), at);
-      rest(*coupling, touched, *limit, change);
-      U.setZero(static_cast<Index>(touched.size()));
+    if (const auto limits = limits_of_impacts(change, at); !limits.empty()) {
+      for (std::size_t i = 0; i < contacts_.size(); ++i) {
+        const auto limit = limits.find(contacts_[i].island);
+        if (limit != limits.end() && contacts_[i].impacts.last() >= at.t - limit->second.interval &&
+            !among(touched, i))
+          touched.push_back(i);
+      }
+      const Instant struck{at.t, at.q, change.v};
+      coupling.emplace(only(touched), numbers(touched), struck);
+      U.conservativeResize(static_cast<Index>(touched.size()));
+      rest(*coupling, touched, limits, U, change);
     }
   }
   for (Contact& c : contacts_) c.moved = false;
+  everywhere_ = false;
   const Instant after{at.t, at.q, change.v};
   if (known_roughly && add_slow(after, touched)) {
     coupling.emplace(only(touched), numbers(touched), after);
@@ -200,33 +232,47 @@ std::vector<Index> Contacts::open_separating(const std::vector<std::size_t>& tou
   return resting;
 }
 
-/// Solves (2) for the velocities after the change; closes and opens.
+/// Solves (2) for the velocities after the change, of each island; closes and opens.
 void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& touched,
                           const std::vector<std::size_t>& fallen, const std::vector<Index>& resting,
                           const Instant& at, Change& change) {
-  const VectorXd free = coupling.accelerations_without({at.t, at.q, change.v})(resting);
-  const Eigen::MatrixXd S = coupling.S()(resting, resting);
-  const auto lambda = complementary_solution(S, free);
-  if (!lambda)
-    refuse(touched, at.t,
-           "no accelerations satisfy all of them: other constraints drive them into each other");
-  const VectorXd unit = units(S);
-  const double largest = free.size() > 0 ? free.cwiseProduct(unit).cwiseAbs().maxCoeff() : 0.0;
-  VectorXd A = free + S * *lambda;
-  clear_round_off(A, unit, largest);
-  for (std::size_t k = 0; k < resting.size(); ++k) {
-    const std::size_t i = touched[static_cast<std::size_t>(resting[k])];
-    const auto row = static_cast<Index>(k);
-    // A force that has fallen to 0 goes on falling: the contact opens, though nothing separates it yet.
-    const double own = scales_.speed() / scales_.time * contacts_[i].gradient * unit[row];
-    const bool falls = among(fallen, i) && contacts_[i].closed &&
-                       (*lambda)[row] <= tolerance_ * std::max(largest, own) * unit[row];
-    if ((A[row] > 0.0 && (*lambda)[row] == 0.0) || falls) {
-      open(i, at.t, 0.0, change);
-    } else {
-      close(contacts_[i], at.t);
-      contacts_[i].bears = (*lambda)[row] > 0.0;
-    }
+  const VectorXd all = coupling.accelerations_without({at.t, at.q, change.v});
+  std::vector<Pair> pairs(touched.size());
+  for (const auto& island : coupling.islands()) {
+    Coupling::Places own;
+    std::ranges::set_intersection(island, resting, std::back_inserter(own));
+    const VectorXd free = all(own);
+    const Eigen::MatrixXd S = coupling.S(own);
+    const auto lambda = complementary_solution(S, free);
+    if (!lambda)
+      refuse(those_at(island, touched), at.t,
+             "no accelerations satisfy all of them: other constraints drive them into each other");
+    const VectorXd unit = units(S);
+    const double largest = free.size() > 0 ? free.cwiseProduct(unit).cwiseAbs().maxCoeff() : 0.0;
+    VectorXd A = free + S * *lambda;
+    clear_round_off(A, unit, largest);
+    for (Index k = 0; k < A.size(); ++k)
+      pairs[static_cast<std::size_t>(own[static_cast<std::size_t>(k)])] = {A[k], (*lambda)[k], unit[k],
+                                                                           largest};
+  }
+  for (const Index k : resting) {
+    const auto place = static_cast<std::size_t>(k);
+    settle(touched[place], fallen, pairs[place], at.t, change);
+  }
+}
+
+/// By the acceleration and the force of (2).
+void Contacts::settle(std::size_t i, const std::vector<std::size_t>& fallen, const Pair& pair, double t,
+                      Change& change) {
+  // A force that has fallen to 0 goes on falling: the contact opens, though nothing separates it yet.
+  const double own = scales_.speed() / scales_.time * contacts_[i].gradient * pair.unit;
+  const bool falls = among(fallen, i) && contacts_[i].closed &&
+                     pair.force <= tolerance_ * std::max(pair.largest, own) * pair.unit;
+  if ((pair.acceleration > 0.0 && pair.force == 0.0) || falls) {
+    open(i, t, 0.0, change);
+  } else {
+    close(contacts_[i], t);
+    contacts_[i].bears = pair.force > 0.0;
   }
 }
 

@@ -63,6 +63,27 @@ TEST_P(Impacts, ThatAccumulateEndInRestAtTheirLimit) {
   }
 }
 
+TEST_P(Impacts, ThatEndInRestStopNoOtherBallThatBouncesMeanwhile) {
+  // One of restitution 1/2 rests three times its fall after the start. Near to that, at the loose tolerance
+  // within its last bounces, an elastic one lands far from it: that keeps its energy.
+  constexpr double loose = 1e-4, h = 0.3;
+  const double rests = 3.0 * std::sqrt(2.0 * h / g);
+  for (int k = 1; k <= 20; ++k) {
+    Scene<2> scene("two");
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const double lands = rests - 0.001 * k, high = 0.5 * g * lands * lands;
+    const auto first = scene.add_particle({.mass = 1.0, .position = {0.0, h}});
+    const auto other = scene.add_particle({.mass = 1.0, .position = {5.0, high}});
+    scene.add(unilateral(OnCurve{first, Plane<2>{}}, {.restitution = 0.5}), "first");
+    scene.add(unilateral(OnCurve{other, Plane<2>{}}, {.restitution = 1.0}), "other");
+    const auto run =
+        simulate(scene, {.t_end = rests + 0.2, .samples = 2, .tolerance = loose, .stepper = GetParam()});
+    const double left = rests + 0.2 - lands;
+    EXPECT_NEAR(run.position(first, 1).y(), 0.0, 10.0 * loose);
+    EXPECT_NEAR(run.position(other, 1).y(), left * (g * lands - 0.5 * g * left), 100.0 * loose) << k;
+  }
+}
+
 TEST_P(Impacts, WithoutRestitutionCloseAtOnce) {
   const Ball scene(0.0);
   const auto run = simulate(scene.scene, options(1.0));
