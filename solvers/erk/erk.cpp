@@ -26,14 +26,16 @@ double ErkStepper::State::attempt(double step) {
   scales.way = covered;
   passed_switch = passed_several = false;
   try {
-    run_stages(to, step, stages - 1);
+    if (to.rows != manifold.exchanges()) find_sine(to);
+    projected = close_to_singular(step);
+    run_stages(to, step, stages - 1, projected);
     finish(to, step, next);
     const double e =
         error(step) * (step < constants.far_too_short * usual && over == 0.0 ? constants.unreliable : 1.0);
     if (e > 1.0) return e;
     if (steps % stability_check_interval == 0) watch_stability(step);
     const double correction = project();
-    next.sine = manifold.sine();
+    note_sine(next);
     return std::max({e, correction / (constants.most_correction + round_off_of_projection()),
                      disagreement(step) / constants.most_disagreement, error_of_switch(step)});
   } catch (const EquationFault& error) {
@@ -80,6 +82,7 @@ void ErkStepper::step(double wanted) {
   if (s.steps == 0 && s.switches.any()) s.find_first_side();
   if (s.cross() == State::Crossing::passed) {
     s.accept(true);
+
     return s.find_side_anew();
   }
   double growth = constants.most_growth;
@@ -109,6 +112,7 @@ void ErkStepper::step(double wanted) {
   const double goal = std::min(wanted, s.t_end);
   if (std::abs(s.next.t - goal) <= 1e-14 * std::max(std::abs(goal), s.scales.time)) s.next.t = goal;
   s.accept(false);
+
   if (!s.switches.same(s.from.side, s.to.side)) s.go_on_behind();
 }
 
