@@ -72,7 +72,7 @@ std::unique_ptr<Stepping::Stretch> Stepping::stretch(const Problem& problem, Sta
     options.tolerance =
         std::max(tolerance_of_a_step(options_.stepper, options_.tolerance), smallest_tolerance);
   }
-  Reader reader(problem, start, t, options_.tolerance);
+  Reader reader(problem, start, options_.tolerance);
   auto stepper = make_stepper(problem, start, options);
   auto made = std::make_unique<Stretch>(
       Stretch{problem, std::move(start), by, std::move(reader), std::move(stepper), std::nullopt});
@@ -149,12 +149,20 @@ const Springs* Stepping::springs_at(double t) {
   return system().compliant() && stretch_->stepper->springs(t, springs_) ? &springs_ : nullptr;
 }
 
-/// The rows in use are independent at the start of the run; on the way they may come to depend on each
-/// other while others do not.
+/// The implicit stepper's unknowns are the multipliers of the rows that it began with: where others have
+/// taken over (see Manifold) it begins anew.
 void Stepping::exchange_rows() {
-  if (start().rows.size() == system().rows_in_force()) return;
+  if (stretch_->by == Stepper::erk || start().rows.size() == system().rows_in_force()) return;
   const State& now = interpolate(time());
-  if (stretch_->reader.better_rows({time(), now.q, now.v})) restart(stretch_->by);
+  Manifold& manifold = stretch_->reader.manifold();
+  (void)manifold.sine({time(), now.q, now.v});
+  if (manifold.rows().rows != start().rows.rows) restart(Stepper::ida);
+}
+
+/// Whether round-off in the implicit stepper's velocities, see Passage, exceeds the error allowed to its
+/// steps: that then decides on their size.
+bool Stepping::lost_to_round_off(double sine) const {
+  return epsilon > sine * sine * tolerance_of_a_step(Stepper::ida, options_.tolerance);
 }
 
 /// Isolated singular positions are passed by the explicit stepper (see ErkStepper), from where they come in
@@ -163,7 +171,8 @@ void Stepping::watch_sine() {
   const Angle before = angle_, now{time(), stretch_->stepper->sine()};
   if (stretch_->by == Stepper::ida) {
     const double left = time_to_singular(before, now);
-    if (now.sine < constants.handover_sine && left < constants.handover_steps * (now.t - before.t))
+    const bool soon = left < constants.handover_steps * (now.t - before.t);
+    if (now.sine < constants.handover_sine && (soon || (std::isfinite(left) && lost_to_round_off(now.sine))))
       return hand_over(now.sine);
   } else if (now.sine > before.sine && now.sine >= sine_at_handover_) {
     return restart(Stepper::ida);

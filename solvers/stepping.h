@@ -84,6 +84,7 @@ class Stepping {
   void keep_step(double from);
   void exchange_rows();
 
+  [[nodiscard]] bool lost_to_round_off(double sine) const;
   void watch_sine();
   void hand_over(double sine);
   void watch_sliding();

@@ -26,14 +26,16 @@ double ErkStepper::State::attempt(double step) {
   scales.way = covered;
   passed_switch = passed_several = false;
   try {
-    run_stages(to, step, stages - 1);
+    if (to.rows != manifold.exchanges()) find_sine(to);
+    projected = close_to_singular(step);
+    run_stages(to, step, stages - 1, projected);
     finish(to, step, next);
     const bool doubtful = step < constants.far_too_short * usual && over == 0.0;
     const double e = error(step, doubtful ? constants.unreliable : 1.0);
     if (e > 1.0) return e;
     if (steps % check_interval == 0) watch_stability(step);
     const double correction = project();
-    next.sine = manifold.sine();
+    note_sine(next);
     return std::max({e, correction / (constants.most_correction + round_off_of_projection()),
                      disagreement(step) / constants.most_disagreement, error_of_switch(step)});
   } catch (const EquationFault& error) {
@@ -90,6 +92,7 @@ void ErkStepper::step(double wanted) {
   if (s.steps == 0 && s.switches.any()) s.find_first_side();
   if (s.cross() == State::Crossing::passed) {
     s.accept(true);
+
     return s.find_side_anew();
   }
   if (s.steps % State::check_interval == 0) s.measure_noise();
@@ -120,6 +123,7 @@ void ErkStepper::step(double wanted) {
   const double goal = std::min(wanted, s.t_end);
   if (std::abs(s.next.t - goal) <= 1e-14 * std::max(std::abs(goal), s.scales.time)) s.next.t = goal;
   s.accept(false);
+
   if (!s.switches.same(s.from.side, s.to.side)) s.go_on_behind();
 }
 

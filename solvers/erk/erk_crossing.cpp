@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 namespace dalembert {
@@ -12,6 +13,8 @@ namespace dalembert {
 namespace {
 
 constexpr double not_ahead = std::numeric_limits<double>::infinity();
+/// An estimate is right within this factor.
+constexpr double margin_of_gap = 5.0;
 
 /// Where the parabola through the squares of three sines has its minimum; none if it has none.
 std::optional<Angle> least_of_parabola(const std::array<Angle, 3>& at) {
@@ -35,11 +38,10 @@ std::optional<Angle> least_of_parabola(const std::array<Angle, 3>& at) {
 /// step, as a high power of the distance; if round-off makes it grow before it is within the tolerance, the
 /// best passage so far is taken.
 ///
-/// Where constraints are redundant, active rows that become dependent are replaced, and steps end before that
-/// is due: nothing is singular until other rows are no better.
+/// Where constraints are redundant, rows that become dependent are replaced (see Manifold): nothing is
+/// singular until others are no better.
 ErkStepper::State::Crossing ErkStepper::State::cross() {
-  if (to.sine > replace_below) return Crossing::none;
-  const double left = steps > 0 ? time_to_singular(from.angle(), to.angle()) : not_ahead;
+  const double left = time_left();
   if (left == not_ahead) {
     next_passage = not_ahead;
     best_passage = none_yet;
@@ -51,7 +53,7 @@ ErkStepper::State::Crossing ErkStepper::State::cross() {
   try {
     double singular = to.t + left;
     const double lowest = find_singular(singular);
-    only_close = lowest > constants.clearly_there * to.sine;
+    only_close = lowest > constants.clearly_there * to.sine || passes_beside(singular);
     if (only_close) return Crossing::none;
     if (lowest <= constants.vanished * to.sine && pass(singular)) return Crossing::passed;
     h = std::min(h, 0.5 * std::min(left, singular - to.t));
@@ -63,16 +65,20 @@ ErkStepper::State::Crossing ErkStepper::State::cross() {
   return Crossing::ahead;
 }
 
+double ErkStepper::State::time_left() const {
+  return steps > 0 && from.rows == to.rows ? time_to_singular(from.angle(), to.angle()) : not_ahead;
+}
+
 /// Whether a long step may have crossed a singular position that was not in sight where it began.
 bool ErkStepper::State::may_have_crossed() const {
-  if (to.sine > replace_below) return least.sine < 0.5 * replace_below;
-  if (!(least.sine < constants.close_to_dependent && least.sine < 0.5 * to.sine)) return false;
-  return !only_close || least_between_stages() < constants.clearly_there * to.sine;
+  const double first = angles[0].sine;
+  if (!(least.sine < constants.close_to_dependent && least.sine < 0.5 * first)) return false;
+  return !only_close || least_between_stages() < constants.clearly_there * first;
 }
 
 /// The least sine, if the angle has passed it.
 double ErkStepper::State::least_between_stages() const {
-  Angle before = to.angle(), after{none_yet, 1.0};
+  Angle before = angles[0], after{none_yet, 1.0};
   for (const Angle& angle : angles) {
     if (angle.t < least.t && angle.t > before.t) before = angle;
     if (angle.t > least.t && angle.t < after.t) after = angle;
@@ -88,7 +94,8 @@ void ErkStepper::State::extrapolate(std::size_t nodes, double t, Node& out) {
   out.t = t;
 }
 
-/// Refines the time at which the angle of the extrapolated motion is least. Returns its sine there.
+/// Refines the time at which the angle of the extrapolated motion is least. Returns its sine there, that of
+/// the last node if other rows take over.
 double ErkStepper::State::find_singular(double& t) {
   constexpr int attempts = 4;
   std::array<Angle, 3> at{from.angle(), to.angle(), {t, 0.0}};
@@ -98,6 +105,7 @@ double ErkStepper::State::find_singular(double& t) {
   for (int i = 0; i < attempts && lowest.sine > constants.vanished * to.sine; ++i) {
     extrapolate(nodes, t, middle);
     at[2] = {t, manifold.sine({t, middle.q, halves(middle.va).first})};
+    if (manifold.exchanges() != to.rows) return to.sine;
     if (at[2].sine < lowest.sine) lowest = at[2];
     const auto next_guess = least_of_parabola(at);
     if (!next_guess || !(next_guess->t > to.t && next_guess->t < until) || next_guess->t == at[2].t) break;
@@ -106,6 +114,33 @@ double ErkStepper::State::find_singular(double& t) {
   }
   t = lowest.t;
   return lowest.sine;
+}
+
+/// Whether the motion turns in front of the place where the angle is least, on its own branch: the gap to the
+/// other one is then larger than the extrapolated state is wrong by. Steps follow it if they cannot go astray
+/// that far unnoticed.
+bool ErkStepper::State::passes_beside(double singular) {
+  constexpr double beside = 1e-3;  // where the matrix is regular
+  const std::size_t nodes = passage.choose(singular);
+  if (nodes < 2) return false;
+  const double t = singular - beside * (singular - to.t);
+  extrapolate(nodes, t, next);
+  extrapolate(nodes - 1, t, middle);
+  const auto lengths = scales.lengths();
+  double error = 0.0;
+  for (std::size_t i = 0; i < n; ++i) error = std::max(error, std::abs(next.q[i] - middle.q[i]) * lengths[i]);
+  const Manifold::Gap gap = manifold.gap({t, next.q, halves(next.va).first}, scales.length);
+  if (!(gap.distance > margin_of_gap * std::max(error, gap.rounding))) return false;
+  const double unnoticed = constants.most_correction * tolerance * scales.length;
+  if (gap.distance > unnoticed) return true;
+  std::ostringstream what;
+  what << "two branches of the motion, of which " << system->row_label(gap.row)
+       << " makes part, pass within a distance of " << gap.distance
+       << " of each other here, where it nearly depends on other constraints; steps may leave the right one "
+          "unnoticed by "
+       << unnoticed << ": ask for a tolerance smaller by " << unnoticed / gap.distance
+       << " or more, or make the constraints meet exactly";
+  throw StepFailure{what.str(), to.t};
 }
 
 /// Whether to accept `next`, with an error of `error` over the tolerance, or the best passage so far in its
@@ -136,7 +171,7 @@ bool ErkStepper::State::pass(double singular) {
   if (!worth_taking(size())) return false;
   if (next.t < t_end) {
     (void)project();
-    next.sine = manifold.sine();
+    note_sine(next);
   }
   const double lost = tolerance * std::exchange(best_passage, none_yet);
   estimated = {.position = lost * scales.length, .velocity = lost * scales.speed()};

@@ -64,8 +64,7 @@ ErkStepper::State::State(const Problem& problem, const Start& start, const Optio
     k[i] = stage[i].data();
   }
   passage.remember(to.t, start.a);
-  to.sine = manifold.sine({to.t, to.q, halves(to.va).first});
-  if (start.rows.size() < system->rows_in_force()) replace_below = constants.worn * to.sine;
+  find_sine(to);
   if (!system->compliant()) return;
   auto e = system->evaluation();
   system->evaluate({options.t_start, start.q, start.v}, e);
@@ -81,25 +80,48 @@ void ErkStepper::State::require(bool regular) {
   if (!regular) throw EquationFault("the constraints became linearly dependent");
 }
 
+void ErkStepper::State::find_sine(Node& node) {
+  (void)manifold.sine({node.t, node.q, halves(node.va).first});
+  note_sine(node);
+}
+
+/// Where the matrix was factored last.
+void ErkStepper::State::note_sine(Node& node) const {
+  node.sine = manifold.sine();
+  node.rows = manifold.exchanges();
+}
+
+/// At stage i, on whose way other rows may have taken over.
+void ErkStepper::State::note_angle(std::size_t i, double t) {
+  angles[i] = {t, manifold.sine()};
+  if (manifold.exchanges() != rows_of_angles) {
+    rows_of_angles = manifold.exchanges();
+    angles.fill(angles[i]);
+    least = angles[i];
+  }
+  if (angles[i].sine < least.sine) least = angles[i];
+}
+
 /// Whether the angle between constraints changes much in a step. An error e of a stage off the manifold is
 /// one of e/sin^2 in its accelerations; projected stages do not have it.
 bool ErkStepper::State::close_to_singular(double step) const {
-  const double rate = steps > 0 ? std::abs(to.sine - from.sine) / (to.t - from.t) : 0.0;
+  const bool known = steps > 0 && from.rows == to.rows;
+  const double rate = known ? std::abs(to.sine - from.sine) / (to.t - from.t) : 0.0;
   return to.sine < constants.close_to_dependent && step * rate > constants.changing_angle * to.sine;
 }
 
-void ErkStepper::State::run_stages(const Node& start, double step, std::size_t last) {
-  const bool project = close_to_singular(step);
+void ErkStepper::State::run_stages(const Node& start, double step, std::size_t last, bool onto_constraints) {
   k[0] = start.va.data();
   angles.fill(start.angle());
   least = angles[0];
+  rows_of_angles = start.rows;
   for (std::size_t i = 1; i <= last; ++i) {
     a[i].move(step, k, start.q.data(), stage_q.data(), start.va.data(), stage[i].data(), n);
     const auto [v, v_dot] = halves(stage[i]);
     const double t = start.t + pair.c[i] * step;
-    require(project ? manifold.project(t, stage_q, v, v_dot) : manifold.accelerate({t, stage_q, v}, v_dot));
-    angles[i] = {t, manifold.sine()};
-    if (angles[i].sine < least.sine) least = angles[i];
+    require(onto_constraints ? manifold.project(t, stage_q, v, v_dot)
+                             : manifold.accelerate({t, stage_q, v}, v_dot));
+    note_angle(i, t);
     if (&start == &to) look(i, t);
   }
 }
@@ -109,14 +131,18 @@ void ErkStepper::State::finish(const Node& start, double step, Node& end) const 
   b.move(step, k, start.q.data(), end.q.data(), start.va.data(), end.va.data(), n);
 }
 
-/// Half a step of the method itself from where the last step began.
+/// Half a step of the method itself from where the last step began; on the constraints, if on its way their
+/// angle was smaller than at its ends.
 void ErkStepper::State::find_middle() {
   if (has_middle) return;
   const double half = 0.5 * (to.t - from.t);
-  run_stages(from, half, last_stage_of_step);
+  const bool dips = least.sine < (1.0 - constants.changing_angle) * std::min(from.sine, to.sine);
+  const bool on = projected || (dips && least.sine < constants.close_to_dependent);
+  run_stages(from, half, last_stage_of_step, on);
   finish(from, half, middle);
   const auto [v, v_dot] = halves(middle.va);
-  require(manifold.accelerate({middle.t, middle.q, v}, v_dot));
+  require(on ? manifold.project(middle.t, middle.q, v, v_dot)
+             : manifold.accelerate({middle.t, middle.q, v}, v_dot));
   has_middle = true;
 }
 

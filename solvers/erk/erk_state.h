@@ -33,7 +33,8 @@ struct ErkStepper::State {
   struct Node {
     double t = 0.0;
     std::vector<double> q, va;
-    double sine = 1.0;  // see Manifold
+    double sine = 1.0;  // see Manifold,
+    long rows = 0;      // of those in use after so many exchanges
     Side side{};        // of the switches in the equations; unset if there are none
 
     [[nodiscard]] Angle angle() const { return {t, sine}; }
@@ -45,8 +46,11 @@ struct ErkStepper::State {
   }
   static void require(bool regular);
   /// Stages 2 to `last` of a step from `start`: a stage's velocity is written where its derivative is kept.
-  void run_stages(const Node& start, double step, std::size_t last);
+  void run_stages(const Node& start, double step, std::size_t last, bool onto_constraints);
   [[nodiscard]] bool close_to_singular(double step) const;
+  void find_sine(Node& node);
+  void note_sine(Node& node) const;
+  void note_angle(std::size_t i, double t);
   void finish(const Node& start, double step, Node& end) const;
   void find_middle();
 
@@ -81,10 +85,12 @@ struct ErkStepper::State {
   /// The outcome of an attempt to pass a singular position.
   enum class Crossing { none, ahead, passed };
   [[nodiscard]] Crossing cross();
+  [[nodiscard]] double time_left() const;
   [[nodiscard]] bool may_have_crossed() const;
   [[nodiscard]] double least_between_stages() const;
   [[nodiscard]] double find_singular(double& t);
   [[nodiscard]] bool pass(double singular);
+  [[nodiscard]] bool passes_beside(double singular);
   [[nodiscard]] bool worth_taking(double error);
   /// From the last node to t, see Passage.
   void extrapolate(std::size_t nodes, double t, Node& out);
@@ -104,8 +110,9 @@ struct ErkStepper::State {
   Node from, to;  // the last step; before the first, both are the start
   Node middle;    // of that step, if `has_middle`
   bool has_middle = false;
-  bool crossed = false;  // the last step passed a singular position
-  Node next;             // where a step goes until it is accepted
+  bool projected = false;  // the stages of the last attempt
+  bool crossed = false;    // the last step passed a singular position
+  Node next;               // where a step goes until it is accepted
   std::array<std::vector<double>, stages> stage;
   std::array<const double*, stages> k{};
   std::vector<double> stage_q;                                 // work
@@ -123,15 +130,15 @@ struct ErkStepper::State {
   Passage passage;
   std::size_t passage_nodes = 0;  // of the step that crossed
   static constexpr double none_yet = std::numeric_limits<double>::infinity();
-  std::array<Angle, stages> angles{};  // at the stages of an attempt,
+  std::array<Angle, stages> angles{};  // at the stages of an attempt, since other rows took over,
   Angle least{};                       // and the least of them
+  long rows_of_angles = 0;
   bool only_close = false;             // the constraints, not dependent, where the angle falls now
   double next_passage = none_yet;      // the distance from which it is worth another attempt
   double best_passage = none_yet;      // error over the tolerance, of
   Node best_passed;                    // a passage that was not taken yet
   int singular_positions = 0;
-  double replace_below = none_yet;  // sine below which other rows may take over; infinite if all are in use
-  std::string fault;                // of the last attempt that failed
+  std::string fault;  // of the last attempt that failed
 
   Switches switches;
   std::optional<Sticking> sticking;     // if there are any

@@ -175,6 +175,14 @@ void IdaStepper::State::watch_convergence() {
   if (failures > std::exchange(solve_failures, failures)) newton.converged_badly();
 }
 
+/// Whether Newton's iteration has failed since IDA began, maybe for round-off: what that may be must be
+/// known.
+bool IdaStepper::State::has_failed() const {
+  long failures = 0;
+  check(IDAGetNumStepSolveFails(ida.get(), &failures), "IDAGetNumStepSolveFails");
+  return failures > 0;
+}
+
 /// Adds IDA's own counts since it began.
 void IdaStepper::State::count_failures(long& of_tests, long& of_newton) const {
   long tests = 0, newtons = 0;

@@ -16,6 +16,7 @@ void IdaStepper::State::make_linear_solver() {
   solver->ops->setup = [](SUNLinearSolver self, SUNMatrix) noexcept {
     State& s = *static_cast<State*>(self->content);
     return guarded(s, s.matrix_t, [&s] {
+      if (s.has_failed()) s.newton.find_sine();
       // IDA weighs once per step, also where it goes on to shorten it; those of multipliers depend on h.
       double h = 0.0;
       check(IDAGetCurrentStep(s.ida.get(), &h), "IDAGetCurrentStep");

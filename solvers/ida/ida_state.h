@@ -83,6 +83,7 @@ struct IdaStepper::State {
   void watch_order();
   void change_order();
   void watch_convergence();
+  [[nodiscard]] bool has_failed() const;
   void count_failures(long& error_tests, long& convergence) const;
   void find_impulses();
   void spread_multipliers(N_Vector x);

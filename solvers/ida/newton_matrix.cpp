@@ -41,6 +41,8 @@ NewtonMatrix::NewtonMatrix(const Problem& problem, const ActiveRows& rows, doubl
       s_(system_->rows()),
       with_mu_(rows_with_mu(rows)),
       k2_(problem.pattern(those_at(with_mu_, rows))),
+      weakest_(*system_),
+      rows_of_k2_{those_at(with_mu_, rows), with_mu_.size()},
       x1_(system_->coordinates() + rows.size()),
       x2_(k2_.size()),
       p_(system_->coordinates()),
@@ -127,6 +129,7 @@ bool NewtonMatrix::factorise(const Instant& at, const System::Evaluation& e, std
   judge(c);
   std::ranges::copy(e.w, w_.begin());
   if (!k2_.factorise({.w = w_})) return false;
+  if (asks_sine_) sine_ = weakest_.smallest_singular_value(k2_, rows_of_k2_, w_, problem_.islands());
   fastest_ = fastest_vibrations(*system_, w_, linear_, p_);
   k1_in_use_ = false;
   for (std::size_t i = 0; i < stiff_.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/ida/vibrations.h>
 #include <dalembert/solvers/linear/problem.h>
+#include <dalembert/solvers/manifold/weakest_direction.h>
 
 #include <algorithm>
 #include <optional>
@@ -83,8 +84,10 @@ class NewtonMatrix {
   [[nodiscard]] bool refresh(const System::Evaluation& e, double c);
   /// Of the state at which the matrix was made.
   [[nodiscard]] const Vibrations& fastest() const { return fastest_; }
-  /// The sine of the smallest angle that a holonomic row makes with others, see SaddleMatrix.
-  [[nodiscard]] double sine() const { return k2_.sine(); }
+  /// The sine of the smallest angle that a holonomic row makes with others, see SaddleMatrix. Where that does
+  /// not tell it, it is 1, and after `find_sine` the least singular value where the matrix was made.
+  [[nodiscard]] double sine() const { return k2_.tells_sine() ? k2_.sine() : sine_; }
+  void find_sine() { asks_sine_ = !k2_.tells_sine(); }
   /// After an iteration that did not converge: if forces were left out then for being soft, none will be.
   void converged_badly();
   /// Whether the last factors are those of W M^-1 W^T alone.
@@ -132,6 +135,10 @@ class NewtonMatrix {
   std::optional<Stiff> k1_;
   std::vector<std::size_t> with_mu_;  // mu: places in rows_
   SaddleMatrix k2_;
+  WeakestDirection weakest_;
+  ActiveRows rows_of_k2_;
+  bool asks_sine_ = false;
+  double sine_ = 1.0;
   std::vector<double> x1_, x2_, p_, dmu_;
   std::vector<char> yields_;  // per holonomic active row, see above
   bool k1_in_use_ = false;

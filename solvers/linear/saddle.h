@@ -59,6 +59,7 @@ class SaddleMatrix {
   /// The sine of the smallest angle that a row made with others when a symmetric matrix was factored last, in
   /// the metric of the masses; 1 if the complement, which tells it, does not suit the scene.
   [[nodiscard]] double sine() const;
+  [[nodiscard]] bool tells_sine() const { return complement_.has_value(); }
   /// Of the last factorisation, of a matrix with other blocks than the symmetric ones.
   [[nodiscard]] int sign_of_determinant() { return whole_[in_use_]->sign_of_determinant(); }
 

@@ -1,9 +1,11 @@
 #include "dalembert/solvers/manifold/manifold.h"
 
+#include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace dalembert {
 
@@ -45,7 +47,8 @@ Manifold::Manifold(const Problem& problem, const ActiveRows& rows, std::vector<d
       gamma_(system_->rows()),
       matrix_(problem.pattern(rows.rows)),
       minimum_norm_(*system_, rows, lengths_),
-      weakest_(*system_) {
+      weakest_(*system_),
+      redundant_(rows.size() < system_->rows_in_force()) {
   x_.resize(matrix_.size());
   q_before_.resize(system_->coordinates());
   if (system_->frictional()) friction_.emplace(problem, rows);
@@ -83,7 +86,7 @@ void Manifold::weigh_springs() {
 
 double Manifold::sine(const Instant& at) {
   evaluate(at);
-  return factorise() ? sine() : 0.0;
+  return factorise() ? sine_ : 0.0;
 }
 
 void Manifold::weakest_directions(std::span<double> n, std::span<double> response) {
@@ -99,7 +102,8 @@ void Manifold::weakest_directions(std::span<double> n, std::span<double> respons
     n[i] = own > 0.0 ? weakest_.n()[i] / own : 0.0;
   }
   std::ranges::fill(response, 0.0);
-  for (const std::size_t r : rows_.rows) {
+  for (std::size_t r = 0; r < system_->rows(); ++r) {
+    if (!system_->in_force(r)) continue;
     double change = 0.0;
     for (const std::size_t k : system_->row(r)) change += e_.w[k] * n[system_->w_columns()[k]];
     double& own = response[islands.of_row(*system_, r)];
@@ -107,9 +111,49 @@ void Manifold::weakest_directions(std::span<double> n, std::span<double> respons
   }
 }
 
-bool Manifold::factorise() {
+void Manifold::use(ActiveRows rows) {
+  past_factorisations_ = factorisations();
+  rows_ = std::move(rows);
+  SaddleMatrix fresh(problem_.pattern(rows_.rows));
+  std::destroy_at(&matrix_);  // KLU's handles are not assigned, but moving one cannot fail
+  std::construct_at(&matrix_, std::move(fresh));
+  minimum_norm_ = MinimumNorm(*system_, rows_, lengths_);
+  if (friction_) friction_.emplace(problem_, rows_);
+}
+
+bool Manifold::factorise_those_in_use() {
   weigh_springs();
-  return matrix_.factorise({.w = e_.w, .s = s_});
+  const bool regular = matrix_.factorise({.w = e_.w, .s = s_});
+  sine_ = redundant_ && regular && !matrix_.tells_sine()
+              ? weakest_.smallest_singular_value(matrix_, rows_, e_.w, problem_.islands())
+              : matrix_.sine();
+  return regular;
+}
+
+/// Rows are compared where the angle of those in use has changed much since they were compared last.
+bool Manifold::factorise() {
+  const bool regular = factorise_those_in_use();
+  if (!redundant_) return regular;
+  if (best_sine_ == 0.0) best_sine_ = sine_;
+  const double own = regular ? sine_ : 0.0;
+  if (own >= constants.worn * best_sine_ && constants.worn * own <= best_sine_) return regular;
+  return exchange_rows(own);
+}
+
+/// By others, if their angles are so much larger than `own`, those of the rows in use.
+bool Manifold::exchange_rows(double own) {
+  ActiveRows before = rows_, others = independent_rows(*system_, e_.w, rows_);
+  best_sine_ = own;
+  if (others.rows == rows_.rows) return own > 0.0;
+  use(std::move(others));
+  bool regular = factorise_those_in_use();
+  best_sine_ = std::max(own, sine_);
+  if (regular && own < constants.worn * sine_) {
+    ++exchanges_;
+    return true;
+  }
+  use(std::move(before));
+  return factorise_those_in_use();
 }
 
 template <class F>
@@ -224,7 +268,7 @@ void Manifold::multipliers(std::span<double> lambda) const {
 
 bool Manifold::accelerate(const Instant& at, std::span<double> a) {
   evaluate(at);
-  if (friction_) {
+  if (friction_ && !redundant_) {
     weigh_springs();
   } else if (!factorise()) {
     return false;

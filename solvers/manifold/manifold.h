@@ -9,6 +9,7 @@
 #include <dalembert/solvers/manifold/weakest_direction.h>
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace DALEMBERT_HIDDEN dalembert {
@@ -46,6 +47,9 @@ struct Violation {
 /// c^2 y. A stiff spring (s small) is treated like a rigid constraint and gets the recovered
 /// multiplier; of a soft one (s large) the stepper's own is kept. Without `follow` the multipliers are
 /// -g/C, the limit of large s.
+///
+/// Where rows are redundant, those in use may come to depend on each other while others do not. Wherever the
+/// matrix is factored others then take over: which ones are in use shows in no motion and no force.
 class Manifold {
  public:
   Manifold(const Problem& problem, const ActiveRows& rows, std::vector<double> lengths);
@@ -74,14 +78,33 @@ class Manifold {
   /// step of (1) leaves is the square of what it found. False if singular.
   [[nodiscard]] bool project(double t, std::span<double> q, std::span<double> v, std::span<double> a);
 
-  /// The sine of the smallest angle that a row makes with others, in the metric of the masses: at a state,
-  /// and where the matrix was factored last. 0 where rows depend on each other.
+  /// The sine of the smallest angle that a row in use makes with others, in the metric of the masses: at a
+  /// state, and where the matrix was factored last. 0 where rows depend on each other. Where the matrix does
+  /// not tell it (see SaddleMatrix) it is 1, or if rows are redundant the least singular value, which does.
   [[nodiscard]] double sine(const Instant& at);
-  [[nodiscard]] double sine() const { return matrix_.sine(); }
+  [[nodiscard]] double sine() const { return sine_; }
+  /// The rows in use, and how often others have taken over: angles of different ones do not compare.
+  [[nodiscard]] const ActiveRows& rows() const { return rows_; }
+  [[nodiscard]] long exchanges() const { return exchanges_; }
   /// Where the matrix was factored last, in each island the direction of the coordinates that its constraints
   /// constrain least, with the largest entry 1 (as lengths), and the largest violation, as a length, of a
   /// unit of it: 0, as n is, where there are no constraints.
   void weakest_directions(std::span<double> n, std::span<double> response);
+
+  /// How far from each other two branches of the motion pass where the angle of the rows is least.
+  struct Gap {
+    double distance = 0.0;  ///< as a length; 0 where they cross
+    double rounding = 0.0;  ///< below this round-off does not tell it from 0
+    std::size_t row = 0;    ///< one that comes to depend on others
+  };
+  /// At a state close to that place, on the branches or as far from them as its square may be neglected. With
+  /// u the weights by which rows depend on each other, n the weakest direction, p that of the motion,
+  ///
+  ///   f = u g,    f(q + x p + y n) = f + b x y + k y^2/2,
+  ///
+  /// the branches f = 0 cross if f is 0; else they are the two parts of a hyperbola. No error of the state
+  /// enters f but by its square: in no direction does u g change where u W = 0.
+  [[nodiscard]] Gap gap(const Instant& at, double length);
 
   /// From here on comparisons that the constraints make are recorded.
   void listen() { listening_ = true; }
@@ -98,7 +121,7 @@ class Manifold {
   [[nodiscard]] const System::Evaluation& equations() const { return e_; }
   [[nodiscard]] long evaluations() const { return evaluations_; }
   [[nodiscard]] long factorisations() const {
-    return matrix_.factorisations() + (friction_ ? friction_->factorisations() : 0);
+    return past_factorisations_ + matrix_.factorisations() + (friction_ ? friction_->factorisations() : 0);
   }
   [[nodiscard]] const char* method() const { return matrix_.method(); }
 
@@ -108,6 +131,9 @@ class Manifold {
   void evaluate(const Instant& at);
   void add_springs();
   void weigh_springs();
+  void use(ActiveRows rows);
+  [[nodiscard]] bool factorise_those_in_use();
+  [[nodiscard]] bool exchange_rows(double own);
   [[nodiscard]] bool factorise();
   void add_to_springs(const std::vector<double>& from, double fraction, std::vector<double>& to);
   void solve_for_position_step(std::size_t n);
@@ -128,7 +154,9 @@ class Manifold {
   MinimumNorm minimum_norm_;
   WeakestDirection weakest_;
   std::optional<FrictionSolver> friction_;  // if any force reads a multiplier
-  long evaluations_ = 0;
+  bool redundant_;
+  double sine_ = 1.0, best_sine_ = 0.0;  // the latter of any rows, where they were compared last
+  long evaluations_ = 0, exchanges_ = 0, past_factorisations_ = 0;  // the last by rows that are out of use
 };
 
 }  // namespace dalembert

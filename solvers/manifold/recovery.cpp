@@ -45,13 +45,40 @@ Recovery::Recovery(const Problem& problem, const Start& start, double tolerance)
       w_(system_->w_columns().size()),
       response_(problem.islands().count) {}
 
-/// A state moved by more than the tolerance is not better for it.
+/// Per island, the largest violation of any row that is stated.
+std::vector<double> Recovery::violations(const std::vector<double>& residual,
+                                         std::span<const double> w) const {
+  std::vector<double> worst(left_out_.size());
+  for (std::size_t r = 0; r < residual.size(); ++r) {
+    if (residual[r] == 0.0 || system_->law(r).compliant()) continue;
+    double& own = worst[problem_.islands().of_row(*system_, r)];
+    own = std::max(own, std::abs(residual[r]) / gradient_length(*system_, w, lengths_, r));
+  }
+  return worst;
+}
+
+/// A state moved by more than the tolerance is not better for it, if that is the constraints' doing: if it
+/// obeyed them, all that are stated, much better than it was moved.
 void Recovery::find_moved_too_far(const Moment& m) {
+  std::vector<double> far(left_out_.size()), fast(left_out_.size());
   for (std::size_t i = 0; i < m.q.size(); ++i) {
+    const std::size_t island = problem_.islands().of_coordinate[i];
     const double speed = scales_.unit(i) / scales_.time + std::abs(v_given_[i]);
-    if (std::abs(m.q[i] - q_given_[i]) > scales_.position_error(i, q_given_[i], tolerance_) ||
-        std::abs(m.v[i] - v_given_[i]) > tolerance_ * speed)
-      left_out_[problem_.islands().of_coordinate[i]] = 1;
+    const double dq = std::abs(m.q[i] - q_given_[i]), dv = std::abs(m.v[i] - v_given_[i]);
+    far[island] = std::max(far[island], dq * lengths_[i]);
+    fast[island] = std::max(fast[island], dv * lengths_[i]);
+    if (dq > scales_.position_error(i, q_given_[i], tolerance_) || dv > tolerance_ * speed)
+      left_out_[island] = 1;
+  }
+  if (!std::ranges::count(left_out_, 1)) return;
+  auto e = system_->evaluation();
+  system_->evaluate({m.t, q_given_, v_given_}, e);
+  const auto distance = violations(e.g, e.w);
+  system_->evaluate({m.t, m.q, v_given_}, e);
+  const auto speed = violations(e.psi, e.w);
+  for (std::size_t island = 0; island < left_out_.size(); ++island) {
+    const double w = constants.well_conditioned;
+    if (w * far[island] <= distance[island] && w * fast[island] <= speed[island]) left_out_[island] = 0;
   }
 }
 
@@ -68,22 +95,41 @@ void Recovery::project(Manifold& manifold, Moment& m) {
   } else if (manifold.sine() <= constants.well_conditioned) {
     find_moved_too_far(m);
   }
-  for (std::size_t i = 0; i < m.q.size(); ++i) {
-    if (!left_out_[problem_.islands().of_coordinate[i]]) continue;
-    m.q[i] = q_given_[i];
-    m.v[i] = v_given_[i];
-  }
+  any_left_out_ = std::ranges::count(left_out_, 1) > 0;
+
+  if (any_left_out_) keep_given(manifold, m);
 }
 
+/// But not a state that is off its constraints by more than steps may leave unnoticed.
+void Recovery::keep_given(Manifold& manifold, Moment& m) {
+  const auto put = [&](const std::vector<double>& q, const std::vector<double>& v) {
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      if (!left_out_[problem_.islands().of_coordinate[i]]) continue;
+      m.q[i] = q[i];
+      m.v[i] = v[i];
+    }
+    (void)manifold.sine({m.t, m.q, m.v});
+    m.position = position_violation(*system_, manifold.equations(), lengths_);
+  };
+  q_ = m.q;
+  v_ = m.v;
+  put(q_given_, v_given_);
+  if (m.position.size > unnoticed()) put(q_, v_);
+}
+
+/// How far steps may leave the constraints unnoticed.
+double Recovery::unnoticed() const { return constants.most_correction * tolerance_ * scales_.length; }
+
 void Recovery::require_agreement(const Moment& m) const {
-  const double L = scales_.length;
   const auto refuse = [&](const Violation& left, const char* what) {
     std::ostringstream text;
     text << system_->row_label(left.row) << " contradicts the other constraints: it is violated by " << what
          << left.size << "; remove or correct one of those that act on the same points";
     throw StepFailure{text.str(), m.t};
   };
-  if (m.position.size > constants.tolerated_contradiction * L + scales_.rounding(m.q)) refuse(m.position, "");
+  const double tolerated = constants.tolerated_contradiction * scales_.length + scales_.rounding(m.q) +
+                           (any_left_out_ ? unnoticed() : 0.0);
+  if (m.position.size > tolerated) refuse(m.position, "");
 }
 
 void Recovery::require_finite(const Moment& m) const {
@@ -204,7 +250,7 @@ void Recovery::mark_springs(const Manifold& manifold, Moment& m, long steps) con
 
 void Recovery::recover(Manifold& manifold, Moment& m, long steps) {
   project(manifold, m);
-  if (!std::ranges::count(left_out_, 1)) require_agreement(m);
+  require_agreement(m);
   if (!m.unique.empty()) std::ranges::copy(manifold.unique(), m.unique.begin());
   system_->constraint_forces(manifold.equations().w, m.lambda, m.forces);
   m.velocity = velocity_violation(*system_, manifold.equations(), lengths_);

@@ -29,8 +29,8 @@ struct Moment {
 ///
 /// A state that is right to the tolerance is moved by about as much, except where the constraints are so
 /// close to dependent that they turn its error e into e/sin: there the stepper's own state is the better one
-/// and stays as it is, and no force is determined. That is said of each island (see Islands): a pendulum's
-/// force does not depend on a linkage beside it.
+/// and stays as it is, if it obeys the constraints as well as it may be wrong, and no force is determined.
+/// That is said of each island (see Islands): a pendulum's force does not depend on a linkage beside it.
 ///
 /// Where they are close to dependent the forces of a state on the constraints, too, may be those of its
 /// round-off. What the constraints of an island constrain least is one direction n (see
@@ -49,7 +49,11 @@ class Recovery {
 
  private:
   void project(Manifold& manifold, Moment& m);
+  [[nodiscard]] std::vector<double> violations(const std::vector<double>& residual,
+                                               std::span<const double> w) const;
   void find_moved_too_far(const Moment& m);
+  void keep_given(Manifold& manifold, Moment& m);
+  [[nodiscard]] double unnoticed() const;
   void require_agreement(const Moment& m) const;
   void mark(Manifold& manifold, Moment& m, long steps);
   void mark_undetermined(Manifold& manifold, Moment& m);
@@ -64,7 +68,8 @@ class Recovery {
   Scales scales_;
   std::vector<double> lengths_;
   double tolerance_;
-  std::vector<char> left_out_;                  // per island, whether its state stays as it is
+  std::vector<char> left_out_;  // per island, whether its forces are not determined
+  bool any_left_out_ = false;
   std::vector<double> q_given_, v_given_;       // before projection
   std::vector<double> q_, v_, a_, lambda_, n_;  // of the second state
   std::vector<double> w_, response_;

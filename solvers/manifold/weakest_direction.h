@@ -20,12 +20,22 @@ class WeakestDirection {
 
   /// With the factors that `matrix` has at W. One iteration serves all islands: it does not mix them.
   void find(SaddleMatrix& matrix, const ActiveRows& rows, std::span<const double> w, const Islands& islands);
+  /// The smallest singular value itself, of all islands.
+  [[nodiscard]] double smallest_singular_value(SaddleMatrix& matrix, const ActiveRows& rows,
+                                               std::span<const double> w, const Islands& islands);
   /// n, not normalised, of the last `find`.
   [[nodiscard]] std::span<const double> n() const { return std::span(x_).first(system_->coordinates()); }
+  /// The weights of rows of unit length, not normalised.
+  [[nodiscard]] std::span<const double> u() const { return u_; }
+  /// The one that has the smallest singular value of all.
+  [[nodiscard]] std::size_t weakest_island(const ActiveRows& rows, const Islands& islands);
 
  private:
+  void measure(const ActiveRows& rows, const Islands& islands);
+
   const System* system_;
   std::vector<double> x_, u_;
+  std::vector<double> square_;  // |u|^2 of each island
 };
 
 }  // namespace dalembert

@@ -25,7 +25,7 @@ std::string at(double t) {
 }  // namespace
 
 void KeptSteps::begin(std::shared_ptr<const System> system, const Start& start, double t) {
-  segments_.push_back({system, start, t, steps_.size()});
+  segments_.push_back({system, start, steps_.size()});
   if (!steps_.empty()) end(t);
   system_ = std::move(system);
 }
@@ -82,7 +82,7 @@ void KeptSteps::read(std::span<const double> times, Record& out) const {
     const auto number = static_cast<std::size_t>(&step - steps_.data());
     const Segment& own = *std::prev(std::ranges::upper_bound(segments_, number, {}, &Segment::first_step));
     if (std::exchange(segment, &own) != &own) {
-      reader.emplace(Problem(own.system), own.start, own.t, tolerance_);
+      reader.emplace(Problem(own.system), own.start, tolerance_);
       now.emplace(*own.system, own.start);
       out.go_on_with(own.system->layout());
     }

@@ -36,7 +36,6 @@ class KeptSteps final : public DenseOutput {
   struct Segment {
     std::shared_ptr<const System> system;
     Start start;
-    double t;
     std::size_t first_step;
   };
   struct Step {
