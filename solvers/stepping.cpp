@@ -26,8 +26,10 @@ Start first_start(const Problem& problem, std::span<const double> q, std::span<c
                   const Options& options, double nearest_contact) {
   Start start = consistent_start(problem, q, v, options, nearest_contact);
   if (!start.scales.of_path) return start;
+  Options looking = options;
+  looking.tolerance = Options{}.tolerance;  // the scene's length is its own, whatever is asked of the run
   try {
-    ErkStepper first(problem, start, options);
+    ErkStepper first(problem, start, looking);
     first.step(options.t_end);
     const Scales& scales = first.scales();
     start.scales.of_path = scales.way.length > Scales::least;  // else it rests, and any length will do
@@ -114,6 +116,7 @@ void Stepping::step(double wanted) {
   const double from = time();
   try {
     stretch_->stepper->step(wanted);
+    error_.add(stretch_->stepper->error(), time() - from);
     keep_step(from);
   } catch (const StepFailure&) {
     // Newton's iteration may fail anywhere; where the constraints are close to dependent the explicit
@@ -208,6 +211,9 @@ Statistics Stepping::statistics() const {
   stretch_->stepper->count(s);
   stretch_->reader.count(s);
   if (stretch_->by != options_.stepper) s.advice.clear();
+  if (s.steps > 0)
+    s.accuracy =
+        std::max({options_.tolerance, error_.position() / s.length, error_.velocity() * s.time / s.length});
   return s;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/solvers/run/accumulated_error.h>
 #include <dalembert/solvers/run/kept_steps.h>
 #include <dalembert/solvers/run/reader.h>
 #include <dalembert/solvers/run/singularity.h>
@@ -91,6 +92,7 @@ class Stepping {
   std::vector<double> lambda_at_start_;
   std::shared_ptr<KeptSteps> kept_;  // if the options ask for it
 
+  AccumulatedError error_;
   long steps_ = 0;
   Angle angle_;  // at the last step
   double sine_at_handover_ = 0.0;

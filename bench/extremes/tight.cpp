@@ -69,7 +69,10 @@ Case sample_at_singular() {
                 return Result{.error = error, .statistics = run.statistics()};
               },
           // The scene's own time is that of the joints over its 2 m, 0.2 s at the speed there.
-          .limit = [](const Run& run) { return added_up(run, run.statistics.accuracy, 0.7 / 0.2); }};
+          .limit =
+              [](const Run& run) {
+                return std::max(added_up(run, run.parameter, 0.7 / 0.2), 10.0 * run.statistics.accuracy);
+              }};
 }
 
 /// How far the errors of a model rise above the best so far, over falling tolerances down to what double

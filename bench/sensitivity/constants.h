@@ -26,7 +26,7 @@ inline const std::array named_constants = {
     CONSTANT(stretch),
     CONSTANT(first_explicit_step),
     CONSTANT(most_correction),
-    CONSTANT(roundings_of_projection),
+    CONSTANT(roundings_of_step),
     CONSTANT(most_disagreement),
     CONSTANT(far_too_short),
     CONSTANT(unreliable),

@@ -3,6 +3,7 @@
 #include <dalembert/core/analysis/islands.h>
 #include <dalembert/core/analysis/rank.h>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -30,6 +31,38 @@ std::string freedom(std::size_t coordinates, std::size_t equations) {
   return "undetermined (" + std::to_string(equations - coordinates) + " equations more than coordinates)";
 }
 
+std::string freedom_by_count(const System& system) {
+  const std::size_t n = system.coordinates(), compliant = system.compliant_rows();
+  return "degrees of freedom: " + freedom(n, system.holonomic_rows() - compliant) + " of position, " +
+         freedom(n, system.rows() - compliant) + " of velocity (if the constraints are independent)\n";
+}
+
+/// By rank: rows that yield remove none.
+std::string freedom_by_rank(const System& system, double t, std::span<const double> q) {
+  const std::vector<double> at_rest(q.size(), 0.0);
+  auto e = system.evaluation();
+  system.evaluate({t, q, at_rest}, e);
+  const ActiveRows independent = independent_rows(system, e.w);
+  const std::size_t n = system.coordinates(), compliant = system.compliant_rows();
+  std::ostringstream out;
+  out << "at t = " << t << ": " << independent.size() - compliant << " of " << system.rows() - compliant
+      << " constraint equations independent, " << n + compliant - independent.size()
+      << " degrees of freedom of velocity\n";
+  return out.str();
+}
+
+/// Labels of rows, one after the other: each constraint once, with how many of its equations these are.
+std::string listed(const std::vector<std::string>& labels) {
+  std::string text;
+  for (auto label = labels.begin(); label != labels.end();) {
+    const auto next = std::find_if(label, labels.end(), [&](const auto& other) { return other != *label; });
+    text += (text.empty() ? "" : ", ") + *label;
+    if (next - label > 1) text += " (" + std::to_string(next - label) + " equations)";
+    label = next;
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string System::describe() const {
@@ -44,9 +77,7 @@ std::string System::describe() const {
       << (contacts().empty()
               ? ""
               : "one-sided of these: " + std::to_string(contacts().size()) + ", counted as closed\n")
-      << "degrees of freedom: " << freedom(n, holonomic_rows() - compliant_rows()) << " of position, "
-      << freedom(n, rows() - compliant_rows()) << " of velocity (if the constraints are independent)\n"
-      << "islands that do not act on each other: " << islands(*this).count << '\n'
+      << freedom_by_count(*this) << "islands that do not act on each other: " << islands(*this).count << '\n'
       << "forces: " << kinds(std::span(parts_.forces).first(first_reading_)) << " besides constant ones"
       << (frictional()
               ? ", and " + kinds(std::span(parts_.forces).subspan(first_reading_)) + " that read multipliers"
@@ -68,20 +99,15 @@ std::string System::describe() const {
 }
 
 std::string System::describe(double t, std::span<const double> q) const {
+  std::string whole = describe();
+  const std::string by_count = freedom_by_count(*this);  // says less than the rank, or what is not so
+  whole.replace(whole.find(by_count), by_count.size(), freedom_by_rank(*this, t, q));
   std::ostringstream out;
-  out << describe();
-  const std::vector<double> at_rest(q.size(), 0.0);
-  auto e = evaluation();
-  evaluate({t, q, at_rest}, e);
-  const std::size_t rank =
-      independent_rows(*this, e.w).size() - compliant_rows();  // those remove no degree of freedom
-  out << "at t = " << t << ": " << rank << " of " << rows() - compliant_rows()
-      << " constraint equations independent, " << coordinates() - rank << " degrees of freedom of velocity\n";
+  out << whole;
   for (const Integrability& set : integrability(*this, t, q)) {
-    std::string labels;
-    for (const auto& label : set.constraints) labels += (labels.empty() ? "" : ", ") + label;
-    out << labels << ": " << (set.holonomic ? "integrable" : "not integrable") << '\n';
-    for (const auto& label : set.integrable_alone) out << "  but " << label << " by itself is integrable\n";
+    out << listed(set.constraints) << ": " << (set.holonomic ? "integrable" : "not integrable") << '\n';
+    if (set.integrable_alone.empty()) continue;
+    out << "  but by itself is integrable: " << listed(set.integrable_alone) << '\n';
   }
   return out.str();
 }

@@ -17,7 +17,7 @@ ErkStepper::~ErkStepper() = default;
 /// Round-off in the projection of a state, over the tolerance: velocities by eps/sin^2, see Passage.
 double ErkStepper::State::round_off_of_projection() const {
   const double eps = epsilon;
-  return constants.roundings_of_projection * eps / (std::max(next.sine * next.sine, eps) * tolerance);
+  return constants.roundings_of_step * eps / (std::max(next.sine * next.sine, eps) * tolerance);
 }
 
 /// Tries a step into `next`. Returns its error over the tolerance; infinite, with the reason in
@@ -28,10 +28,10 @@ double ErkStepper::State::attempt(double step) {
   try {
     run_stages(to, step, stages - 1);
     finish(to, step, next);
-    const double e =
-        error(step) * (step < constants.far_too_short * usual && over == 0.0 ? constants.unreliable : 1.0);
+    const bool doubtful = step < constants.far_too_short * usual && over == 0.0;
+    const double e = error(step, doubtful ? constants.unreliable : 1.0);
     if (e > 1.0) return e;
-    if (steps % stability_check_interval == 0) watch_stability(step);
+    if (steps % check_interval == 0) watch_stability(step);
     const double correction = project();
     next.sine = manifold.sine();
     return std::max({e, correction / (constants.most_correction + round_off_of_projection()),
@@ -47,10 +47,19 @@ double ErkStepper::State::shortest() const { return 16.0 * epsilon * std::max(st
 double ErkStepper::State::shorter(double step, double factor) const {
   if (step * factor > shortest()) return step * factor;
   throw StepFailure{fault.empty() ? "the error tolerance cannot be met with any step that double precision "
-                                    "resolves; ask for a looser tolerance, or look for a discontinuous or "
-                                    "very stiff force"
+                                    "resolves: " +
+                                        cause()
                                   : fault,
                     to.t};
+}
+
+/// What makes steps fail however short they are, as far as the last node tells; round-off does not, see
+/// weigh.
+std::string ErkStepper::State::cause() const {
+  if (to.sine < constants.close_to_dependent) return "the constraints are nearly linearly dependent here";
+  if (2 * stability_limited > steps && steps > 0)
+    return "a force is very stiff; Stepper::ida has no such limit";
+  return "look for a discontinuous force, or ask for a looser tolerance";
 }
 
 /// The step to try: h, or an equal part of the way to the next output time or the end of the run, unless
@@ -65,6 +74,7 @@ double ErkStepper::State::step_towards(double wanted) const {
 void ErkStepper::State::accept(bool by_extrapolation) {
   usual = std::max(next.t - to.t, constants.forgetting * usual);
   covered = scales.way;
+  reached = estimated;
   ++steps;
   has_middle = false;
   crossed = by_extrapolation;
@@ -82,6 +92,7 @@ void ErkStepper::step(double wanted) {
     s.accept(true);
     return s.find_side_anew();
   }
+  if (s.steps % State::check_interval == 0) s.measure_noise();
   double growth = constants.most_growth;
   for (;;) {
     const double step = s.over > 0.0 ? std::min(s.over, s.t_end - s.to.t) : s.step_towards(wanted);
@@ -99,7 +110,7 @@ void ErkStepper::step(double wanted) {
       s.over = 0.0;
       break;
     }
-    ++s.failures;
+    if (s.failures++ % State::check_interval == 0) s.measure_noise();
     growth = 1.0;
     s.over = 0.0;
     if (s.stop_short(step)) break;
@@ -115,6 +126,7 @@ void ErkStepper::step(double wanted) {
 const Scales& ErkStepper::scales() const { return state_->scales; }
 double ErkStepper::time() const { return state_->to.t; }
 double ErkStepper::sine() const { return state_->to.sine; }
+StepError ErkStepper::error() const { return state_->reached; }
 
 /// Velocities are the derivative of the polynomial of positions, but for its round-off, that of positions and
 /// times over h: where the cubic of velocities and accelerations at both ends is right to that, the
@@ -154,7 +166,6 @@ void ErkStepper::count(Statistics& statistics) const {
   statistics.evaluations += s.manifold.evaluations();
   statistics.factorisations += s.manifold.factorisations();
   statistics.error_test_failures += s.failures;
-  statistics.accuracy = std::max(statistics.accuracy, s.tolerance * std::max(1.0, s.largest_passage_error));
   statistics.singular_positions += s.singular_positions;
   statistics.linear_algebra = s.manifold.method();
   statistics.stability_limited += s.stability_limited;

@@ -37,6 +37,7 @@ class ErkStepper final : public TimeStepper {
   void step(double wanted) override;
   [[nodiscard]] double time() const override;
   [[nodiscard]] const Scales& scales() const;
+  [[nodiscard]] StepError error() const override;
   [[nodiscard]] double sine() const override;
   void interpolate(double t, std::span<double> q, std::span<double> v) override;
   [[nodiscard]] int degree() const override { return 8; }  // Hermite<3>

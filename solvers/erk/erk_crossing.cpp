@@ -128,7 +128,7 @@ bool ErkStepper::State::pass(double singular) {
   const double beyond = std::min(2.0 * singular - to.t, t_end);
   extrapolate(nodes, beyond, next);
   extrapolate(nodes - 1, beyond, middle);
-  weigh(next);
+  weigh(next, 0.0, tolerance);
   for (std::size_t i = 0; i < n; ++i) {
     difference[i] = next.q[i] - middle.q[i];
     difference[n + i] = next.va[i] - middle.va[i];
@@ -138,7 +138,8 @@ bool ErkStepper::State::pass(double singular) {
     (void)project();
     next.sine = manifold.sine();
   }
-  largest_passage_error = std::max(largest_passage_error, std::exchange(best_passage, none_yet));
+  const double lost = tolerance * std::exchange(best_passage, none_yet);
+  estimated = {.position = lost * scales.length, .velocity = lost * scales.speed()};
   passage_nodes = nodes;
   next_passage = not_ahead;
   if (next.t > singular) ++singular_positions;

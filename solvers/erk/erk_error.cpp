@@ -11,13 +11,60 @@ namespace {
 /// y = 3.3, by a twentieth at 4.4, and |R(-x)| exceeds 1 at x = 5.9 (from the table of the pair).
 constexpr double stable = 3.3;
 
+/// By which a combination of stages amplifies what each has of its own by chance.
+double amplification(const std::array<double, verner87.stages>& weights) {
+  double square = 0.0;
+  for (const double w : weights) square += w * w;
+  return std::sqrt(square);
+}
+
+const double of_step = amplification(verner87.b), of_estimate = amplification(verner87.d);  // 49 and 32
+
 }  // namespace
 
-/// The weight of an error in each position and velocity against the tolerance at a state.
-void ErkStepper::State::weigh(const Node& at) {
+/// What round-off does to the accelerations at the last node, and to positions and velocities where they are
+/// projected: all are found again after a rounding of time, positions and velocities, up or down by chance
+/// (the stochastic arithmetic of Vignes, Math. Comput. Simulation 35 (1993) 233-261). That shows what cancels
+/// in the user's own equations, too. One sample may be small by chance: earlier ones are not forgotten at
+/// once.
+void ErkStepper::State::measure_noise() {
+  const auto rounded = [this](double x) { return x * (chance() % 2 == 0 ? 1.0 + epsilon : 1.0 - epsilon); };
   for (std::size_t i = 0; i < n; ++i) {
-    weight[i] = 1.0 / scales.position_error(i, at.q[i], tolerance);
-    weight[n + i] = 1.0 / scales.velocity_error(i, at.va[i], tolerance);
+    noise_q[i] = rounded(to.q[i]);
+    noise_v[i] = rounded(to.va[i]);
+  }
+  const auto a = std::span(difference).first(n);
+  try {
+    if (!manifold.accelerate({rounded(to.t), noise_q, noise_v}, a)) return;
+  } catch (const EquationFault&) {
+    return;  // a rounding away from where the equations end
+  }
+  if (switches.any()) {  // behind a switch the accelerations are others
+    manifold.multipliers(multipliers);
+    switches.find({to.t, noise_q, noise_v}, multipliers, manifold.heard(), stage_side);
+    if (!switches.same(to.side, stage_side)) return;
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    noise[i] = std::max(constants.forgetting * noise[i], std::abs(a[i] - to.va[n + i]));
+  const auto lengths = scales.lengths();
+  const double off = position_violation(*system, manifold.equations(), lengths).size,
+               off_speed = velocity_violation(*system, manifold.equations(), lengths).size;
+  noise_of_positions = std::max(constants.forgetting * noise_of_positions, off);
+  noise_of_velocities = std::max(constants.forgetting * noise_of_velocities, off_speed);
+}
+
+/// The weight of an error in each position and velocity against `allowed` at a state; of a step, below the
+/// round-off in what estimates its error, which would be the same in a shorter one, none counts.
+void ErkStepper::State::weigh(const Node& at, double step, double allowed) {
+  const double of_stages = constants.roundings_of_step * of_estimate * step;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double of_velocity = of_stages * noise[i];
+    const double of_projection =
+        constants.roundings_of_step * (scales.is_angle[i] ? 1.0 / scales.length : 1.0);
+    weight[i] = 1.0 / (scales.position_error(i, at.q[i], allowed) + of_velocity * step +
+                       of_projection * noise_of_positions);
+    weight[n + i] = 1.0 / (scales.velocity_error(i, at.va[i], allowed) + of_velocity +
+                           of_projection * noise_of_velocities);
   }
 }
 
@@ -31,12 +78,34 @@ double ErkStepper::State::size() const {
   return std::sqrt(sum / static_cast<double>(difference.size()));
 }
 
-/// The estimated error of a step to `next` over the tolerance.
-double ErkStepper::State::error(double step) {
+/// The estimated error of a step to `next` over the tolerance, or where the estimate is doubtful over a part
+/// of it.
+double ErkStepper::State::error(double step, double doubt) {
   if (scales.of_path) scales.take(scales.further(next.q, halves(next.va).first, step, tolerance));
-  weigh(next);
+  weigh(next, step, tolerance / doubt);
   d.apply(step, k, difference.data(), 2 * n);
-  return std::max(size(), error_of_springs(std::span(difference).first(n)));
+  estimate(step);
+  const double e = std::max(size(), doubt * error_of_springs(std::span(difference).first(n)));
+  if (doubt != 1.0) weigh(next, step, tolerance);
+  return e;
+}
+
+/// What `difference` says of a step's error, and round-off does to it. The difference is the error of order
+/// 7; the step, of order 8, errs by less, by its eighth root if the error constants are 1 in the scene's
+/// units.
+void ErkStepper::State::estimate(double step) {
+  estimated = {.position_noise = noise_of_positions, .velocity_noise = noise_of_velocities};
+  for (std::size_t i = 0; i < n; ++i) {
+    const double length = scales.is_angle[i] ? scales.length : 1.0;
+    estimated.position = std::max(estimated.position, std::abs(difference[i]) * length);
+    estimated.velocity = std::max(estimated.velocity, std::abs(difference[n + i]) * length);
+    estimated.position_noise = std::max(estimated.position_noise, epsilon * std::abs(next.q[i]) * length);
+    estimated.velocity_noise = std::max(estimated.velocity_noise, of_step * step * noise[i] * length);
+  }
+  const double of_order_7 = std::max(estimated.position / scales.length, estimated.velocity / scales.speed());
+  const double less = std::pow(std::min(of_order_7, 1.0), 1.0 / pair.order);
+  estimated.position *= less;
+  estimated.velocity *= less;
 }
 
 /// A compliant constraint multiplies errors of position by its stiffness: its force w dq/C is to be as
@@ -96,7 +165,7 @@ void ErkStepper::State::watch_stability(double step) {
   }
   const double round_off = 100.0 * epsilon * scales.length;
   if (states > round_off * round_off && step * step * rates > stable * stable * states) {
-    stability_limited += stability_check_interval;
+    stability_limited += check_interval;
   }
 }
 

@@ -36,6 +36,9 @@ ErkStepper::State::State(const Problem& problem, const Start& start, const Optio
       stage_q(start.q.size()),
       difference(2 * start.q.size()),
       weight(difference.size()),
+      noise(start.q.size()),
+      noise_q(start.q.size()),
+      noise_v(start.q.size()),
       covered(start.scales.way),
       usual(constants.first_explicit_step * std::pow(options.tolerance, 1.0 / pair.order) *
             start.scales.time),

@@ -6,12 +6,14 @@
 #include <dalembert/solvers/erk/erk.h>
 #include <dalembert/solvers/erk/verner.h>
 #include <dalembert/solvers/manifold/manifold.h>
+#include <dalembert/solvers/run/accumulated_error.h>
 #include <dalembert/solvers/run/passage.h>
 #include <dalembert/solvers/run/singularity.h>
 #include <dalembert/solvers/run/sticking.h>
 
 #include <array>
 #include <limits>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,7 +24,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 struct ErkStepper::State {
   static constexpr const ButcherTable<13>& pair = verner87;
   static constexpr int stages = pair.stages;
-  static constexpr long stability_check_interval = 8;  // steps
+  static constexpr long check_interval = 8;  // steps
 
   State(const Problem& problem, const Start& start, const Options& options);
 
@@ -48,9 +50,11 @@ struct ErkStepper::State {
   void finish(const Node& start, double step, Node& end) const;
   void find_middle();
 
-  void weigh(const Node& at);
+  void weigh(const Node& at, double step, double allowed);
   [[nodiscard]] double size() const;
-  [[nodiscard]] double error(double step);
+  [[nodiscard]] double error(double step, double doubt);
+  void estimate(double step);
+  void measure_noise();
   [[nodiscard]] double error_of_springs(std::span<const double> dq) const;
   [[nodiscard]] double project();
   [[nodiscard]] double disagreement(double step);
@@ -87,6 +91,7 @@ struct ErkStepper::State {
   void read_crossing(double t, std::span<double> q, std::span<double> v) const;
   [[nodiscard]] double shortest() const;
   [[nodiscard]] double shorter(double step, double factor) const;
+  [[nodiscard]] std::string cause() const;
   [[nodiscard]] double step_towards(double wanted) const;
 
   const System* system;
@@ -103,12 +108,16 @@ struct ErkStepper::State {
   Node next;             // where a step goes until it is accepted
   std::array<std::vector<double>, stages> stage;
   std::array<const double*, stages> k{};
-  std::vector<double> stage_q;             // work
-  std::vector<double> difference, weight;  // of positions and velocities
-  std::vector<double> force_of_spring;     // per row, 0 in rigid ones; empty if all are
-  Way covered;                             // by the steps taken; `scales` may be those of one that is tried
-  double usual;                            // step, however near the end of the run is
-  double h;                                // to try next
+  std::vector<double> stage_q;                                 // work
+  std::vector<double> difference, weight;                      // of positions and velocities
+  std::vector<double> noise, noise_q, noise_v;                 // of accelerations, see measure_noise; work
+  double noise_of_positions = 0.0, noise_of_velocities = 0.0;  // of their projection, as lengths
+  StepError estimated, reached;                                // of an attempt; of the last step
+  std::minstd_rand chance;
+  std::vector<double> force_of_spring;  // per row, 0 in rigid ones; empty if all are
+  Way covered;                          // by the steps taken; `scales` may be those of one that is tried
+  double usual;                         // step, however near the end of the run is
+  double h;                             // to try next
   long steps = 0, failures = 0, stability_limited = 0;
 
   Passage passage;
@@ -120,7 +129,6 @@ struct ErkStepper::State {
   double next_passage = none_yet;      // the distance from which it is worth another attempt
   double best_passage = none_yet;      // error over the tolerance, of
   Node best_passed;                    // a passage that was not taken yet
-  double largest_passage_error = 0.0;  // of those taken
   int singular_positions = 0;
   double replace_below = none_yet;  // sine below which other rows may take over; infinite if all are in use
   std::string fault;                // of the last attempt that failed

@@ -12,12 +12,6 @@ namespace dalembert {
 
 namespace {
 
-/// Below this tolerance round-off comes into question where Newton's iteration fails.
-constexpr double tight = 1e-9;
-constexpr const char* too_tight =
-    "the tolerance asks for more than double precision can deliver here; ask for one ten times as large, or "
-    "look for a discontinuous force";
-
 /// Steps longer than this over a force's own rate do not follow its vibration.
 constexpr double unresolved = 0.45;
 /// A force that would vibrate so often in the scene's own time is stiff: round-off in the positions times
@@ -83,19 +77,26 @@ std::string IdaStepper::State::explain(int code) const {
     case IDA_LSOLVE_FAIL:
       return fault_or("the equations could not be evaluated");
     case IDA_ERR_FAIL:
-      return "the error tolerance cannot be met with any step that double precision resolves; "
-             "ask for a looser tolerance, or look for a discontinuous or very stiff force";
+      return fault_or("the error tolerance cannot be met with any step that double precision resolves: " +
+                      cause());
     case IDA_CONV_FAIL:
-      return fault_or(
-          asked_for < tight ? std::string("Newton's iteration does not converge: ") + too_tight
-          : sine() < constants.close_to_dependent
-              ? "Newton's iteration does not converge; the constraints are nearly linearly dependent here"
-              : "Newton's iteration does not converge; look for a discontinuous or very stiff force");
+      return fault_or("Newton's iteration does not converge: " + cause());
     case IDA_TOO_MUCH_ACC:
       return "the tolerance asks for more than double precision can deliver; ask for a looser one";
     default:
       return "IDA returned " + std::to_string(code);
   }
+}
+
+/// What makes steps fail however short they are, as far as the state tells.
+std::string IdaStepper::State::cause() const {
+  if (asks_for_too_much())
+    return "the tolerance asks for more than double precision can deliver here; ask for one ten times as "
+           "large";
+  if (sine() < constants.close_to_dependent) return "the constraints are nearly linearly dependent here";
+  if (newton.fastest().of_forces * scales.time > stiff_rate)
+    return system->force_of_stiffness(newton.fastest().stiffest) + " is very stiff, or a force discontinuous";
+  return "look for a discontinuous force";
 }
 
 std::string IdaStepper::State::advice() const {
@@ -109,10 +110,40 @@ bool IdaStepper::State::has_stiff_force() const {
   return 2 * unresolved_steps > steps || newton.fastest().of_forces * scales.time > stiff_rate;
 }
 
-/// Whether round-off, which the constraints amplify by 1/sine, exceeds the error allowed to a step.
+/// Whether round-off, which the constraints amplify by 1/sine, exceeds what Newton's iteration may leave.
 bool IdaStepper::State::asks_for_too_much() const {
-  return tolerance_of_a_step(Stepper::ida, asked_for) * scales.length * sine() <
+  return constants.newton_tolerance * tolerance * scales.length * sine() <
          scales.rounding(instant(t, y.get()).q);
+}
+
+/// Steps that advance the time by less, or the scene by less than a rounding of its positions, lead nowhere:
+/// the differences in BDF are round-off then.
+double IdaStepper::State::shortest() {
+  return std::max(4.0 * epsilon * std::abs(t),
+                  scales.largest_rounding(instant(t, y.get()).q) / scales.speed());
+}
+
+/// Of the last step: in IDA's notation the local error of BDF is c E with c = 1/(k + 1) in equal steps, where
+/// E is the sum of Newton's corrections to the predictor. What the iteration left has no sign, as round-off,
+/// nor has what the gradients of constraints, known to the rounding of positions, do to velocities.
+StepError IdaStepper::State::error() {
+  int order = 1;
+  check(IDAGetLastOrder(ida.get(), &order), "IDAGetLastOrder");
+  check(IDAGetEstLocalErrors(ida.get(), dense.get()), "IDAGetEstLocalErrors");
+  const auto corrections_made = entries(dense.get());
+  const Instant now = instant(t, y.get());
+  const double rounding = scales.largest_rounding(now.q), turned = rounding / (scales.length * sine());
+  StepError of_step{.position_noise = rounding + left_by_newton * tolerance * scales.length};
+  for (std::size_t i = 0; i < n(); ++i) {
+    const double length = scales.is_angle[i] ? scales.length : 1.0;
+    const double left = left_by_newton * scales.velocity_error(i, now.v[i], tolerance);
+    of_step.position = std::max(of_step.position, std::abs(corrections_made[i]) * length);
+    of_step.velocity = std::max(of_step.velocity, std::abs(corrections_made[n() + i]) * length);
+    of_step.velocity_noise = std::max(of_step.velocity_noise, (left + turned * std::abs(now.v[i])) * length);
+  }
+  of_step.position /= order + 1.0;
+  of_step.velocity /= order + 1.0;
+  return of_step;
 }
 
 /// After a step: changes the highest order if the guard does. IDA can lower it only by beginning anew at
@@ -161,21 +192,17 @@ void IdaStepper::step(double /*wanted*/) {
   if (s.thrown) std::rethrow_exception(std::exchange(s.thrown, {}));
   if (code < 0) throw StepFailure{s.explain(code), s.t};
   ++s.steps;
-  s.noise_of_steps += s.noise_of_step;
   s.watch_convergence();
   // In front of a fault IDA would halve and double such steps for ever.
-  if (code == IDA_SUCCESS && s.t - before <= 4.0 * epsilon * std::abs(s.t)) {
-    throw StepFailure{
-        s.fault_or(s.asks_for_too_much()
-                       ? std::string("the step has become too short to advance time: ") + too_tight
-                       : "the step has become too short to advance time; look for a discontinuous force"),
-        s.t};
+  if (code == IDA_SUCCESS && s.t - before <= s.shortest()) {
+    throw StepFailure{s.fault_or("the step has become too short to advance time: " + s.cause()), s.t};
   }
   s.watch_order();
 }
 
 double IdaStepper::time() const { return state_->t; }
 double IdaStepper::sine() const { return state_->newton.sine(); }
+StepError IdaStepper::error() const { return state_->error(); }
 
 void IdaStepper::interpolate(double t, std::span<double> q, std::span<double> v) {
   const State& s = *state_;
@@ -216,8 +243,6 @@ void IdaStepper::count(Statistics& statistics) const {
   long error_tests = s.error_tests, convergence = s.convergence;
   if (s.steps > 0) s.count_failures(error_tests, convergence);
   statistics.steps += s.steps;
-  if (s.steps > 0)
-    statistics.accuracy = std::max(statistics.accuracy, s.asked_for + s.noise_of_steps / (s.t - s.t_start));
   Scales scales = s.scales;
   const Instant now = s.instant(s.t, s.y.get());
   if (scales.of_path) scales.take(scales.further(now.q, now.v, scales.way.step, s.tolerance));

@@ -26,6 +26,7 @@ class IdaStepper final : public TimeStepper {
   /// Where output is wanted makes no difference: the BDF polynomial is as accurate between steps as at them.
   void step(double wanted) override;
   [[nodiscard]] double time() const override;
+  [[nodiscard]] StepError error() const override;
   /// Of the holonomic constraints, where Newton's matrix was factored last.
   [[nodiscard]] double sine() const override;
   void interpolate(double t, std::span<double> q, std::span<double> v) override;

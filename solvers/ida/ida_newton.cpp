@@ -49,7 +49,10 @@ int IdaStepper::State::test_convergence(int iteration, N_Vector correction, N_Ve
   if (iteration == 0) {
     first_correction = size;
     first_of_motion = of_motion();
-    if (size <= negligible * newton_tolerance) return converged;
+    if (size <= negligible * newton_tolerance) {
+      left_by_newton = size;
+      return converged;
+    }
   } else {
     const double rate = rate_of(size, first_correction, iteration);
     if (rate > slowest_rate) {
@@ -58,7 +61,8 @@ int IdaStepper::State::test_convergence(int iteration, N_Vector correction, N_Ve
     }
     error_over_correction = rate / (1.0 - rate);
   }
-  return error_over_correction * size <= newton_tolerance ? converged : SUN_NLS_CONTINUE;
+  left_by_newton = error_over_correction * size;
+  return left_by_newton <= newton_tolerance ? converged : SUN_NLS_CONTINUE;
 }
 
 }  // namespace dalembert

@@ -15,9 +15,7 @@ IdaStepper::State::State(const Problem& problem, const Start& start, const Optio
     : system(&problem.system()),
       rows(start.rows),
       scales(start.scales),
-      asked_for(options.tolerance),
       tolerance(tolerance_of_a_step(Stepper::ida, options.tolerance)),
-      t_start(options.t_start),
       t_end(options.t_end),
       first_step(std::min(constants.first_implicit_step * std::sqrt(options.tolerance) * start.scales.time,
                           options.t_end - options.t_start)),
@@ -134,13 +132,11 @@ void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
     find_impulses();
   }
   const double eps = constants.roundings_of_newton * epsilon;
-  noise_of_step = 0.0;
   for (std::size_t i = 0; i < n(); ++i) {
     const double noise = eps * std::abs(value[i]);
     const double speed = scales.velocity_error(i, value[n() + i], tolerance);
     w[i] = 1.0 / (scales.position_error(i, value[i], tolerance) + noise);
     w[n() + i] = 1.0 / (speed + noise / h);
-    noise_of_step = std::max(noise_of_step, noise * tolerance / speed);
   }
   const double amplified = eps / std::max(sine() * sine(), eps);
   for (std::size_t r = 0; r < m(); ++r) {

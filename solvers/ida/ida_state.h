@@ -34,7 +34,7 @@ struct IdaStepper::State {
   const System* system;
   ActiveRows rows;
   Scales scales;
-  double asked_for, tolerance, t_start, t_end, first_step;  // tolerance: of a step
+  double tolerance, t_end, first_step;  // tolerance: of a step
   System::Evaluation e;
   std::vector<double> lambda;          // one per row of the system
   std::vector<double> impulse_row;     // per active row
@@ -44,11 +44,11 @@ struct IdaStepper::State {
   bool order_changed = false, begin_anew = false;  // by the guard, not yet done
   double t = 0.0;
   long steps = 0, evaluations = 0, error_tests = 0, convergence = 0;
-  double noise_of_step = 0.0, noise_of_steps = 0.0;  // over the speed, the largest and its sum [time]
-  long solve_failures = 0;                           // of Newton, as IDA counted them last
-  long unresolved_steps = 0;                         // longer than the vibration of a stiff force
-  std::string fault;                                 // of the last evaluation that failed,
-  double fault_time = 0.0;  // and where; no reason to stop once it has been stepped past
+  double left_by_newton = 0.0;  // of the last iteration, over the weights
+  long solve_failures = 0;      // of Newton, as IDA counted them last
+  long unresolved_steps = 0;    // longer than the vibration of a stiff force
+  std::string fault;            // of the last evaluation that failed,
+  double fault_time = 0.0;      // and where; no reason to stop once it has been stepped past
 
   // What the Jacobian callback records for the factorisation.
   double matrix_t = 0.0, matrix_c = 0.0;
@@ -78,6 +78,8 @@ struct IdaStepper::State {
   void make_newton();
   [[nodiscard]] int test_convergence(int iteration, N_Vector correction, N_Vector weight,
                                      double newton_tolerance);
+  [[nodiscard]] StepError error();
+  [[nodiscard]] double shortest();
   void watch_order();
   void change_order();
   void watch_convergence();
@@ -94,6 +96,7 @@ struct IdaStepper::State {
   }
   [[nodiscard]] std::string explain(int code) const;
   [[nodiscard]] bool has_stiff_force() const;
+  [[nodiscard]] std::string cause() const;
   [[nodiscard]] std::string advice() const;
   [[nodiscard]] bool asks_for_too_much() const;
   [[nodiscard]] std::string fault_or(const std::string& otherwise) const {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dalembert {
 
@@ -41,6 +42,20 @@ double smallest_radius(const System& system, const Instant& at, const System::Ev
   return 1.0 / curvature;
 }
 
+/// Of the rows that hold both, the least length by which a radian moves what is a length: the radius of a
+/// wheel, the arm of a hinge. 0 if there is none.
+double least_lever(const System& system, const System::Evaluation& e, const std::vector<char>& is_angle) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t r = 0; r < system.rows(); ++r) {
+    if (!system.in_force(r)) continue;
+    double of_angles = 0.0, of_lengths = 0.0;
+    for (const std::size_t k : system.row(r))
+      (is_angle[system.w_columns()[k]] ? of_angles : of_lengths) += e.w[k] * e.w[k];
+    if (of_angles > 0.0 && of_lengths > 0.0) least = std::min(least, std::sqrt(of_angles / of_lengths));
+  }
+  return std::isfinite(least) ? least : 0.0;
+}
+
 }  // namespace
 
 std::vector<double> forced_acceleration(const System& system, const System::Evaluation& e) {
@@ -67,6 +82,7 @@ void set_length(const System& system, const Instant& at, const System::Evaluatio
     const double rounding = epsilon * scales.length;
     scales.length = std::min(scales.length, std::max(nearest_contact, rounding));
   }
+  scales.lever = least_lever(system, e, scales.is_angle);
   scales.forced = a;
 }
 

@@ -36,7 +36,7 @@ double Scales::largest(std::span<const double> x) const {
 Way Scales::further(std::span<const double> q, std::span<const double> v, double h, double tolerance) const {
   const double rounding = constants.roundings_of_path * epsilon;
   const double noise = std::max(rounding / tolerance * forced * h, least);
-  double least_length = std::max(noise * h, least);
+  double least_length = std::max({noise * h, least, lever});
   for (std::size_t i = 0; i < q.size(); ++i)
     if (!is_angle[i]) least_length = std::max(least_length, rounding / tolerance * std::abs(q[i]));
   Way next{std::max(way.length, least_length), std::max(way.speed, noise), way.rate, h};
@@ -48,6 +48,7 @@ Way Scales::further(std::span<const double> q, std::span<const double> v, double
       next.speed = std::max(next.speed, std::abs(v[i]));
     }
   }
+  next.speed = std::max(next.speed, next.rate * lever);
   next.rate = std::max(next.rate, noise / next.length);
   return next;
 }

@@ -34,6 +34,7 @@ struct Scales {
   /// to `way`, which only grows, and with it `length` and `time`.
   bool of_path = false;
   Way way{};
+  double lever = 0.0;   ///< by which constraints turn its angles into lengths: it is no shorter than that
   double forced = 0.0;  ///< the acceleration that its forces alone give it at the start
 
   /// What coordinate i is measured in: `length`, or 1 for an angle.

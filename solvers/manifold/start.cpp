@@ -47,6 +47,19 @@ void require_size(double length) {
   throw InconsistentStart(what.str());
 }
 
+/// The loosest tolerance that the options allow.
+constexpr double loosest = 0.1;
+
+/// Where a rounding of the positions exceeds the loosest tolerance nothing is known of a motion.
+void require_near_origin(const Scales& scales, std::span<const double> q) {
+  if (scales.of_path || scales.rounding(q) <= loosest * scales.length) return;
+  std::ostringstream what;
+  what << "The scene, of length " << scales.length
+       << ", is so far from the origin that double precision resolves " << scales.largest_rounding(q)
+       << " there; choose an origin nearer to it";
+  throw InconsistentStart(what.str());
+}
+
 [[noreturn]] void refuse(const System& system, const Violation& violation, double t, const char* quantity,
                          const char* remedy) {
   std::ostringstream what;
@@ -154,6 +167,7 @@ Start consistent_start(const Problem& problem, std::span<const double> q, std::s
     require_gradients(system, e, t);
     set_length(system, {t, q, v}, e, options, nearest_contact, start.scales);
     require_size(start.scales.length);
+    require_near_origin(start.scales, q);
 
     start_positions(problem, start, e, options);
     evaluate_relaxed(system, {t, start.q, start.v}, e);

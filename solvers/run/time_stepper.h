@@ -4,6 +4,7 @@
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/manifold/springs.h>
+#include <dalembert/solvers/run/accumulated_error.h>
 
 #include <span>
 
@@ -18,6 +19,8 @@ class TimeStepper {
   virtual void step(double wanted) = 0;
   /// Where the last step ended.
   [[nodiscard]] virtual double time() const = 0;
+  /// What the last step may have erred by.
+  [[nodiscard]] virtual StepError error() const = 0;
   /// See Manifold::sine; at or close to that time.
   [[nodiscard]] virtual double sine() const = 0;
   /// The state at a time inside the last step (or at the start, before the first). Throws EquationFault.

@@ -36,8 +36,7 @@ TEST(Integrability, OfTheUprightDiskIsNone) {
   ASSERT_EQ(sets.size(), 1U);
   EXPECT_FALSE(sets[0].holonomic);
   EXPECT_TRUE(sets[0].integrable_alone.empty());
-  EXPECT_THAT(scene.describe(),
-              HasSubstr("UprightRolling \"coin\", UprightRolling \"coin\": not integrable"));
+  EXPECT_THAT(scene.describe(), HasSubstr("\nUprightRolling \"coin\" (2 equations): not integrable"));
 }
 
 // With the heading held, the same disk rolls along a line: x = r phi + const.

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <dalembert/solvers/base/hidden.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// What a step may err by, the largest of all coordinates, as lengths and speeds.
+struct StepError {
+  double position = 0.0, velocity = 0.0;              ///< as the method itself estimates it,
+  double position_noise = 0.0, velocity_noise = 0.0;  ///< and of round-off
+};
+
+/// What the errors of all steps add up to if each displaces the motion as it would a free mass: an error of
+/// velocity goes on to displace it,
+///
+///   V = sum e_v,     Q = sum e_q + int V dt,
+///
+/// those of round-off, which have no sign, as the root of the sum of their squares. How the motion itself
+/// lets differences grow or decay is not in it.
+class AccumulatedError {
+ public:
+  void add(const StepError& step, double h) {
+    velocity_ += step.velocity;
+    square_of_velocity_ += step.velocity_noise * step.velocity_noise;
+    position_ += step.position + velocity() * h;
+    square_of_position_ += step.position_noise * step.position_noise;
+  }
+  [[nodiscard]] double position() const { return position_ + std::sqrt(square_of_position_); }
+  [[nodiscard]] double velocity() const { return velocity_ + std::sqrt(square_of_velocity_); }
+
+ private:
+  double position_ = 0.0, velocity_ = 0.0;
+  double square_of_position_ = 0.0, square_of_velocity_ = 0.0;  // of round-off
+};
+
+}  // namespace dalembert

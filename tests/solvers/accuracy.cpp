@@ -1,0 +1,145 @@
+#include <dalembert/dalembert.h>
+#include <dalembert/tests/both_steppers.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace dalembert::accuracy_test {
+namespace {
+
+/// What a run says of its accuracy, against a run at the tightest tolerance.
+class Accuracy : public testing::TestWithParam<Stepper> {};
+INSTANTIATE_TEST_SUITE_P(Steppers, Accuracy, both_steppers, stepper_name);
+
+constexpr double g = 9.81;
+
+struct Watched {
+  Scene<2> scene;
+  std::vector<Particle<2>> particles{};
+  double t_end = 0.0;
+
+  [[nodiscard]] std::vector<Vec<2>> positions(const Trajectory<2>& run) const {
+    std::vector<Vec<2>> all;
+    for (std::size_t i = 0; i < run.size(); ++i)
+      for (const auto& particle : particles) all.push_back(run.position(particle, i));
+    return all;
+  }
+  [[nodiscard]] Trajectory<2> run(double tolerance, Stepper stepper) const {
+    return simulate(
+        scene,
+        {.t_end = t_end, .samples = 21, .tolerance = tolerance, .stepper = stepper, .max_steps = 100'000});
+  }
+};
+
+/// Rods of 1 m from the pivot on, at `angle` from hanging.
+Watched rods(const std::vector<double>& masses, double angle, double t_end,
+             const Vec<2>& pivot = {0.0, 0.0}) {
+  Watched w{.scene = Scene<2>("rods"), .t_end = t_end};
+  w.scene.add(UniformGravity<2>{{0.0, -g}});
+  const Vec<2> along(std::sin(angle), -std::cos(angle));
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    const Vec<2> r = pivot + static_cast<double>(i + 1) * along;
+    w.particles.push_back(w.scene.add_particle({.mass = masses[i], .position = r}));
+    if (i == 0)
+      w.scene.add(Distance{Fixed<2>{pivot}, w.particles[0], (r - pivot).norm()});
+    else
+      w.scene.add(Distance{w.particles[i - 1], w.particles[i], 1.0});
+  }
+  return w;
+}
+
+/// Falls through the position where its rods lie in line.
+Watched four_bar() {
+  Watched w{.scene = Scene<2>("four-bar"), .t_end = 2.0};
+  w.scene.add(UniformGravity<2>{{0.0, -g}});
+  for (const double x : {0.0, 2.0}) {
+    w.particles.push_back(w.scene.add_particle({.mass = 1.0, .position = {x, 1.0}, .velocity = {3.0, 0.0}}));
+    w.scene.add(Distance{Fixed<2>{{x, 0.0}}, w.particles.back(), 1.0});
+  }
+  w.scene.add(Distance{w.particles[0], w.particles[1], 2.0});
+  return w;
+}
+
+/// Seven stars in a plane with close encounters (Hairer, Norsett, Wanner, Solving ODEs I, II.10).
+Watched pleiades() {
+  constexpr double x[] = {3, 3, -1, -3, 2, -2, 2}, y[] = {3, -3, 2, 0, 0, -4, 4};
+  constexpr double vx[] = {0, 0, 0, 0, 0, 1.75, -1.5}, vy[] = {0, 0, 0, -1.25, 1, 0, 0};
+  Watched w{.scene = Scene<2>("pleiades"), .t_end = 3.0};
+  for (std::size_t i = 0; i < 7; ++i) {
+    w.particles.push_back(w.scene.add_particle(
+        {.mass = static_cast<double>(i + 1), .position = {x[i], y[i]}, .velocity = {vx[i], vy[i]}}));
+    for (std::size_t j = 0; j < i; ++j) {
+      const double masses = static_cast<double>((i + 1) * (j + 1));
+      w.scene.add(potential(points(w.particles[i], w.particles[j]), [masses](auto a, auto b) {
+        const auto d = (a - b).eval();
+        return -masses / sqrt(d.x() * d.x() + d.y() * d.y());
+      }));
+    }
+  }
+  return w;
+}
+
+/// The error is at most ten times what is claimed; that is no less than the tolerance, and falls with it.
+void expect_honest(const Watched& w, Stepper stepper, const std::vector<Vec<2>>& exact,
+                   const std::vector<double>& tolerances) {
+  double before = std::numeric_limits<double>::infinity();
+  for (const double tolerance : tolerances) {
+    const auto run = w.run(tolerance, stepper);
+    const auto positions = w.positions(run);
+    double error = 0.0;
+    for (std::size_t i = 0; i < exact.size(); ++i) error = std::max(error, (positions[i] - exact[i]).norm());
+    const Statistics& s = run.statistics();
+    EXPECT_LE(error / s.length, 10.0 * s.accuracy) << tolerance;
+    EXPECT_GE(s.accuracy, tolerance);
+    EXPECT_LT(s.accuracy, before) << tolerance;
+    before = s.accuracy;
+  }
+}
+
+void expect_honest(const Watched& w, Stepper stepper) {
+  expect_honest(w, stepper, w.positions(w.run(1e-13, Stepper::erk)), {1e-4, 1e-6, 1e-8, 1e-10, 1e-12});
+}
+
+TEST_P(Accuracy, OfAPendulumCountsThePhaseThatErrorsOfItsSpeedAddUpTo) {
+  expect_honest(rods({1.0}, 1.5, 10.0), GetParam());
+}
+
+TEST_P(Accuracy, OfADoublePendulumThatAmplifiesErrorsSomewhat) {
+  expect_honest(rods({1.0, 1.0}, 2.0, 5.0), GetParam());
+}
+
+TEST_P(Accuracy, OfALightBobBelowAHeavyOne) { expect_honest(rods({1e6, 1.0}, 1.0, 1.0), GetParam()); }
+
+TEST_P(Accuracy, OfAFourBarThroughItsSingularPosition) { expect_honest(four_bar(), GetParam()); }
+
+TEST_P(Accuracy, OfSevenStarsThatMeet) { expect_honest(pleiades(), GetParam()); }
+
+TEST_P(Accuracy, FarFromTheOriginIsThatOfTheRoundingThere) {
+  // 1e8 m away a metre is known to 1e-8: runs end there, in few steps, or say what was asked too much.
+  const Vec<2> far(1e8, 0.0);
+  const Watched near = rods({1.0}, 1.5, 10.0), away = rods({1.0}, 1.5, 10.0, far);
+  std::vector<Vec<2>> exact = near.positions(near.run(1e-13, Stepper::erk));
+  for (Vec<2>& r : exact) r += far;
+  for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13}) {
+    try {
+      const auto run = away.run(tolerance, GetParam());
+      EXPECT_LE(run.statistics().steps, 10'000) << tolerance;
+      const auto positions = away.positions(run);
+      double error = 0.0;
+      for (std::size_t i = 0; i < exact.size(); ++i)
+        error = std::max(error, (positions[i] - exact[i]).norm());
+      EXPECT_LE(error / run.statistics().length, 10.0 * run.statistics().accuracy) << tolerance;
+    } catch (const IntegrationFailure& failure) {
+      EXPECT_EQ(GetParam(), Stepper::ida);
+      EXPECT_LT(tolerance, 1e-7);
+      EXPECT_NE(std::string(failure.what()).find("more than double precision"), std::string::npos)
+          << failure.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dalembert::accuracy_test
