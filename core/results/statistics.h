@@ -11,8 +11,8 @@ struct Statistics {
   int degrees_of_freedom = 0;   ///< of velocity: coordinates less independent rigid constraint equations
   int redundant_equations = 0;  ///< constraint equations that follow from others, and were left out
   int singular_positions = 0;   ///< isolated ones, at which the run was taken across and restarted
-  /// The accuracy of the steps: the tolerance, or more where double precision does not give that: by the mean
-  /// over time of round-off in the velocities, and by the passages of singular positions.
+  /// What all steps may err by, added up: the tolerance or more, of `length` in position, of that over `time`
+  /// in velocity. The growth that a motion itself gives to errors is not in it, see core/README.md.
   double accuracy = 0.0;
   long steps = 0;                 ///< accepted steps
   long evaluations = 0;           ///< of the equations of motion
