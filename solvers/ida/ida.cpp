@@ -179,7 +179,7 @@ double IdaStepper::sine() const { return state_->newton.sine(); }
 
 void IdaStepper::interpolate(double t, std::span<double> q, std::span<double> v) {
   const State& s = *state_;
-  if (s.steps == 0) {
+  if (s.steps == 0 || t == s.t) {
     std::ranges::copy(s.instant(t, s.y.get()).q, q.begin());
     std::ranges::copy(s.instant(t, s.y.get()).v, v.begin());
     return;
