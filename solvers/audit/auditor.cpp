@@ -22,23 +22,20 @@ Auditor::Auditor(std::shared_ptr<const System> stated, const Options& options, C
 /// What is beyond the tolerance may be within the accuracy that the run has reached, and says so.
 template <class Check>
 void Auditor::judge(const Check& check) {
-  Findings found;
-  Law law{};
-  check(claims_(false), found);
-  if (found.violated(law) != nullptr) {
-    found = {};
-    check(claims_(true), found);
-  }
-  all_.add(found);
-  const auto* const worst = found.violated(law);
-  if (worst == nullptr || audited_ != Audited::error) return;
+  all_.look();
+  check(claims_(false), all_);
+  if (!all_.violated()) return;
+  all_.count();
+  check(claims_(true), all_);
+  if (!all_.violated() || audited_ != Audited::error) return;
+  const Findings::Case& worst = all_.violation();
   std::ostringstream what;
-  what << "the result breaks a law of mechanics, " << name(law) << ": " << worst->subject.label(*stated_)
-       << " by " << worst->size << " where " << worst->limit
+  what << "the result breaks a law of mechanics, " << name(all_.violated_law()) << ": "
+       << worst.subject.label(*stated_) << " by " << worst.size << " where " << worst.limit
        << " is allowed; try a tighter tolerance or the other stepper, or let the option audit = "
           "Audited::report "
           "show what follows";
-  throw StepFailure{what.str(), worst->time};
+  throw StepFailure{what.str(), worst.time};
 }
 
 void Auditor::begin(const FlatSample& sample) {

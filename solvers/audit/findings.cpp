@@ -1,5 +1,7 @@
 #include "dalembert/solvers/audit/findings.h"
 
+#include <utility>
+
 namespace dalembert {
 
 std::string Subject::label(const System& system) const {
@@ -13,22 +15,10 @@ std::string Subject::label(const System& system) const {
   return "coordinate " + std::to_string(index);
 }
 
-void Findings::add(const Findings& others) {
-  for (std::size_t k = 0; k < number_of_laws; ++k) {
-    const Case& one = others.worst_[k];
-    if (one.size >= 0.0) weigh(static_cast<Law>(k), one.subject, one.time, one.size, one.limit);
-  }
-}
-
-const Findings::Case* Findings::violated(Law& law) const {
-  const Case* worst = nullptr;
-  for (std::size_t k = 0; k < number_of_laws; ++k) {
-    const Case& one = worst_[k];
-    if (one.size <= one.limit || (worst && one.size * worst->limit <= worst->size * one.limit)) continue;
-    worst = &one;
-    law = static_cast<Law>(k);
-  }
-  return worst;
+void Findings::add_violation(Law law, const Case& one) {
+  if (std::exchange(violated_, true) && one.size * violation_.limit <= violation_.size * one.limit) return;
+  law_ = law;
+  violation_ = one;
 }
 
 Audit Findings::read(const System& system) const {

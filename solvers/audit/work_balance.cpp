@@ -44,6 +44,8 @@ void WorkBalance::step(double time, std::span<const double> v) {
 
 /// At these positions, at a time between the last two samples: not half-way, where drives may have periods.
 bool WorkBalance::potentials_depend_on_time(const FlatSample& sample) const {
+  if (stated_->stiffness_pattern().size() == stated_->stiffness_of_constraints())
+    return false;  // constant ones
   const double between = checked_ + 0.382 * (sample.time - checked_);
   const double V = stated_->potential_energy({sample.time, sample.q, sample.v});
   return stated_->potential_energy({between, sample.q, sample.v}) != V;

@@ -214,7 +214,7 @@ StepError IdaStepper::error() const { return state_->error(); }
 
 void IdaStepper::interpolate(double t, std::span<double> q, std::span<double> v) {
   const State& s = *state_;
-  if (s.steps == 0) {
+  if (s.steps == 0 || t == s.t) {
     std::ranges::copy(s.instant(t, s.y.get()).q, q.begin());
     std::ranges::copy(s.instant(t, s.y.get()).v, v.begin());
     return;
