@@ -101,6 +101,8 @@ void Sticking::watch(double t, std::span<const double> q, std::span<const double
   now_.t = t;
   now_.q.assign(q.begin(), q.end());
   now_.v.assign(v.begin(), v.end());
+  // A step may have crossed what has no acceleration, or several (Painleve): that throws.
+  static_cast<void>(accelerate(now_, side_));
   if (begun_)
     require_no_stop();
   else
@@ -121,7 +123,12 @@ void Sticking::require_no_stop() {
   const double step = now_.t - last_.t;
   find_slope(last_, side_);
   find_slope(now_, near_);
-  if (switches_.turned(side_, near_)) return look_ahead(last_, step);
+  if (switches_.turned(side_, near_)) {
+    trial_ = now_;  // where the step would have ended, had the sliding not turned
+    trial_.v = last_.v;
+    static_cast<void>(accelerate(trial_, near_));
+    return look_ahead(last_, step);
+  }
   now_.a.resize(now_.v.size());
   for (std::size_t i = 0; i < now_.v.size(); ++i) now_.a[i] = (now_.v[i] - last_.v[i]) / step;
   move(now_, step, trial_);
