@@ -154,8 +154,8 @@ DryFriction::Motion DryFriction::solve(const std::vector<std::size_t>& open, con
 }
 
 /// These, numbers among all, without their friction.
-SlipCoupling DryFriction::released(const std::vector<std::size_t>& which, const std::vector<std::size_t>& open,
-                                   const Instant& at) const {
+SlipCoupling DryFriction::released(const std::vector<std::size_t>& which,
+                                   const std::vector<std::size_t>& open, const Instant& at) const {
   std::vector<std::size_t> out = open;
   std::vector<SlipRows> rows;
   for (const std::size_t i : which) {

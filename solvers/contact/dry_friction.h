@@ -23,9 +23,9 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///   slides:  sigma = -mu |lambda| d,   d = u/|u|; from rest d = u'/|u'|                                  (1)
 ///
 /// What moves slides, whatever it did before. What is at rest sticks if all of it can; else Onset tells which
-/// of it slides, and where. What sticks begins to slide where |sigma| reaches its bound, in the direction that
-/// sigma opposed, and, if other constraints prescribe its slip, where that moves it. What slides comes to rest
-/// where u reaches 0, and sticks there or slides on.
+/// of it slides, and where. What sticks begins to slide where |sigma| reaches its bound, in the direction
+/// that sigma opposed, and, if other constraints prescribe its slip, where that moves it. What slides comes
+/// to rest where u reaches 0, and sticks there or slides on.
 class DryFriction {
  public:
   /// What happened to a constraint, by its number in the layout.
@@ -43,7 +43,8 @@ class DryFriction {
   void adopt(const Scales& scales);
 
   [[nodiscard]] bool any() const { return !all_.empty(); }
-  /// Switching functions, which fall through 0 where something changes, for each constraint those of `Watched`.
+  /// Switching functions, which fall through 0 where something changes, for each constraint those of
+  /// `Watched`.
   [[nodiscard]] std::size_t functions() const { return kinds * all_.size(); }
   [[nodiscard]] std::string label(std::size_t function) const;
   [[nodiscard]] double switching(std::size_t function, const FlatSample& now) const;
@@ -72,15 +73,15 @@ class DryFriction {
     std::size_t pressed_by = 0, pressing_row = 0;
     double mu = 0.0, mu_static = 0.0;
     bool one_sided = false;
-    double sign = 1.0;                // of lambda
-    double still = 0.0, slow = 0.0;   // speeds: that count as none, and below which a slip in space is slow
+    double sign = 1.0;               // of lambda
+    double still = 0.0, slow = 0.0;  // speeds: that count as none, and below which a slip in space is slow
     Mode mode = Mode::absent;
-    bool shared = false;              // sticks, but others constrain the same slip
+    bool shared = false;  // sticks, but others constrain the same slip
     Eigen::VectorXd direction{};
     Pace pace = Pace::fast;
-    double blur = 0.0;                // the slowness of `Sliding`
-    std::optional<double> turns{};    // of a slip that ends: how much later it rests for its turning
-    std::optional<double> let_go{};   // when it began to slide, its bound reached
+    double blur = 0.0;                      // the slowness of `Sliding`
+    std::optional<double> turns{};          // of a slip that ends: how much later it rests for its turning
+    std::optional<double> let_go{};         // when it began to slide, its bound reached
     bool at_rest = false, reached = false;  // when what happens now began: no slip; |sigma| at its bound
   };
   /// Accelerations and multipliers with the modes as they are.

@@ -192,7 +192,8 @@ bool DryFriction::turn(Rough& rough, const Instant& at, const Motion& motion) co
   if (rough.rows != 2) return false;
   const VectorXd rate = slip_acceleration(rough, at, motion);
   const double across = rough.direction[0] * rate[1] - rough.direction[1] * rate[0];
-  if (std::abs(across) <= std::sqrt(round_off()) * rate.norm() || rough.direction.dot(rate) <= 0.0) return false;
+  if (std::abs(across) <= std::sqrt(round_off()) * rate.norm() || rough.direction.dot(rate) <= 0.0)
+    return false;
   rough.direction = rate.normalized();
   return true;
 }

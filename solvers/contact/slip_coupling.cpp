@@ -18,9 +18,9 @@ struct SlipCoupling::Equations {
   Problem free;
   const std::vector<SlipRows>& of;
   double t;
-  std::vector<std::size_t> rows;   // all of them, one by one,
-  std::vector<Index> first;        // and where those of each begin
-  System::Evaluation e;            // of the stated system
+  std::vector<std::size_t> rows;  // all of them, one by one,
+  std::vector<Index> first;       // and where those of each begin
+  System::Evaluation e;           // of the stated system
   std::vector<double> gamma, w, s, slope, a, lambda;
   ActiveRows active;
 
@@ -54,7 +54,8 @@ SlipCoupling::Equations::Equations(const System& all, std::shared_ptr<const Syst
   if (!slope.empty()) free.system().friction_slope(at, lambda, slope);
   if (free.system().compliant()) s.resize(all.rows());
   for (std::size_t r = 0; r < s.size(); ++r) {  // their forces are given
-    if (free.system().law(r).compliant()) s[r] = inverse_effective_mass(free.system(), w, r) / (epsilon * epsilon);
+    if (free.system().law(r).compliant())
+      s[r] = inverse_effective_mass(free.system(), w, r) / (epsilon * epsilon);
   }
   stated.evaluate(at, e);
   stated.bias(at, gamma);
@@ -92,7 +93,8 @@ void SlipCoupling::find_responses(const Equations& its, bool with_sliding, Eigen
     matrix.solve(x);
     for (std::size_t l = 0; l < its.rows.size(); ++l) {
       double sum = 0.0;
-      for (const std::size_t j : its.stated.row(its.rows[l])) sum += its.e.w[j] * x[its.stated.w_columns()[j]];
+      for (const std::size_t j : its.stated.row(its.rows[l]))
+        sum += its.e.w[j] * x[its.stated.w_columns()[j]];
       responses(static_cast<Index>(l), static_cast<Index>(k)) = sum;
     }
     for (std::size_t i = 0; i < its.of.size(); ++i) {
@@ -110,7 +112,8 @@ void SlipCoupling::clear_prescribed(const Equations& its, double tolerance) {
     const Index k = its.first[i], rows = static_cast<Index>(its.of[i].rows);
     double alone = 0.0, most = 0.0;
     for (Index l = k; l < k + rows; ++l) {
-      alone = std::max(alone, inverse_effective_mass(its.stated, its.e.w, its.rows[static_cast<std::size_t>(l)]));
+      alone =
+          std::max(alone, inverse_effective_mass(its.stated, its.e.w, its.rows[static_cast<std::size_t>(l)]));
       most = std::max(most, S_0(l, l));
     }
     if (most > rank_threshold * alone) continue;
@@ -119,7 +122,8 @@ void SlipCoupling::clear_prescribed(const Equations& its, double tolerance) {
       matrix->middleCols(k, rows).setZero();
     }
     B.middleCols(k, rows).setZero();
-    if (c.segment(k, rows).norm() <= tolerance * terms.segment(k, rows).maxCoeff()) c.segment(k, rows).setZero();
+    if (c.segment(k, rows).norm() <= tolerance * terms.segment(k, rows).maxCoeff())
+      c.segment(k, rows).setZero();
   }
 }
 

@@ -43,8 +43,7 @@ MatrixXd hessian(const ConeProgram& its, const VectorXd& x, double m) {
     const double s = cone.e.dot(x) + cone.h;
     const VectorXd r = cone.A * x + cone.a, p = relative_gradient(cone, x);
     const MatrixXd curvature = cone.A.transpose() * cone.A - cone.e * cone.e.transpose();
-    sum += m * cone.weight *
-           (p * p.transpose() + 2.0 / ((s - r.norm()) * (s + r.norm())) * curvature);
+    sum += m * cone.weight * (p * p.transpose() + 2.0 / ((s - r.norm()) * (s + r.norm())) * curvature);
   }
   return sum;
 }
@@ -69,7 +68,8 @@ void centre(const ConeProgram& its, double m, VectorXd& x) {
     VectorXd dx = -hessian(its, x, m).ldlt().solve(g);
     if (!dx.allFinite() || !shorten(its, x, m, g, dx)) return;
     double change = 0.0;
-    for (const Cone& cone : its.cones) change = std::max(change, std::abs(relative_gradient(cone, x).dot(dx)));
+    for (const Cone& cone : its.cones)
+      change = std::max(change, std::abs(relative_gradient(cone, x).dot(dx)));
     x += dx;
     if (change <= centred) return;
   }

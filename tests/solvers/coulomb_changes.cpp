@@ -9,8 +9,8 @@
 #include <tuple>
 #include <vector>
 
-/// Where the direction or the mode of Coulomb's friction changes: impacts, users' changes, prescribed slips, and
-/// several contacts at once; at loose and tight tolerances.
+/// Where the direction or the mode of Coulomb's friction changes: impacts, users' changes, prescribed slips,
+/// and several contacts at once; at loose and tight tolerances.
 namespace dalembert::coulomb_changes_test {
 namespace {
 
@@ -22,7 +22,8 @@ constexpr double g = 9.81;
 class CoulombChanges : public testing::TestWithParam<std::tuple<Stepper, double>> {
  protected:
   [[nodiscard]] static double tolerance() { return std::get<1>(GetParam()); }
-  /// A run of a few seconds errs by some tens of its tolerance, and so do the times at which it gets anywhere.
+  /// A run of a few seconds errs by some tens of its tolerance, and so do the times at which it gets
+  /// anywhere.
   [[nodiscard]] static double bound() { return 200.0 * tolerance(); }
   [[nodiscard]] static Options options(double t_end) {
     return {.t_end = t_end, .samples = 11, .tolerance = tolerance(), .stepper = std::get<0>(GetParam())};
@@ -32,7 +33,8 @@ INSTANTIATE_TEST_SUITE_P(Runs, CoulombChanges,
                          testing::Combine(both_steppers, testing::Values(1e-5, 1e-7, 1e-10)),
                          [](const auto& its) {
                            return std::string(name(std::get<0>(its.param))) + "_1em" +
-                                  std::to_string(static_cast<int>(std::lround(-std::log10(std::get<1>(its.param)))));
+                                  std::to_string(
+                                      static_cast<int>(std::lround(-std::log10(std::get<1>(its.param)))));
                          });
 
 /// A block of mass 2 on a floor, or a belt.
@@ -55,7 +57,8 @@ TEST_P(CoulombChanges, SlowABlockThatAWallTurnedRound) {
   Block its(3.0, mu);
   const Plane<2> wall{.point = {1.0, 0.0}, .normal = {-1.0, 0.0}};
   its.scene.add(unilateral(OnCurve{its.block, wall}, {.restitution = 0.5}));
-  const double v = std::sqrt(9.0 - 2.0 * mu * g), strikes = (3.0 - v) / (mu * g), rests = strikes + 0.5 * v / (mu * g);
+  const double v = std::sqrt(9.0 - 2.0 * mu * g), strikes = (3.0 - v) / (mu * g),
+               rests = strikes + 0.5 * v / (mu * g);
   const auto run = simulate(its.scene, options(3.0));
   ASSERT_EQ(run.events().size(), 2U);
   EXPECT_NEAR(run.events()[0].time, strikes, bound());
@@ -72,8 +75,9 @@ TEST_P(CoulombChanges, FollowABeltThatReverses) {
   const auto turn = [&](Scene<2>& scene) {
     scene.replace(its.rough, coulomb(its.floor, Slip{its.block, Plane<2>{}, {-1.0, 0.0}}, mu));
   };
-  const auto run = simulate(its.scene, options(2.0),
-                            {{"turns", [](const auto& now) { return now.time() - 1.0; }, Crossing::rising, false, turn}});
+  const auto run =
+      simulate(its.scene, options(2.0),
+               {{"turns", [](const auto& now) { return now.time() - 1.0; }, Crossing::rising, false, turn}});
   ASSERT_EQ(run.events().size(), 3U);
   EXPECT_EQ(run.events()[1].what, Happened::slides);
   EXPECT_EQ(run.events()[2].what, Happened::sticks);
@@ -90,8 +94,9 @@ TEST_P(CoulombChanges, OfAVelocityThatIsTurnedIsAgainstIt) {
     const Vec<2> at{scene.initial_positions()[0], scene.initial_positions()[1]};
     scene.replace(its.block, ParticleState<2>{.mass = 2.0, .position = at, .velocity = {-2.0, 0.0}});
   };
-  const auto run = simulate(its.scene, options(2.0),
-                            {{"turns", [](const auto& now) { return now.time() - 0.5; }, Crossing::rising, false, turn}});
+  const auto run =
+      simulate(its.scene, options(2.0),
+               {{"turns", [](const auto& now) { return now.time() - 0.5; }, Crossing::rising, false, turn}});
   EXPECT_NEAR(run.sample_after(0).multiplier(its.rough), mu * 2.0 * g, bound() * g);
   EXPECT_NEAR(run.events().back().time, 0.5 + 2.0 / (mu * g), bound());
   EXPECT_NEAR(run.position(its.block, 10).x(), 3.0 * 0.5 - mu * g * 0.125 - 2.0 / (mu * g), bound());
@@ -167,9 +172,12 @@ struct Stool {
     for (std::size_t i = 0; i < 3; ++i) scene.add(Distance{feet[i], feet[(i + 1) % 3], std::sqrt(3.0)});
     for (const auto foot : feet)
       rough.push_back(scene.add(coulomb(scene.add(OnSurface{foot, Plane<3>{}}), Slip{foot, Plane<3>{}}, mu)));
-    scene.add(force_law(points(feet[pushed]), [k](auto t, auto, auto) { return vec(k * t, 0.0 * t, 0.0 * t); }));
+    scene.add(
+        force_law(points(feet[pushed]), [k](auto t, auto, auto) { return vec(k * t, 0.0 * t, 0.0 * t); }));
   }
-  [[nodiscard]] std::size_t number(std::size_t foot) const { return static_cast<std::size_t>(rough[foot].index); }
+  [[nodiscard]] std::size_t number(std::size_t foot) const {
+    return static_cast<std::size_t>(rough[foot].index);
+  }
 };
 
 TEST_P(CoulombChanges, OfThreeFeetHoldsUntilAllOfThemSlide) {
@@ -204,7 +212,8 @@ TEST_P(CoulombChanges, OfThreeFeetTurnsThemAboutOneThatKeepsStill) {
   EXPECT_NE(run.events()[0].event, its.number(2));
   EXPECT_NE(run.events()[1].event, its.number(2));
   for (std::size_t foot = 0; foot < 3; ++foot) {
-    const Vec<3> v = run.velocity(its.feet[foot], 10), sigma = run.constraint_force(its.rough[foot], its.feet[foot], 10);
+    const Vec<3> v = run.velocity(its.feet[foot], 10),
+                 sigma = run.constraint_force(its.rough[foot], its.feet[foot], 10);
     EXPECT_NEAR((sigma + Stool::mu * g * v.normalized()).norm(), 0.0, std::sqrt(tolerance()) * g);
   }
   EXPECT_LT(run.statistics().steps, 1500);
@@ -260,8 +269,10 @@ double time_of_rest(double f, double mu, double k, double speed, double theta) {
   };
   constexpr double h = 1e-3;
   while (x.log_rho > std::log(1e-15)) {
-    const State a = rate(x), b = rate(moved(x, 0.5 * h, a)), c = rate(moved(x, 0.5 * h, b)), d = rate(moved(x, h, c));
-    for (const auto& [part, weight] : {std::pair{a, 1.0}, {b, 2.0}, {c, 2.0}, {d, 1.0}}) x = moved(x, h * weight / 6.0, part);
+    const State a = rate(x), b = rate(moved(x, 0.5 * h, a)), c = rate(moved(x, 0.5 * h, b)),
+                d = rate(moved(x, h, c));
+    for (const auto& [part, weight] : {std::pair{a, 1.0}, {b, 2.0}, {c, 2.0}, {d, 1.0}})
+      x = moved(x, h * weight / 6.0, part);
   }
   return x.t;
 }
@@ -276,7 +287,8 @@ TEST_P(CoulombChanges, InSpaceBringsToRestInTimeWhereItsForceVaries) {
           scene.add_particle({.mass = 2.0, .velocity = {std::cos(angle), std::sin(angle), 0.0}});
       const auto table = scene.add(OnSurface{puck, Plane<3>{}});
       scene.add(coulomb(table, Slip{puck, Plane<3>{}}, mu));
-      scene.add(force_law(points(puck), [](auto t, auto, auto) { return vec(0.0 * t, 0.0 * t, 2.0 * k * t); }));
+      scene.add(
+          force_law(points(puck), [](auto t, auto, auto) { return vec(0.0 * t, 0.0 * t, 2.0 * k * t); }));
       const double rests = time_of_rest(f, mu, k, 1.0, angle);
       const auto run = simulate(scene, options(rests + 0.2));
       ASSERT_EQ(run.events().size(), 1U);
