@@ -20,8 +20,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// The fraction of the scene's speed at which two slip velocities are at rest.
-double rest_in_space(double tolerance) {
+/// The fraction of the scene's speed below which two slip velocities are slow.
+double slow_in_space(double tolerance) {
   return std::min(constants.rest_in_space * tolerance, std::sqrt(tolerance));
 }
 
@@ -60,7 +60,10 @@ void DryFriction::read_law(Rough& rough) const {
 
 void DryFriction::adopt(const Scales& scales) {
   scales_ = scales;
-  for (Rough& r : all_) r.rest = (r.rows == 1 ? tolerance_ : rest_in_space(tolerance_)) * scales.speed();
+  for (Rough& r : all_) {
+    r.still = tolerance_ * scales.speed();
+    r.slow = slow_in_space(tolerance_) * scales.speed();
+  }
 }
 
 void DryFriction::restate(std::shared_ptr<const System> stated) {
@@ -69,7 +72,7 @@ void DryFriction::restate(std::shared_ptr<const System> stated) {
 }
 
 std::string DryFriction::label(std::size_t function) const {
-  return stated_->row_label(all_[function / 2].row);
+  return stated_->row_label(all_[function / kinds].row);
 }
 
 void DryFriction::find_slip(const Instant& at) const {
@@ -97,39 +100,42 @@ double DryFriction::round_off_of(const Rough& rough, std::span<const double> a,
   return round_off() * force + std::numeric_limits<double>::min();
 }
 
-/// The stepper takes what slides on past rest, in its direction: a single slip velocity keeps that, two have
-/// none at rest and the run stops before, at a speed that is rest to its tolerance. What is 0 to round-off,
+/// The stepper takes what slides on past rest, in its direction: a single slip velocity keeps that. Two have
+/// none at rest: where they are slow the run goes on in the direction that they have. What is 0 to round-off,
 /// of what slides without moving, has not fallen.
 double DryFriction::switching(std::size_t function, const FlatSample& now) const {
-  const Rough& r = all_[function / 2];
+  const Rough& r = all_[function / kinds];
+  const auto watched = static_cast<Watched>(function % kinds);
   const double force = round_off_of(r, now.a, now.lambda);
   const double lambda = now.lambda[r.pressing_row];
-  if (function % 2 == 1) return r.mode == Mode::slides && !r.one_sided ? r.sign * lambda + force : 1.0;
+  if (watched == sign) return r.mode == Mode::slides && !r.one_sided ? r.sign * lambda + force : 1.0;
   if (r.mode == Mode::absent) return 1.0;
-  if (r.mode == Mode::sticks) {
-    const double sigma = part(r, now.lambda).norm();
-    return (r.mu_static * std::abs(lambda) - sigma) + force;
-  }
+  if (r.mode == Mode::sticks && watched == mode)
+    return (r.mu_static * std::abs(lambda) - part(r, now.lambda).norm()) + force;
+  const bool slow = r.mode == Mode::slides && r.pace != Pace::fast;
+  if (watched == speed && !slow && !r.shared) return 1.0;
   if (slip_at_ != now.time) find_slip({now.time, now.q, now.v});
   const VectorXd u = slip(r);
-  return r.rows == 1 ? u[0] * r.direction[0] + round_off() * scales_.speed() : u.norm() - r.rest;
+  if (watched == speed) return 2.0 * (slow ? r.slow : r.still) - u.norm();
+  return r.rows == 1 || slow ? u.dot(r.direction) + round_off() * scales_.speed() : u.norm() - r.slow;
 }
 
-/// Starts to slide, against the force that held it.
-void DryFriction::start_sliding(Rough& rough, const VectorXd& held_by) const {
+/// Starts to slide from rest, whatever small slip is left.
+void DryFriction::start_sliding(Rough& rough, const VectorXd& direction) const {
   rough.mode = Mode::slides;
-  rough.from_rest = true;
-  rough.direction = -held_by.normalized();
-  rough.slow = rough.rows == 1 ? 0.0 : tolerance_ * scales_.speed();
+  rough.direction = direction;
+  rough.pace = rough.rows == 1 ? Pace::fast : Pace::leaves;
+  rough.blur = rough.rows == 1 ? 0.0 : only_direction;
 }
 
+/// Without those that are open, contacts or frictions.
 std::shared_ptr<const System> DryFriction::with_modes(const std::vector<std::size_t>& open) const {
   std::vector<std::size_t> out = open;
   std::vector<System::Slide> slides;
   for (const Rough& r : all_) {
     if (r.mode == Mode::absent) out.push_back(r.number);
-    if (r.mode != Mode::slides) continue;
-    slides.push_back({r.number, r.sign * r.mu, {r.direction.begin(), r.direction.end()}, r.slow});
+    if (r.mode != Mode::slides || std::ranges::find(open, r.number) != open.end()) continue;
+    slides.push_back({r.number, r.sign * r.mu, {r.direction.begin(), r.direction.end()}, r.blur});
   }
   return std::make_shared<const System>(stated_->without(out).sliding(slides));
 }
@@ -145,6 +151,18 @@ DryFriction::Motion DryFriction::solve(const std::vector<std::size_t>& open, con
   if (!manifold.solve_motion(at.t, at.q, v, motion.a, motion.lambda)) throw linearly_dependent(at.t);
   motion.unique.assign(manifold.unique().begin(), manifold.unique().end());
   return motion;
+}
+
+/// These, numbers among all, without their friction.
+SlipCoupling DryFriction::released(const std::vector<std::size_t>& which,
+                                   const std::vector<std::size_t>& open, const Instant& at) const {
+  std::vector<std::size_t> out = open;
+  std::vector<SlipRows> rows;
+  for (const std::size_t i : which) {
+    out.push_back(all_[i].number);
+    rows.push_back({all_[i].row, all_[i].rows, all_[i].pressing_row});
+  }
+  return {*stated_, with_modes(out), rows, scales_.lengths(), at, tolerance_};
 }
 
 void DryFriction::require_no_impulse(std::span<const double> impulses, double t) const {

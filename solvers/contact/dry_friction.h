@@ -3,6 +3,7 @@
 #include <dalembert/core/results/event.h>
 #include <dalembert/core/scene/system.h>
 #include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/contact/slip_coupling.h>
 #include <dalembert/solvers/manifold/scales.h>
 
 #include <Eigen/Core>
@@ -21,10 +22,10 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///   sticks:  u = 0,   |sigma| <= mu_static |lambda|
 ///   slides:  sigma = -mu |lambda| d,   d = u/|u|; from rest d = u'/|u'|                                  (1)
 ///
-/// What sticks begins to slide where |sigma| reaches its bound, in the direction that sigma opposed; what
-/// slides comes to rest where u reaches 0, and sticks there or slides back. If several would exceed their
-/// bounds they are released one by one, the largest excess first, until all satisfy (1); if none of the
-/// combinations tried does, that is an error.
+/// What moves slides, whatever it did before. What is at rest sticks if all of it can; else Onset tells which
+/// of it slides, and where. What sticks begins to slide where |sigma| reaches its bound, in the direction
+/// that sigma opposed, and, if other constraints prescribe its slip, where that moves it. What slides comes
+/// to rest where u reaches 0, and sticks there or slides on.
 class DryFriction {
  public:
   /// What happened to a constraint, by its number in the layout.
@@ -42,41 +43,54 @@ class DryFriction {
   void adopt(const Scales& scales);
 
   [[nodiscard]] bool any() const { return !all_.empty(); }
-  /// Switching functions, which fall through 0 where something changes, two for each constraint: what is left
-  /// until it sticks or slides, and the normal force, if that may change its sign.
-  [[nodiscard]] std::size_t functions() const { return 2 * all_.size(); }
+  /// Switching functions, which fall through 0 where something changes, for each constraint those of
+  /// `Watched`.
+  [[nodiscard]] std::size_t functions() const { return kinds * all_.size(); }
   [[nodiscard]] std::string label(std::size_t function) const;
   [[nodiscard]] double switching(std::size_t function, const FlatSample& now) const;
 
   /// Decides what sticks, at a state where constraints with these numbers are open. `fallen` is the switching
-  /// function that has fallen, in the motion `before`. Throws StepFailure, naming the constraints, where
-  /// nothing satisfies (1); EquationFault.
+  /// function that has fallen. Throws StepFailure, naming the constraints, where nothing satisfies (1);
+  /// EquationFault.
   std::vector<Happening> settle(const std::vector<std::size_t>& open, const Instant& at,
-                                std::optional<std::size_t> fallen = {}, const FlatSample& before = {});
+                                std::optional<std::size_t> fallen = {});
   /// Throws StepFailure if an impact has loaded any of them.
   void require_no_impulse(std::span<const double> impulses, double t) const;
   /// The system with what sticks and what slides.
   [[nodiscard]] const std::shared_ptr<const System>& system() const { return system_; }
 
  private:
+  /// What is left until it sticks or slides; the normal force, if that may change its sign; and what is left
+  /// until a slip that counts as slow, or as none, no longer does.
+  enum Watched : std::size_t { mode, sign, speed, kinds };
   enum class Mode { absent, sticks, slides };
+  /// Of two slip velocities that slide: slow ones leave rest, or come to it in the direction that they have.
+  enum class Pace { fast, leaves, ends };
+  /// The slowness by which it has that direction at any speed.
+  static constexpr double only_direction = 1e100;
   struct Rough {
     std::size_t number, row, rows;  // in the layout
     std::size_t pressed_by = 0, pressing_row = 0;
     double mu = 0.0, mu_static = 0.0;
     bool one_sided = false;
-    double sign = 1.0;  // of lambda
-    double rest = 0.0;  // a speed that counts as rest
+    double sign = 1.0;               // of lambda
+    double still = 0.0, slow = 0.0;  // speeds: that count as none, and below which a slip in space is slow
     Mode mode = Mode::absent;
-    bool from_rest = false;
+    bool shared = false;  // sticks, but others constrain the same slip
     Eigen::VectorXd direction{};
-    double slow = 0.0;
+    Pace pace = Pace::fast;
+    double blur = 0.0;                      // the slowness of `Sliding`
+    std::optional<double> turns{};          // of a slip that ends: how much later it rests for its turning
+    std::optional<double> let_go{};         // when it began to slide, its bound reached
+    bool at_rest = false, reached = false;  // when what happens now began: no slip; |sigma| at its bound
   };
   /// Accelerations and multipliers with the modes as they are.
   struct Motion {
     std::vector<double> a, lambda;
     std::vector<char> unique{};
   };
+  /// The switching function that has fallen, if one has.
+  using Fallen = std::optional<std::size_t>;
 
   void read_law(Rough& rough) const;
   [[nodiscard]] double round_off_of(const Rough& rough, std::span<const double> a,
@@ -84,22 +98,31 @@ class DryFriction {
   [[nodiscard]] static Eigen::VectorXd part(const Rough& rough, std::span<const double> all);
   void find_slip(const Instant& at) const;
   [[nodiscard]] Eigen::VectorXd slip(const Rough& rough) const;
-  void start_sliding(Rough& rough, const Eigen::VectorXd& held_by) const;
+  [[nodiscard]] bool own(const Rough& rough, Fallen fallen, Watched watched) const;
+  [[nodiscard]] static bool shared(const Rough& rough, std::span<const char> unique);
+
   [[nodiscard]] std::shared_ptr<const System> with_modes(const std::vector<std::size_t>& open) const;
   [[nodiscard]] Motion solve(const std::vector<std::size_t>& open, const Instant& at) const;
   [[nodiscard]] Eigen::VectorXd slip_acceleration(const Rough& rough, const Instant& at,
                                                   const Motion& motion) const;
-  [[nodiscard]] double rests_at(const Rough& rough, const Instant& at, std::span<const double> a) const;
-  void find_direction(Rough& rough, const std::vector<std::size_t>& open, const Instant& at);
-  void begin(Rough& rough, const std::vector<std::size_t>& open, std::optional<std::size_t> fallen,
-             const FlatSample& motion);
-  void require_own_share(const Rough& rough, std::span<const char> unique, double t) const;
-  [[nodiscard]] bool amend(const std::vector<std::size_t>& open, const Instant& at, const Motion& motion);
+  [[nodiscard]] SlipCoupling released(const std::vector<std::size_t>& which,
+                                      const std::vector<std::size_t>& open, const Instant& at) const;
+
+  void begin(Rough& rough, const std::vector<std::size_t>& open, double t, Fallen fallen);
+  [[nodiscard]] double same_time(double t) const;
+  void begin_slow(Rough& rough, const std::vector<std::size_t>& open, const Instant& at);
+  void start_sliding(Rough& rough, const Eigen::VectorXd& direction) const;
+  void decide(const std::vector<std::size_t>& open, const Instant& at);
+  [[nodiscard]] bool sticks(const Instant& at, const Motion& motion) const;
+  void mark_shared(const Motion& motion);
+  [[nodiscard]] double excess(const Rough& rough, const Motion& motion) const;
+  void require_own_share(const Rough& rough, double t) const;
+  [[nodiscard]] bool amend(const Instant& at, const Motion& motion);
+  [[nodiscard]] bool release_most_exceeded(const Motion& motion, double t);
+  [[nodiscard]] bool turn(Rough& rough, const Instant& at, const Motion& motion) const;
   [[nodiscard]] std::vector<double> modes() const;
-  [[nodiscard]] bool release_most_exceeded(const std::vector<std::size_t>& open, const Instant& at,
-                                           const Motion& motion);
-  [[nodiscard]] bool turn(Rough& rough, const std::vector<std::size_t>& open, const Instant& at,
-                          const Motion& motion);
+  [[nodiscard]] std::vector<Happening> changes(const std::vector<Rough>& before, double t,
+                                               Fallen fallen) const;
   [[noreturn]] void refuse(double t) const;
 
   std::shared_ptr<const System> stated_, system_;

@@ -1,11 +1,12 @@
-#include <dalembert/solvers/base/root.h>
 #include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/contact/coming_to_rest.h>
 #include <dalembert/solvers/contact/dry_friction.h>
+#include <dalembert/solvers/contact/onset.h>
 #include <dalembert/solvers/contact/round_off.h>
+#include <dalembert/solvers/linear/rows.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <utility>
 
@@ -17,13 +18,19 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+/// Modes at an instant, tried one after another, of which no two are the same.
+constexpr std::size_t most_tried = 1000;
+/// The part of a speed that counts as none by which directions no longer matter.
+constexpr double vanished = 1e-2;
+
 constexpr const char* shares =
     ": its share of the friction is not determined, as others constrain the same slip; state one in place "
     "of all, or end the run before";
 
 }  // namespace
 
-/// u' = W v' + gamma; 0 where it is round-off of its terms, or below the root of the tolerance as forces are.
+/// u' = W v' + gamma; 0 where it is round-off of its terms, of what slides also of what its friction alone
+/// would do, or below the root of the tolerance as forces are.
 VectorXd DryFriction::slip_acceleration(const Rough& rough, const Instant& at, const Motion& motion) const {
   auto e = stated_->evaluation();
   std::vector<double> gamma(stated_->rows());
@@ -42,118 +49,167 @@ VectorXd DryFriction::slip_acceleration(const Rough& rough, const Instant& at, c
       terms = std::max({terms, std::abs(term), std::abs(e.w[j] * e.force[i] / stated_->masses()[i])});
     }
     rate[static_cast<Index>(k)] = sum;
+    if (rough.mode == Mode::slides)
+      terms = std::max(terms, rough.mu * std::abs(motion.lambda[rough.pressing_row]) *
+                                  inverse_effective_mass(*stated_, e.w, row));
   }
   if (rate.norm() <= std::sqrt(tolerance_) * terms) rate.setZero();
   return rate;
 }
 
-/// When two slip velocities, as slow as the run watches them, come to rest; else now.
-double DryFriction::rests_at(const Rough& rough, const Instant& at, std::span<const double> a) const {
-  if (rough.mode != Mode::slides || rough.rows == 1) return at.t;
-  const VectorXd u = slip(rough), rate = slip_acceleration(rough, at, {{a.begin(), a.end()}, {}});
-  const double slows = -u.dot(rate) / u.squaredNorm();
-  return slows > 0.0 ? at.t + 1.0 / slows : at.t;
+/// The difference of two times that are the same to round-off.
+double DryFriction::same_time(double t) const { return round_off() * std::max(std::abs(t), scales_.time); }
+
+bool DryFriction::own(const Rough& rough, Fallen fallen, Watched watched) const {
+  const auto index = static_cast<std::size_t>(&rough - all_.data());
+  return fallen == kinds * index + watched;
 }
 
-/// For two slip velocities that start from rest: d(phi) such that u' is along it.
-void DryFriction::find_direction(Rough& rough, const std::vector<std::size_t>& open, const Instant& at) {
-  if (rough.rows != 2) return;
-  const double first = std::atan2(rough.direction[1], rough.direction[0]);
-  const auto across = [&](double phi) {
-    rough.direction = Eigen::Vector2d(std::cos(phi), std::sin(phi));
-    const VectorXd rate = slip_acceleration(rough, at, solve(open, at));
-    return rough.direction[0] * rate[1] - rough.direction[1] * rate[0];
-  };
-  constexpr double quarter = std::numbers::pi / 2.0;
-  const double at_first = across(first);
-  if (at_first == 0.0) return;
-  const double other = first + std::copysign(quarter, at_first), at_other = across(other);
-  if (at_first * at_other > 0.0) refuse(at.t);
-  const double phi = root(across, first, at_first, other, at_other, round_off());
-  rough.direction = Eigen::Vector2d(std::cos(phi), std::sin(phi));
-}
-
-/// The mode to try first: as it was, but for what has changed.
-void DryFriction::begin(Rough& rough, const std::vector<std::size_t>& open, std::optional<std::size_t> fallen,
-                        const FlatSample& motion) {
-  const Mode before = rough.mode;
+/// What moves slides; what does not sticks, before `decide`.
+void DryFriction::begin(Rough& rough, const std::vector<std::size_t>& open, double t, Fallen fallen) {
+  const bool slid = rough.mode == Mode::slides, slow = slid && rough.pace != Pace::fast;
+  const bool due = own(rough, fallen, mode), just = slid && rough.let_go && t - *rough.let_go <= same_time(t);
+  rough.at_rest = rough.reached = false;
   if (std::ranges::find(open, rough.pressed_by) != open.end()) {
     rough.mode = Mode::absent;
     return;
   }
-  const auto index = static_cast<std::size_t>(&rough - all_.data());
-  const bool turned = fallen && *fallen == 2 * index;
-  if (fallen && *fallen == 2 * index + 1) rough.sign = -rough.sign;
+  if (own(rough, fallen, sign)) rough.sign = -rough.sign;
   const VectorXd u = slip(rough);
-  if (before == Mode::sticks && u.norm() <= rough.rest) {
-    if (!turned) return;
-    require_own_share(rough, motion.unique, motion.time);
-    start_sliding(rough, part(rough, motion.lambda));
-    return;
-  }
-  if (turned || (u.norm() <= rough.rest && !(before == Mode::slides && rough.from_rest))) {
+  const double none = round_off() * scales_.speed();
+  const bool stops = due && slid && (rough.rows == 1 || slow), moves = slid && u.dot(rough.direction) > none;
+  if (stops || (u.norm() <= std::max(rough.still, none) && !moves)) {
+    rough.at_rest = true;
+    rough.reached = slid ? just : due;
     rough.mode = Mode::sticks;
     return;
   }
-  if (u.norm() > rough.rest) rough.from_rest = false;
-  if (before == Mode::slides) return;
+  rough.shared = false;
+  if (slow && u.norm() < 2.0 * rough.slow && u.dot(rough.direction) > 0.0) return;
   rough.mode = Mode::slides;
   rough.direction = u.normalized();
-  rough.slow = 0.0;
+  rough.blur = 0.0;
+  rough.pace = rough.rows == 2 && (due || u.norm() < rough.slow) ? Pace::leaves : Pace::fast;
+  rough.turns.reset();
+}
+
+/// Whether two slow slip velocities come to rest: then with the direction that they have.
+void DryFriction::begin_slow(Rough& rough, const std::vector<std::size_t>& open, const Instant& at) {
+  const SlipCoupling coupling = released({static_cast<std::size_t>(&rough - all_.data())}, open, at);
+  const Eigen::Vector2d u = slip(rough);
+  const auto left = time_to_rest(coupling, rough.mu, u, vanished * rough.still);
+  if (!left) return;
+  rough.pace = Pace::ends;
+  rough.blur = only_direction;
+  rough.turns = *left - time_to_rest_ahead(coupling, rough.mu, u);
+  if (!std::isfinite(*rough.turns)) rough.turns = 0.0;
 }
 
 /// What starts to slide has less friction than it stuck with: of redundant ones that decides which slides.
-void DryFriction::require_own_share(const Rough& rough, std::span<const char> unique, double t) const {
-  bool own = unique.empty();
-  for (std::size_t k = 0; k < rough.rows && !unique.empty(); ++k) own = unique[rough.row + k] != 0;
-  if (own || rough.mu_static == rough.mu) return;
+void DryFriction::require_own_share(const Rough& rough, double t) const {
+  if (!rough.shared || rough.mu_static == rough.mu) return;
   throw StepFailure{stated_->row_label(rough.row) + shares, t};
 }
 
+bool DryFriction::shared(const Rough& rough, std::span<const char> unique) {
+  if (unique.empty()) return false;
+  const auto rows = unique.subspan(rough.row, rough.rows);
+  return std::ranges::find(rows, char{0}) != rows.end();
+}
+
+void DryFriction::mark_shared(const Motion& motion) {
+  for (Rough& r : all_) r.shared = r.mode == Mode::sticks && shared(r, motion.unique);
+}
+
+/// By how much the friction of what sticks exceeds its bound, as a part of that; at most 0 if it does not.
+double DryFriction::excess(const Rough& rough, const Motion& motion) const {
+  const double sigma = part(rough, motion.lambda).norm();
+  if (rough.mode != Mode::sticks || sigma <= round_off_of(rough, motion.a, motion.lambda)) return 0.0;
+  return sigma / (rough.mu_static * std::abs(motion.lambda[rough.pressing_row])) - 1.0 - round_off();
+}
+
+/// Whether all that is at rest can stay there: what others prescribe may move it.
+bool DryFriction::sticks(const Instant& at, const Motion& motion) const {
+  return std::ranges::none_of(all_, [&](const Rough& r) {
+    if (!r.at_rest) return false;
+    if (r.reached || excess(r, motion) > 0.0) return true;
+    return shared(r, motion.unique) && slip_acceleration(r, at, motion).norm() > 0.0;
+  });
+}
+
+/// What of all that is at rest sticks, and what slides.
+void DryFriction::decide(const std::vector<std::size_t>& open, const Instant& at) {
+  const bool group = std::ranges::any_of(all_, [](const Rough& r) { return r.reached && r.shared; });
+  for (Rough& r : all_) {  // what holds together reaches its bounds together
+    if (r.at_rest && r.shared && group) r.reached = true;
+    if (r.reached) require_own_share(r, at.t);
+  }
+  const Motion held = solve(open, at);
+  if (sticks(at, held)) return;
+  mark_shared(held);
+  std::vector<std::size_t> which;
+  std::vector<AtRest> rest;
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    const Rough& r = all_[i];
+    if (!r.at_rest) continue;
+    which.push_back(i);
+    rest.push_back({{r.row, r.rows, r.pressing_row}, r.mu, r.mu_static, r.reached});
+  }
+  const SlipCoupling coupling = released(which, open, at);
+  const auto onset = Onset::find(coupling, rest);
+  if (!onset) return;
+  Index first = 0;
+  for (std::size_t k = 0; k < which.size(); first += static_cast<Index>(rest[k++].rows.rows)) {
+    if (!onset->parts[k].slides) continue;
+    Rough& r = all_[which[k]];
+    const bool prescribed = coupling.S_0(first, first) == 0.0;
+    if (!prescribed) require_own_share(r, at.t);
+    if (!r.one_sided) r.sign = held.lambda[r.pressing_row] < 0.0 ? -1.0 : 1.0;
+    start_sliding(r, onset->parts[k].direction);
+    if (r.reached) r.let_go = at.t;
+  }
+}
+
 /// Releases, of what sticks and would exceed its bound, what exceeds it most; whether there is any.
-bool DryFriction::release_most_exceeded(const std::vector<std::size_t>& open, const Instant& at,
-                                        const Motion& motion) {
+bool DryFriction::release_most_exceeded(const Motion& motion, double t) {
   Rough* most = nullptr;
-  double by = 1.0 + round_off();
+  double by = 0.0;
   for (Rough& r : all_) {
-    if (r.mode != Mode::sticks) continue;
-    const double sigma = part(r, motion.lambda).norm();
-    const double ratio = sigma / (r.mu_static * std::abs(motion.lambda[r.pressing_row]));
-    if (sigma <= round_off_of(r, motion.a, motion.lambda) || !(ratio > by)) continue;
+    const double own = excess(r, motion);
+    if (!(own > by)) continue;
     most = &r;
-    by = ratio;
+    by = own;
   }
   if (most == nullptr) return false;
-  require_own_share(*most, motion.unique, at.t);
+  if (shared(*most, motion.unique)) refuse(t);
   if (!most->one_sided) most->sign = motion.lambda[most->pressing_row] < 0.0 ? -1.0 : 1.0;
-  start_sliding(*most, part(*most, motion.lambda));
-  find_direction(*most, open, at);
+  start_sliding(*most, -part(*most, motion.lambda).normalized());
   return true;
 }
 
 /// Whether two slip velocities that start from rest take another direction than they were released in.
-bool DryFriction::turn(Rough& rough, const std::vector<std::size_t>& open, const Instant& at,
-                       const Motion& motion) {
+bool DryFriction::turn(Rough& rough, const Instant& at, const Motion& motion) const {
   if (rough.rows != 2) return false;
   const VectorXd rate = slip_acceleration(rough, at, motion);
   const double across = rough.direction[0] * rate[1] - rough.direction[1] * rate[0];
-  if (std::abs(across) <= std::sqrt(round_off()) * rate.norm()) return false;
-  find_direction(rough, open, at);
+  if (std::abs(across) <= std::sqrt(round_off()) * rate.norm() || rough.direction.dot(rate) <= 0.0)
+    return false;
+  rough.direction = rate.normalized();
   return true;
 }
 
 /// Whether something violated (1) and has been changed.
-bool DryFriction::amend(const std::vector<std::size_t>& open, const Instant& at, const Motion& motion) {
+bool DryFriction::amend(const Instant& at, const Motion& motion) {
   for (Rough& r : all_) {
     const double zero = round_off_of(r, motion.a, motion.lambda);
     if (r.mode != Mode::slides || r.one_sided || r.sign * motion.lambda[r.pressing_row] >= -zero) continue;
     r.sign = -r.sign;
     return true;
   }
-  if (release_most_exceeded(open, at, motion)) return true;
+  if (release_most_exceeded(motion, at.t)) return true;
   for (Rough& r : all_) {
-    if (r.mode != Mode::slides || !r.from_rest || slip(r).norm() > r.rest) continue;
-    if (turn(r, open, at, motion)) return true;
+    if (r.mode != Mode::slides || !r.at_rest) continue;
+    if (turn(r, at, motion)) return true;
     if (r.direction.dot(slip_acceleration(r, at, motion)) >= 0.0) continue;
     r.mode = Mode::sticks;
     return true;
@@ -180,29 +236,39 @@ void DryFriction::refuse(double t) const {
                     t};
 }
 
-std::vector<DryFriction::Happening> DryFriction::settle(const std::vector<std::size_t>& open,
-                                                        const Instant& at, std::optional<std::size_t> fallen,
-                                                        const FlatSample& motion) {
-  const auto before = all_;
-  find_slip(at);
-  const double time = fallen ? rests_at(all_[*fallen / 2], at, motion.a) : at.t;
-  for (Rough& r : all_) begin(r, open, fallen, motion);
-  if (fallen && *fallen % 2 == 0 && all_[*fallen / 2].mode == Mode::slides)
-    find_direction(all_[*fallen / 2], open, at);
-  std::set<std::vector<double>> tried;
-  do {
-    if (!tried.insert(modes()).second) refuse(at.t);
-  } while (amend(open, at, solve(open, at)));
-  system_ = with_modes(open);
+std::vector<DryFriction::Happening> DryFriction::changes(const std::vector<Rough>& before, double t,
+                                                         Fallen fallen) const {
   std::vector<Happening> what;
   for (std::size_t i = 0; i < all_.size(); ++i) {
-    const Mode was = before[i].mode, is = all_[i].mode;
-    const bool turned = was == Mode::slides && is == Mode::slides && fallen == 2 * i;
-    if (was == Mode::absent || is == Mode::absent || (was == is && !turned)) continue;
-    what.push_back({all_[i].number, is == Mode::sticks ? Happened::sticks : Happened::slides,
-                    fallen && *fallen / 2 == i ? time : at.t});
+    const Rough &was = before[i], &is = all_[i];
+    const bool due = own(is, fallen, mode);
+    const bool turned = was.mode == Mode::slides && is.mode == Mode::slides && due && is.at_rest;
+    if (was.mode == Mode::absent || is.mode == Mode::absent || (was.mode == is.mode && !turned)) continue;
+    what.push_back({is.number, is.mode == Mode::sticks ? Happened::sticks : Happened::slides,
+                    due && was.turns ? t + *was.turns : t});
   }
   return what;
+}
+
+std::vector<DryFriction::Happening> DryFriction::settle(const std::vector<std::size_t>& open,
+                                                        const Instant& at, Fallen fallen) {
+  const auto before = all_;
+  find_slip(at);
+  for (Rough& r : all_) begin(r, open, at.t, fallen);
+  for (Rough& r : all_)
+    if (r.mode == Mode::slides && r.pace == Pace::leaves && r.blur == 0.0) begin_slow(r, open, at);
+  if (std::ranges::any_of(all_, &Rough::at_rest)) decide(open, at);
+  std::set<std::vector<double>> tried;
+  Motion settled = solve(open, at);
+  while (amend(at, settled)) {
+    if (!tried.insert(modes()).second || tried.size() > most_tried) refuse(at.t);
+    settled = solve(open, at);
+  }
+  mark_shared(settled);
+  for (Rough& r : all_)
+    if (r.mode == Mode::slides && r.pace == Pace::leaves && r.at_rest) r.blur = r.slow;
+  system_ = with_modes(open);
+  return changes(before, at.t, fallen);
 }
 
 }  // namespace dalembert

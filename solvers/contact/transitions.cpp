@@ -42,7 +42,7 @@ Transitions::Change Transitions::pass(const FlatSample& at, std::size_t function
   if (function < contacts_.size()) return settle(contacts_.pass(now, {function}), now);
   const std::vector<double> v(at.v.begin(), at.v.end());
   Change change{v, v, std::vector<double>(at.lambda.size())};
-  add({}, friction_.settle(contacts_.open(), now, function - contacts_.size(), at), change.what);
+  add({}, friction_.settle(contacts_.open(), now, function - contacts_.size()), change.what);
   return change;
 }
 

@@ -53,7 +53,8 @@ MinimumNorm::MinimumNorm(const System& system, const ActiveRows& active, std::ve
       lengths_(std::move(lengths)),
       active_(active.rows.begin(), active.rows.end()),
       dropped_(others(system, active)),
-      unique_(system.rows(), 1) {
+      unique_(system.rows(), 1),
+      shares_(system) {
   if (!dropped_.empty()) place(system);
 }
 
@@ -96,6 +97,7 @@ void MinimumNorm::spread(const Solve& solve, const Instant& at, const System::Ev
   lambda_ = all;
   minimise();
   all.noalias() += N_ * z_;
+  shares_.spread(N_, unique_, lambda);
 }
 
 /// The rods inside bodies are of unit gradient: their multipliers are forces.

@@ -2,6 +2,7 @@
 
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/linear/rows.h>
+#include <dalembert/solvers/manifold/friction_shares.h>
 
 #include <Eigen/Core>
 #include <Eigen/QR>
@@ -22,6 +23,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// D gives the forces at the points that the user stated the constraints for (detail::forces_at_points), and
 /// nothing for the rods inside bodies. So the forces of the stated constraints are those of least norm, and
 /// neither the choice of a, nor how equations are scaled, nor what bodies are made of shows in them.
+///
+/// Those of dry friction that sticks are then moved within their bounds, see FrictionShares.
 ///
 /// A multiplier is determined by the motion if its row of N is zero, which is asked as exactly as the
 /// positions are known: (1) is corrected by what is left of W^T N a rounding of the positions away, and
@@ -70,6 +73,7 @@ class MinimumNorm {
   Eigen::VectorXd scale_, z_;
   Eigen::MatrixXd lambda_, right_;  // one column
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr_;
+  FrictionShares shares_;
 };
 
 }  // namespace dalembert

@@ -52,6 +52,7 @@ class Sticking {
  private:
   void require_leaving();
   void require_no_stop();
+  void require_passable(std::size_t friction, double step);
   void find_slope(const Motion& at, Side& side);
   bool accelerate(Motion& at, Side& side);
   void require_sliding(const Motion& before, Motion& behind);

@@ -1,0 +1,99 @@
+#include "dalembert/solvers/manifold/friction_shares.h"
+
+#include <dalembert/core/analysis/rank.h>
+#include <dalembert/solvers/base/numbers.h>
+#include <dalembert/solvers/linear/cones.h>
+#include <dalembert/solvers/linear/dense.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dalembert {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Normal forces that the motion does not determine either change with the shares.
+constexpr int most_iterations = 10;
+
+/// Orthonormal columns that span those x for which A x is not 0.
+MatrixXd row_space(const MatrixXd& A) {
+  const auto its = dense::symmetric_eigen(A.transpose() * A);
+  const double least = rank_threshold * its.values.maxCoeff();
+  return its.vectors.rightCols((its.values.array() > least).count());
+}
+
+/// z of (1), lambda in the units of the bounds.
+VectorXd least_largest(const MatrixXd& A, const VectorXd& a, const std::vector<Index>& first) {
+  const Index n = A.cols();
+  ConeProgram program{MatrixXd::Zero(n + 1, n + 1), VectorXd::Unit(n + 1, n), {}};
+  double largest = 0.0;
+  for (std::size_t i = 0; i + 1 < first.size(); ++i) {
+    const Index k = first[i], rows = first[i + 1] - k;
+    MatrixXd own = MatrixXd::Zero(rows, n + 1);
+    own.leftCols(n) = A.middleRows(k, rows);
+    program.cones.push_back({own, a.segment(k, rows), VectorXd::Unit(n + 1, n), 0.0, 1.0});
+    largest = std::max(largest, a.segment(k, rows).norm());
+  }
+  if (largest == 0.0) return VectorXd::Zero(n);
+  for (auto& cone : program.cones) cone.a /= largest;
+  return largest * program.minimum(2.0 * VectorXd::Unit(n + 1, n)).head(n);
+}
+
+}  // namespace
+
+FrictionShares::FrictionShares(const System& system) {
+  for (const std::size_t number : system.rough()) {
+    const Layout::Constraint& its = system.layout()->constraints[number];
+    if (!system.in_force(its.own_rows().front())) continue;
+    const auto& law = *its.holds.roughness;
+    const auto& pressing = system.layout()->constraints[static_cast<std::size_t>(law.pressed_by)];
+    all_.push_back({its.first_row, its.rows, pressing.first_row, law.mu_static});
+  }
+}
+
+std::vector<FrictionShares::Rough> FrictionShares::shared(std::span<const char> unique) const {
+  std::vector<Rough> chosen;
+  for (const Rough& r : all_) {
+    const auto own = unique.subspan(static_cast<std::size_t>(r.row), static_cast<std::size_t>(r.rows));
+    if (std::ranges::find(own, char{0}) != own.end()) chosen.push_back(r);
+  }
+  return chosen;
+}
+
+void FrictionShares::spread(const MatrixXd& N, std::span<const char> unique, std::span<double> lambda) const {
+  const auto chosen = shared(unique);
+  if (chosen.empty()) return;
+  std::vector<Index> first{0};
+  for (const Rough& r : chosen) first.push_back(first.back() + r.rows);
+  Eigen::Map<VectorXd> all(lambda.data(), N.rows());
+  const auto normals = [&] {
+    VectorXd each(static_cast<Index>(chosen.size()));
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      each[static_cast<Index>(i)] = chosen[i].mu_static * std::abs(all[chosen[i].pressing_row]);
+    return each;
+  };
+  VectorXd normal = normals();
+  for (int k = 0; k < most_iterations; ++k) {
+    if (normal.isZero(0.0)) return;
+    MatrixXd A(first.back(), N.cols());
+    VectorXd a(first.back());
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      const Rough& r = chosen[i];
+      const double bound = std::max(normal[static_cast<Index>(i)], rank_threshold * normal.maxCoeff());
+      A.middleRows(first[i], r.rows) = N.middleRows(r.row, r.rows) / bound;
+      a.segment(first[i], r.rows) = all.segment(r.row, r.rows) / bound;
+    }
+    const MatrixXd Z = row_space(A);
+    if (Z.cols() == 0) return;
+    all += N * (Z * least_largest(A * Z, a, first));
+    const VectorXd before = normal;
+    normal = normals();
+    if ((normal - before).norm() <= rank_threshold * normal.norm()) return;
+  }
+}
+
+}  // namespace dalembert
