@@ -16,6 +16,9 @@ namespace dalembert {
 /// enough to be followed. A stiff one is not: round-off in the positions times k becomes force. Here
 /// lambda is an unknown of the implicit stepper, the equations stay regular down to C = 0, and
 /// vibrations too small and fast to matter at the tolerance are stepped over.
+///
+/// It is a spring at impacts and changes, too: it passes on no impulse, holds no contact closed, and where it
+/// is imposed its g may have any value.
 template <class Rigid>
 struct Compliant {
   static constexpr std::string_view kind = detail::kind_of<Rigid>("Holonomic");

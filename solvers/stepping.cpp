@@ -50,8 +50,10 @@ Stepping::Stepping(std::shared_ptr<const System> of, std::span<const double> q, 
   if (problem.system().compliant()) springs_ = Springs(start.lambda.size());
   stretch_ = stretch(problem, std::move(start), options.t_start, options.stepper);
   const auto number = [](std::size_t equations) { return static_cast<int>(equations); };
-  const std::size_t active = this->start().rows.size();
-  past_.degrees_of_freedom = number(system().coordinates() + system().compliant_rows()) - number(active);
+  const auto& rows = this->start().rows.rows;
+  const std::size_t active = rows.size();
+  const auto rigid = std::ranges::count_if(rows, [&](auto r) { return !system().law(r).compliant(); });
+  past_.degrees_of_freedom = number(system().coordinates()) - static_cast<int>(rigid);
   past_.redundant_equations = number(system().rows_in_force() - active);
   angle_ = {options.t_start, 1.0};
   if (options.dense) {

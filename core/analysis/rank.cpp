@@ -39,7 +39,7 @@ Columns with_elongations(const System& system, const Columns& rows) {
   std::vector<Eigen::Triplet<double>> entries;
   const double half = std::sqrt(0.5);
   for (int r = 0; r < rows.cols(); ++r) {
-    const bool compliant = system.law(number(r)).compliant();
+    const bool compliant = system.in_force(number(r)) && system.law(number(r)).compliant();
     for (Columns::InnerIterator it(rows, r); it; ++it)
       entries.emplace_back(static_cast<int>(it.row()), r, (compliant ? half : 1.0) * it.value());
     if (compliant) entries.emplace_back(static_cast<int>(rows.rows()) + r, r, half);

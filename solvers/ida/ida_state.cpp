@@ -119,7 +119,9 @@ double IdaStepper::State::farthest(std::size_t row, std::span<const double> q) c
 /// iteration stops at a part of the weights, so these contain some roundings.
 ///
 /// The multiplier of a compliant row also enters psi + C lambda', as C lambda/h: in steps that follow the
-/// vibration of its spring that is what limits its error.
+/// vibration of its spring that is what limits its error. In the error test it counts as the length C lambda,
+/// by its share of that weight: it is a differential variable, and where nothing moves the only one. (Other
+/// multipliers have no share; see IDASetSuppressAlg.)
 void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
   double h = 0.0;
   check(IDAGetCurrentStep(ida.get(), &h), "IDAGetCurrentStep");  // 0 before the first
@@ -127,6 +129,7 @@ void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
   weighed_h = h;
   const auto value = entries(x);
   const auto w = entries(weight);
+  const auto share = entries(id.get());
   if (scales.of_path) {
     scales.take(scales.further(value.first(n()), value.subspan(n(), n()), h, tolerance));
     find_impulses();
@@ -148,9 +151,13 @@ void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
     const double impulse =
         impulse_row[r] * (tolerance + noise_of_speed) + tolerance * h * std::abs(value[2 * n() + r]);
     const double stretching = scales.speed() * (tolerance + eps * far * scales.time / h);
-    w[2 * n() + r] = h / impulse + compliance_row[r] / (h * stretching);
+    const double weight_of_speed = compliance_row[r] / (h * stretching);
+    w[2 * n() + r] = h / impulse + weight_of_speed;
+    const double weight_of_length = compliance_row[r] / (scales.length * (tolerance + eps * far));
+    share[2 * n() + r] = std::pow(weight_of_length / w[2 * n() + r], 2);
     if (r < m_holonomic()) w[2 * n() + m() + r] = h / (impulse_row[r] * scales.time * (tolerance + noise));
   }
+  if (system->compliant()) check(IDASetId(ida.get(), id.get()), "IDASetId");
 }
 
 }  // namespace dalembert

@@ -25,7 +25,8 @@ struct IdaStepper::State {
 
   // The context is declared first: it dies last.
   Owned<SUNContext, FreeContext> context = make_context();
-  Owned<N_Vector, FreeVector> y, yp, dense, id;
+  Owned<N_Vector, FreeVector> y, yp, dense;
+  Owned<N_Vector, FreeVector> id;  // 1 for q and v; of multipliers their share in the error test, see weigh
   Owned<SUNMatrix, FreeMatrix> matrix;
   Owned<SUNLinearSolver, FreeSolver> solver;
   Owned<SUNNonlinearSolver, FreeNewton> nonlinear;

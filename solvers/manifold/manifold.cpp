@@ -54,6 +54,7 @@ Manifold::Manifold(const Problem& problem, const ActiveRows& rows, std::vector<d
   if (system_->frictional()) friction_.emplace(problem, rows);
   if (!system_->compliant()) return;
   s_.resize(system_->rows(), 0.0);
+  reflected_ = s_;
   springs_before_ = springs_ = Springs(system_->rows());
 }
 
@@ -66,7 +67,7 @@ void Manifold::follow(const Springs& springs) {
 void Manifold::add_springs() {
   for (std::size_t r = 0; r < springs_.lambda.size(); ++r) {
     const RowLaw& law = system_->law(r);
-    if (!law.compliant()) continue;
+    if (!compliant(r)) continue;
     if (!following_) {
       springs_.lambda[r] = law.multiplier(e_.g[r]);
       springs_.rate[r] = law.multiplier(e_.psi[r]);
@@ -78,7 +79,7 @@ void Manifold::add_springs() {
 
 void Manifold::weigh_springs() {
   for (std::size_t r = 0; r < s_.size(); ++r) {
-    if (system_->law(r).compliant())
+    if (compliant(r))
       s_[r] = following_ ? springs_.c * springs_.c * system_->law(r).compliance
                          : rigid * inverse_effective_mass(*system_, e_.w, r);
   }
@@ -231,23 +232,32 @@ void Manifold::correct_velocities(std::span<double> v) {
   if (following_) add_to_springs(springs_.rate, 1.0, springs_.rate);
 }
 
-/// (3), with the matrix and the forces at hand. Friction has a matrix of its own.
+/// (3) and (4), with the matrix and the forces at hand.
 bool Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
   const std::size_t n = at.q.size();
   hear([&] { system_->bias(at, gamma_); });
+  if (!solve_beside_springs(at, springs_.lambda)) return false;
+  if (following_) {
+    for (std::size_t k = 0; k < rows_.rows.size(); ++k)
+      reflected_[rows_.rows[k]] = 2.0 * springs_.lambda[rows_.rows[k]] - x_[n + k];
+    if (!solve_beside_springs(at, reflected_)) return false;
+  }
+  std::copy_n(x_.begin(), n, a.begin());
+  return true;
+}
+
+/// (3), with these multipliers of compliant rows. Friction has a matrix of its own.
+bool Manifold::solve_beside_springs(const Instant& at, std::span<const double> lambda) {
+  const std::size_t n = at.q.size();
   std::ranges::copy(e_.force, x_.begin());
   for (std::size_t k = 0; k < rows_.rows.size(); ++k) {
     const auto r = rows_.rows[k];
     x_[n + k] = -gamma_[r];
     if (system_->law(r).compliant())
-      x_[n + k] += s_[r] * springs_.lambda[r] - system_->law(r).compliance * springs_.second[r];
+      x_[n + k] += s_[r] * lambda[r] - system_->law(r).compliance * springs_.second[r];
   }
-  if (!friction_) {
-    matrix_.solve(x_);
-  } else if (!friction_->solve(at, e_.w, s_, x_)) {
-    return false;
-  }
-  std::copy_n(x_.begin(), n, a.begin());
+  if (friction_) return friction_->solve(at, e_.w, s_, x_);
+  matrix_.solve(x_);
   return true;
 }
 
@@ -257,6 +267,8 @@ bool Manifold::project_impulsively(double t, std::span<const double> q, std::spa
   if (!factorise()) return false;
   correct_velocities(v);
   multipliers(impulses);
+  for (std::size_t r = 0; r < s_.size(); ++r)
+    if (compliant(r)) impulses[r] = 0.0;
   return true;
 }
 

@@ -45,8 +45,13 @@ struct Violation {
 /// A compliant row takes part with its multiplier as a variable, s = c^2 C in the lower right block:
 /// its residuals are g + C lambda, psi + C lambda', W v' + gamma + C lambda'', and y changes lambda by
 /// c^2 y. A stiff spring (s small) is treated like a rigid constraint and gets the recovered
-/// multiplier; of a soft one (s large) the stepper's own is kept. Without `follow` the multipliers are
-/// -g/C, the limit of large s.
+/// multiplier; of a soft one (s large) the stepper's own is kept: lambda'' is known to the error of lambda
+/// over a step's square, so what it contributes by changing no elongation (between held points) is dropped,
+///
+///   y := lambda + (S + s)^-1 S (y - lambda),   S = W M^-1 W^T,                         (4)
+///
+/// which is (3) solved again with 2 lambda - y for lambda. Without `follow` the multipliers are -g/C, the
+/// limit of large s.
 ///
 /// Where rows are redundant, those in use may come to depend on each other while others do not. Wherever the
 /// matrix is factored others then take over: which ones are in use shows in no motion and no force.
@@ -68,7 +73,7 @@ class Manifold {
                                   std::span<double> a, std::span<double> lambda);
 
   /// (2) alone, where it takes more than a correction: the impulses that put v onto the constraints, one per
-  /// row of the system. False if singular.
+  /// row of the system, none of compliant ones. Without `follow`. False if singular.
   [[nodiscard]] bool project_impulsively(double t, std::span<const double> q, std::span<double> v,
                                          std::span<double> impulses);
 
@@ -129,6 +134,9 @@ class Manifold {
   template <class F>
   void hear(const F& equations);
   void evaluate(const Instant& at);
+  [[nodiscard]] bool compliant(std::size_t row) const {
+    return system_->in_force(row) && system_->law(row).compliant();
+  }
   void add_springs();
   void weigh_springs();
   void use(ActiveRows rows);
@@ -139,6 +147,7 @@ class Manifold {
   void solve_for_position_step(std::size_t n);
   void correct_velocities(std::span<double> v);
   [[nodiscard]] bool solve_for_accelerations(const Instant& at, std::span<double> a);
+  [[nodiscard]] bool solve_beside_springs(const Instant& at, std::span<const double> lambda);
 
   Problem problem_;
   const System* system_;  // its own
@@ -147,7 +156,7 @@ class Manifold {
   System::Evaluation e_;
   std::vector<double> gamma_, x_, q_before_;
   Springs springs_, springs_before_;
-  std::vector<double> s_;
+  std::vector<double> s_, reflected_;
   bool following_ = false, listening_ = false;
   Branches::Outcomes heard_;
   SaddleMatrix matrix_;

@@ -222,25 +222,52 @@ bool Recovery::mark_multipliers(Moment& m) const {
   return any;
 }
 
-/// The force of a spring of stiffness 1/C is off by dx/C where positions are off by dx. That is a rounding of
-/// what was stated; each step adds some more, and as nothing damps the vibration they wander, sqrt(n) steps'
-/// far after n steps. As elsewhere a force may be wrong by the root of the tolerance, relative to the largest
-/// of constraint or inertia.
-void Recovery::mark_springs(const Manifold& manifold, Moment& m, long steps) const {
-  const auto& w = manifold.equations().w;
-  const double dx =
-      scales_.largest_rounding(m.q) + std::sqrt(static_cast<double>(steps)) * scales_.rounding(m.q);
+/// Of constraint, inertia or forces on any coordinate, as forces on lengths.
+double Recovery::largest_force(const Manifold& manifold, const Moment& m) const {
+  const auto& [force, g, psi, w] = manifold.equations();
   double largest = 0.0;
   for (std::size_t r = 0; r < m.lambda.size(); ++r)
     largest = std::max(largest, std::abs(m.lambda[r]) * gradient_length(*system_, w, lengths_, r));
   for (std::size_t i = 0; i < m.a.size(); ++i)
-    largest = std::max(largest, system_->masses()[i] * std::abs(m.a[i]) / lengths_[i]);
+    largest = std::max(
+        {largest, system_->masses()[i] * std::abs(m.a[i]) / lengths_[i], std::abs(force[i]) / lengths_[i]});
+  return largest;
+}
+
+/// Per row, how far its spring will be stretched in the scene's time, by its rate and, where that is
+/// determined, its acceleration.
+std::vector<double> Recovery::stretches_to_come(const Moment& m) const {
+  auto e = system_->evaluation();
+  std::vector<double> gamma(m.lambda.size()), stretches(gamma);
+  const Instant at{m.t, m.q, m.v};
+  system_->evaluate(at, e);
+  system_->bias(at, gamma);
+  const double T = scales_.time;
+  for (std::size_t r = 0; r < stretches.size(); ++r) {
+    for (const std::size_t k : system_->row(r)) gamma[r] += e.w[k] * m.a[system_->w_columns()[k]];
+    stretches[r] =
+        std::abs(e.psi[r]) * T + (std::isfinite(gamma[r]) ? 0.5 * std::abs(gamma[r]) * T * T : 0.0);
+  }
+  return stretches;
+}
+
+/// The force of a spring of stiffness 1/C is off by dx/C where positions are off by dx. That is a rounding of
+/// what was stated; each step adds some more, and as nothing damps the vibration they wander, sqrt(n) steps'
+/// far after n steps. As elsewhere a force may be wrong by the root of the tolerance, relative to the largest
+/// that there is; at the start, where there may be none yet, also to what its own will be.
+void Recovery::mark_springs(const Manifold& manifold, Moment& m, long steps) const {
+  const auto& w = manifold.equations().w;
+  const double dx =
+      scales_.largest_rounding(m.q) + std::sqrt(static_cast<double>(steps)) * scales_.rounding(m.q);
+  const double largest = largest_force(manifold, m);
+  const auto to_come = steps == 0 ? stretches_to_come(m) : std::vector<double>{};
   for (const Layout::Constraint& c : system_->layout()->constraints) {
     for (const std::size_t r : c.own_rows()) {
       const double C = system_->law(r).compliance;
-      if (C == 0.0) continue;
+      if (C == 0.0 || !system_->in_force(r)) continue;
       const double gradient = gradient_length(*system_, w, lengths_, r);
-      if (gradient * gradient * dx <= std::sqrt(tolerance_) * largest * C) continue;
+      const double stretch = largest * C + gradient * (to_come.empty() ? 0.0 : to_come[r]);
+      if (gradient * gradient * dx <= std::sqrt(tolerance_) * stretch) continue;
       m.lambda[r] = undetermined;
       std::ranges::fill(c.slots().in(std::span(m.forces)), undetermined);
       for (const std::size_t j : system_->row(r)) m.a[system_->w_columns()[j]] = undetermined;

@@ -59,6 +59,8 @@ class Recovery {
   void mark_undetermined(Manifold& manifold, Moment& m);
   [[nodiscard]] bool mark_multipliers(Moment& m) const;
   void mark_accelerations(Moment& m) const;
+  [[nodiscard]] double largest_force(const Manifold& manifold, const Moment& m) const;
+  [[nodiscard]] std::vector<double> stretches_to_come(const Moment& m) const;
   void mark_springs(const Manifold& manifold, Moment& m, long steps) const;
   void require_finite(const Moment& m) const;
   void leave_forces_out(Moment& m) const;
