@@ -46,7 +46,6 @@ void ErkStepper::State::measure_noise() {
   }
   for (std::size_t i = 0; i < n; ++i)
     noise[i] = std::max(constants.forgetting * noise[i], std::abs(a[i] - to.va[n + i]));
-  const auto lengths = scales.lengths();
   const double off = position_violation(*system, manifold.equations(), lengths).size,
                off_speed = velocity_violation(*system, manifold.equations(), lengths).size;
   noise_of_positions = std::max(constants.forgetting * noise_of_positions, off);
@@ -59,13 +58,17 @@ void ErkStepper::State::weigh(const Node& at, double step, double allowed) {
   const double of_stages = constants.roundings_of_step * of_estimate * step;
   for (std::size_t i = 0; i < n; ++i) {
     const double of_velocity = of_stages * noise[i];
-    const double of_projection =
-        constants.roundings_of_step * (scales.is_angle[i] ? 1.0 / scales.length : 1.0);
+    const double of_projection = constants.roundings_of_step / lengths[i];
     weight[i] = 1.0 / (scales.position_error(i, at.q[i], allowed) + of_velocity * step +
                        of_projection * noise_of_positions);
     weight[n + i] = 1.0 / (scales.velocity_error(i, at.va[i], allowed) + of_velocity +
                            of_projection * noise_of_velocities);
   }
+}
+
+void ErkStepper::State::take(const Way& way) {
+  scales.take(way);
+  for (std::size_t i = 0; i < n; ++i) lengths[i] = scales.is_angle[i] ? scales.length : 1.0;
 }
 
 /// Weighted root mean square of `difference`.
@@ -81,11 +84,11 @@ double ErkStepper::State::size() const {
 /// The estimated error of a step to `next` over the tolerance, or where the estimate is doubtful over a part
 /// of it.
 double ErkStepper::State::error(double step, double doubt) {
-  if (scales.of_path) scales.take(scales.further(next.q, halves(next.va).first, step, tolerance));
+  if (scales.of_path) take(scales.further(next.q, halves(next.va).first, step, tolerance));
   weigh(next, step, tolerance / doubt);
   d.apply(step, k, difference.data(), 2 * n);
-  estimate(step);
   const double e = std::max(size(), doubt * error_of_springs(std::span(difference).first(n)));
+  if (e <= 1.0) estimate(step);
   if (doubt != 1.0) weigh(next, step, tolerance);
   return e;
 }
@@ -96,7 +99,7 @@ double ErkStepper::State::error(double step, double doubt) {
 void ErkStepper::State::estimate(double step) {
   estimated = {.position_noise = noise_of_positions, .velocity_noise = noise_of_velocities};
   for (std::size_t i = 0; i < n; ++i) {
-    const double length = scales.is_angle[i] ? scales.length : 1.0;
+    const double length = lengths[i];
     estimated.position = std::max(estimated.position, std::abs(difference[i]) * length);
     estimated.velocity = std::max(estimated.velocity, std::abs(difference[n + i]) * length);
     estimated.position_noise = std::max(estimated.position_noise, epsilon * std::abs(next.q[i]) * length);

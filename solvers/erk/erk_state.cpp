@@ -28,6 +28,7 @@ ErkStepper::State::State(const Problem& problem, const Start& start, const Optio
     : system(&problem.system()),
       n(start.q.size()),
       scales(start.scales),
+      lengths(start.scales.lengths()),
       tolerance(tolerance_of_a_step(Stepper::erk, options.tolerance)),
       t_end(options.t_end),
       manifold(problem, start.rows, start.scales.lengths()),
@@ -68,7 +69,6 @@ ErkStepper::State::State(const Problem& problem, const Start& start, const Optio
   if (!system->compliant()) return;
   auto e = system->evaluation();
   system->evaluate({options.t_start, start.q, start.v}, e);
-  const auto lengths = scales.lengths();
   for (std::size_t r = 0; r < start.lambda.size(); ++r) {
     const double impulse =
         system->law(r).compliant() ? impulse_of_row(*system, e.w, lengths, r, scales.speed()) : 0.0;

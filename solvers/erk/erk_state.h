@@ -55,6 +55,7 @@ struct ErkStepper::State {
   void find_middle();
 
   void weigh(const Node& at, double step, double allowed);
+  void take(const Way& way);
   [[nodiscard]] double size() const;
   [[nodiscard]] double error(double step, double doubt);
   void estimate(double step);
@@ -103,6 +104,7 @@ struct ErkStepper::State {
   const System* system;
   std::size_t n;
   Scales scales;
+  std::vector<double> lengths;  // see Scales
   double tolerance, t_end;
   Manifold manifold;
   std::vector<Combination<stages>> a;

@@ -116,34 +116,34 @@ bool IdaStepper::State::asks_for_too_much() const {
          scales.rounding(instant(t, y.get()).q);
 }
 
-/// Steps that advance the time by less, or the scene by less than a rounding of its positions, lead nowhere:
-/// the differences in BDF are round-off then.
-double IdaStepper::State::shortest() {
-  return std::max(4.0 * epsilon * std::abs(t),
-                  scales.largest_rounding(instant(t, y.get()).q) / scales.speed());
-}
-
 /// Of the last step: in IDA's notation the local error of BDF is c E with c = 1/(k + 1) in equal steps, where
 /// E is the sum of Newton's corrections to the predictor. What the iteration left has no sign, as round-off,
 /// nor has what the gradients of constraints, known to the rounding of positions, do to velocities.
-StepError IdaStepper::State::error() {
+void IdaStepper::State::find_error() {
   int order = 1;
   check(IDAGetLastOrder(ida.get(), &order), "IDAGetLastOrder");
   check(IDAGetEstLocalErrors(ida.get(), dense.get()), "IDAGetEstLocalErrors");
-  const auto corrections_made = entries(dense.get());
-  const Instant now = instant(t, y.get());
-  const double rounding = scales.largest_rounding(now.q), turned = rounding / (scales.length * sine());
-  StepError of_step{.position_noise = rounding + left_by_newton * tolerance * scales.length};
+  const auto correction = entries(dense.get()), state = entries(y.get());
+  double of_q = 0.0, of_v = 0.0, farthest = 0.0, fastest = 0.0;
   for (std::size_t i = 0; i < n(); ++i) {
-    const double length = scales.is_angle[i] ? scales.length : 1.0;
-    const double left = left_by_newton * scales.velocity_error(i, now.v[i], tolerance);
-    of_step.position = std::max(of_step.position, std::abs(corrections_made[i]) * length);
-    of_step.velocity = std::max(of_step.velocity, std::abs(corrections_made[n() + i]) * length);
-    of_step.velocity_noise = std::max(of_step.velocity_noise, (left + turned * std::abs(now.v[i])) * length);
+    of_q = std::max(of_q, std::abs(correction[i]) * lengths[i]);
+    of_v = std::max(of_v, std::abs(correction[n() + i]) * lengths[i]);
+    farthest = std::max(farthest, std::abs(state[i]) * lengths[i]);
+    fastest = std::max(fastest, std::abs(state[n() + i]) * lengths[i]);
   }
-  of_step.position /= order + 1.0;
-  of_step.velocity /= order + 1.0;
-  return of_step;
+  rounding = epsilon * farthest;
+  const double c = 1.0 / (order + 1.0), left = left_by_newton * tolerance,
+               turned = rounding / (scales.length * std::max(sine(), epsilon));
+  reached = {.position = c * of_q,
+             .velocity = c * of_v,
+             .position_noise = rounding + left * scales.length,
+             .velocity_noise = left * (scales.speed() + fastest) + turned * fastest};
+}
+
+/// Whether a step advances the time by hardly more than its rounding, or the scene by less than a rounding of
+/// its positions: the differences in BDF are round-off then, and lead nowhere.
+bool IdaStepper::State::too_short(double step) const {
+  return step <= 4.0 * epsilon * std::abs(t) || step * scales.length <= rounding * scales.time;
 }
 
 /// After a step: changes the highest order if the guard does. IDA can lower it only by beginning anew at
@@ -201,8 +201,9 @@ void IdaStepper::step(double /*wanted*/) {
   if (code < 0) throw StepFailure{s.explain(code), s.t};
   ++s.steps;
   s.watch_convergence();
+  s.find_error();
   // In front of a fault IDA would halve and double such steps for ever.
-  if (code == IDA_SUCCESS && s.t - before <= s.shortest()) {
+  if (code == IDA_SUCCESS && s.too_short(s.t - before)) {
     throw StepFailure{s.fault_or("the step has become too short to advance time: " + s.cause()), s.t};
   }
   s.watch_order();
@@ -210,7 +211,7 @@ void IdaStepper::step(double /*wanted*/) {
 
 double IdaStepper::time() const { return state_->t; }
 double IdaStepper::sine() const { return state_->newton.sine(); }
-StepError IdaStepper::error() const { return state_->error(); }
+StepError IdaStepper::error() const { return state_->reached; }
 
 void IdaStepper::interpolate(double t, std::span<double> q, std::span<double> v) {
   const State& s = *state_;

@@ -15,6 +15,7 @@ IdaStepper::State::State(const Problem& problem, const Start& start, const Optio
     : system(&problem.system()),
       rows(start.rows),
       scales(start.scales),
+      lengths(start.scales.lengths()),
       tolerance(tolerance_of_a_step(Stepper::ida, options.tolerance)),
       t_end(options.t_end),
       first_step(std::min(constants.first_implicit_step * std::sqrt(options.tolerance) * start.scales.time,
@@ -51,7 +52,7 @@ IdaStepper::State::State(const Problem& problem, const Start& start, const Optio
 }
 
 void IdaStepper::State::find_impulses() {
-  const auto lengths = scales.lengths();
+  lengths = scales.lengths();
   for (std::size_t r = 0; r < m(); ++r) {
     const auto row = rows.rows[r];
     impulse_row[r] = impulse_of_row(*system, e.w, lengths, row, scales.speed());

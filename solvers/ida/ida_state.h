@@ -35,6 +35,7 @@ struct IdaStepper::State {
   const System* system;
   ActiveRows rows;
   Scales scales;
+  std::vector<double> lengths;          // see Scales
   double tolerance, t_end, first_step;  // tolerance: of a step
   System::Evaluation e;
   std::vector<double> lambda;          // one per row of the system
@@ -45,6 +46,8 @@ struct IdaStepper::State {
   bool order_changed = false, begin_anew = false;  // by the guard, not yet done
   double t = 0.0;
   long steps = 0, evaluations = 0, error_tests = 0, convergence = 0;
+  StepError reached;            // of the last step
+  double rounding = 0.0;        // of the positions where it ended, as a length
   double left_by_newton = 0.0;  // of the last iteration, over the weights
   long solve_failures = 0;      // of Newton, as IDA counted them last
   long unresolved_steps = 0;    // longer than the vibration of a stiff force
@@ -79,8 +82,8 @@ struct IdaStepper::State {
   void make_newton();
   [[nodiscard]] int test_convergence(int iteration, N_Vector correction, N_Vector weight,
                                      double newton_tolerance);
-  [[nodiscard]] StepError error();
-  [[nodiscard]] double shortest();
+  void find_error();
+  [[nodiscard]] bool too_short(double step) const;
   void watch_order();
   void change_order();
   void watch_convergence();

@@ -141,5 +141,56 @@ TEST_P(Accuracy, FarFromTheOriginIsThatOfTheRoundingThere) {
   }
 }
 
+/// A bicycle of four bodies, 20 m from where it started in the end, that is pushed from the side: its heavy
+/// frame, light fork and small wheels let round-off of positions grow in accelerations.
+Scene<3> bicycle() {
+  constexpr double speed = 5.0, radius = 0.3, base = 1.0, trail = 0.08, tilt = 0.3;
+  Scene<3> scene("bicycle");
+  scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
+  const auto wheel = [&](double x, double mass, const char* name) {
+    const double across = 0.25 * mass * radius * radius;
+    const auto body = add_body(scene,
+                               {.mass = mass,
+                                .inertia = {1.05 * across, 2.0 * across, 1.05 * across},
+                                .centre = {x, 0.0, radius},
+                                .velocity = {speed, 0.0, 0.0},
+                                .angular_velocity = {0.0, speed / radius, 0.0}},
+                               name);
+    const auto a = body.point({radius, 0.0, 0.0}), b = body.point({0.0, 0.0, radius});
+    scene.add(DiskContact{body.centre(), a, b, radius});
+    scene.add(DiskRolling{body.centre(), a, b, radius});
+    return body;
+  };
+  const auto rear = wheel(0.0, 2.0, "rear"), front = wheel(base, 3.0, "front");
+  const auto frame = add_body(
+      scene,
+      {.mass = 85.0, .inertia = {9.2, 11.0, 2.8}, .centre = {0.3, 0.0, 0.9}, .velocity = {speed, 0.0, 0.0}},
+      "frame");
+  const auto fork = add_body(
+      scene,
+      {.mass = 4.0, .inertia = {0.06, 0.06, 0.01}, .centre = {0.9, 0.0, 0.7}, .velocity = {speed, 0.0, 0.0}},
+      "fork");
+  const Vec<3> across(0.0, 1.0, 0.0), head(-std::sin(tilt), 0.0, std::cos(tilt));
+  add_joint(scene, Revolute{frame, rear, {0.0, 0.0, radius}, across}, "rear hub");
+  add_joint(scene, Revolute{fork, front, {base, 0.0, radius}, across}, "front hub");
+  add_joint(scene, Revolute{frame, fork, Vec<3>(base + trail, 0.0, 0.0) + head * (0.9 / head.z()), head},
+            "head");
+  scene.add(
+      force_law(points(fork.centre()), [](auto, auto u) { return (0.0 * u + Vec<3>::UnitY()).eval(); }));
+  return scene;
+}
+
+TEST(AccuracyOfABicycle, EndsAtRoundOffInStepsOfUsualLength) {
+  // Steps of order 8 are shorter by the eighth root of the tolerance; twice that is for those that round-off
+  // repeats.
+  const auto run = [](double tolerance) {
+    return simulate(bicycle(), {.t_end = 2.0, .samples = 2, .tolerance = tolerance, .stepper = Stepper::erk})
+        .statistics();
+  };
+  const Statistics before = run(1e-10), s = run(1e-13);
+  EXPECT_LE(static_cast<double>(s.steps), 2.0 * std::pow(1e3, 0.125) * static_cast<double>(before.steps));
+  EXPECT_GT(s.accuracy, 1e-12);  // and it says so
+}
+
 }  // namespace
 }  // namespace dalembert::accuracy_test
