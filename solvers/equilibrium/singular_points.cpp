@@ -83,10 +83,11 @@ SingularPoints::Followed SingularPoints::follow(const Node& a, const Node& b) {
   const Eigen::MatrixXd to_b = (a.stiffness.duals.transpose() * b.stiffness.shapes).cwiseAbs(),
                         to_a = (a.stiffness.shapes.transpose() * b.stiffness.duals).cwiseAbs();
   Followed found;
+  found.alike = to_b.cwiseProduct(to_a).cwiseSqrt();
   std::vector<char> taken(static_cast<std::size_t>(n), 0);
   for (Index i = 0; i < m; ++i) {
     Index j = 0;
-    const bool known = n > 0 && std::sqrt(to_b.row(i).cwiseProduct(to_a.row(i)).maxCoeff(&j)) > same_shape;
+    const bool known = n > 0 && found.alike.row(i).maxCoeff(&j) > same_shape;
     if (!known || std::exchange(taken[static_cast<std::size_t>(j)], 1) == 1)
       found.of_a.push_back(i);
     else
@@ -97,15 +98,17 @@ SingularPoints::Followed SingularPoints::follow(const Node& a, const Node& b) {
   return found;
 }
 
-/// Where all that is not known again is on one side of 0 nothing has passed there.
+/// Whether something that is not known again may have passed 0: shapes of one frequency are not told from
+/// each other, but they are from those on the other side of 0.
 bool SingularPoints::Followed::matters(const Node& a, const Node& b) const {
-  bool below = false, above = false;
-  const auto look = [&](const VectorXd& values, const std::vector<Index>& places) {
-    for (const Index k : places) (values[k] < 0.0 ? below : above) = true;
-  };
-  look(a.stiffness.values, of_a);
-  look(b.stiffness.values, of_b);
-  return below && above;
+  constexpr double alike_at_all = 0.5;  // a shape among two others is at least sqrt(1/2) of one
+  for (const Index i : of_a) {
+    for (const Index j : of_b) {
+      const bool passed = (a.stiffness.values[i] < 0.0) != (b.stiffness.values[j] < 0.0);
+      if (passed && alike(i, j) > alike_at_all) return true;
+    }
+  }
+  return false;
 }
 
 void SingularPoints::Followed::pair_the_rest() {

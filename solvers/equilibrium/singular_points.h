@@ -42,6 +42,7 @@ class SingularPoints {
   struct Followed {
     std::vector<Pair> pairs{};
     std::vector<Eigen::Index> of_a{}, of_b{};  ///< that are not known again
+    Eigen::MatrixXd alike{};                   ///< how much each of a is of each of b
 
     [[nodiscard]] bool matters(const Node& a, const Node& b) const;
     /// By their order, where shapes do not tell.
