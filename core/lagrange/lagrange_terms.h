@@ -1,8 +1,11 @@
 #pragma once
 
+#include <dalembert/core/autodiff/branches.h>
 #include <dalembert/core/equations/arguments.h>
 #include <dalembert/core/vec.h>
 
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace dalembert {
@@ -97,5 +100,35 @@ class LagrangianOf final : public Lagrangian<N> {
  private:
   F function_;
 };
+
+namespace detail {
+
+/// Whether a Lagrangian does not depend on coordinate k there: it is finite where that is no number, its
+/// derivative is 0, and no comparison is decided by it: all have the same outcome wherever the coordinate is.
+template <int N>
+[[nodiscard]] bool independent_of(const Lagrangian<N>& lagrangian, int k, double t, Vec<N> q,
+                                  const Vec<N>& v) {
+  constexpr double far = 1e100;
+  const auto outcomes = [&](double place) {
+    q[k] = place;
+    Branches::Outcomes heard(1);
+    const Branches listening(heard);
+    const LagrangeTerms<N> terms = lagrangian.terms(t, q, v);
+    const bool finite = std::isfinite(terms.L) && terms.L_q.allFinite() && terms.L_v.allFinite() &&
+                        terms.L_vv.allFinite() && terms.L_vq.allFinite();
+    return std::pair(heard[0], finite && terms.L_q[k] == 0.0);
+  };
+  try {
+    const auto [nowhere, free] = outcomes(std::numeric_limits<double>::quiet_NaN());
+    if (!free) return false;
+    for (const double place : {0.0, far, -far})
+      if (outcomes(place).first != nowhere) return false;
+    return true;
+  } catch (...) {
+    return false;
+  }
+}
+
+}  // namespace detail
 
 }  // namespace dalembert

@@ -39,8 +39,11 @@ struct CoordinateState {
 /// lambda.
 ///
 /// Where L_vv is singular along what the constraints leave free, (1) gives no acceleration. A start there is
-/// rejected with that direction (InconsistentStart); a Lagrangian without velocities is one such. On the way
-/// to such a place accelerations grow without bound, and the run stops there (IntegrationFailure).
+/// rejected with that direction (InconsistentStart); a Lagrangian without velocities is one such. A run ends
+/// (IntegrationFailure) on the way to such a place, if accelerations grow without bound there, or where the
+/// determinant of the inertia has changed its sign. A motion that passes such a place with finite
+/// accelerations, as that of v^4/4 passes v = 0, may go on: `ida` as a rule passes it, `erk` stops where a
+/// stage of it comes too close to have an acceleration.
 template <int N>
 class LagrangianSystem {
   static_assert(N > 0 && N <= detail::most_coordinates, "a Lagrangian has 1 to 32 coordinates");
@@ -87,8 +90,8 @@ class LagrangianSystem {
   [[nodiscard]] bool forced() const { return !forces_.empty(); }
 
   /// The coordinates that L does not depend on (ignorable ones): their momenta change only by forces Q and
-  /// constraints. L is evaluated with such a coordinate NaN; a dependence only at times far from 0 is not
-  /// found.
+  /// constraints. L is evaluated with such a coordinate NaN, and no comparison may depend on it, here and
+  /// now and at t = 0 and 1. Whether it is so elsewhere, a reduced system asks wherever it comes.
   [[nodiscard]] std::vector<int> cyclic() const;
 
   /// Its equations, and the scene of rotors that moves by them from a time on, angles q/scale. For
@@ -178,15 +181,7 @@ Scene<2> LagrangianSystem<N>::rotor_scene(double t_start) const {
 template <int N>
 std::vector<int> LagrangianSystem<N>::cyclic() const {
   const auto independent = [this](int k, double t) {
-    Vec<N> q = position();
-    q[k] = std::numeric_limits<double>::quiet_NaN();
-    try {
-      const auto terms = lagrangian_->terms(t, q, velocity());
-      return std::isfinite(terms.L) && terms.L_q.allFinite() && terms.L_v.allFinite() &&
-             terms.L_vv.allFinite() && terms.L_vq.allFinite() && terms.L_q[k] == 0.0;
-    } catch (...) {
-      return false;
-    }
+    return detail::independent_of(*lagrangian_, k, t, position(), velocity());
   };
   std::vector<int> found;
   for (int k = 0; k < N; ++k)

@@ -3,6 +3,8 @@
 #include <dalembert/core/lagrange/lagrangian_system.h>
 
 #include <algorithm>
+#include <limits>
+#include <stdexcept>
 
 namespace dalembert {
 
@@ -19,6 +21,7 @@ class Routhian final : public Lagrangian<N - 1> {
   Routhian(std::shared_ptr<const Lagrangian<N>> of, int cyclic, double place, double rate, double momentum)
       : of_(std::move(of)), cyclic_(cyclic), place_(place), rate_(rate), momentum_(momentum) {}
 
+  /// Asks at every call whether L depends on x; throws std::domain_error where it does.
   [[nodiscard]] LagrangeTerms<N - 1> terms(double t, const Vec<N - 1>& q, const Vec<N - 1>& v) const override;
   /// x' in (1), by Newton's iteration: one step where L is quadratic in it. Throws EquationFault where no
   /// rate gives the momentum.
@@ -80,6 +83,9 @@ std::pair<LagrangeTerms<N>, double> Routhian<N>::solve(double t, const Vec<N - 1
 template <int N>
 LagrangeTerms<N - 1> Routhian<N>::terms(double t, const Vec<N - 1>& q, const Vec<N - 1>& v) const {
   const auto [L, rate] = solve(t, q, v);
+  if (!detail::independent_of(*of_, cyclic_, t, with(place_, q), with(rate, v)))
+    throw std::domain_error("depends, at t = " + detail::text(t) +
+                            ", on the coordinate that was left out as cyclic; do without the reduction");
   const double inertia = L.L_vv(cyclic_, cyclic_);
   const Vec<N - 1> coupling = others(L.L_vv.col(cyclic_));
   LagrangeTerms<N - 1> R;

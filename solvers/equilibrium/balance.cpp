@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace dalembert {
@@ -14,6 +15,8 @@ namespace dalembert {
 namespace {
 
 constexpr int most_corrections = 60, most_halvings = 6, most_descents = 2000;
+/// A sum of forces counts as 0 below this many roundings of the largest of them.
+constexpr double roundings = 100.0;
 
 void require_finite(double time, const Turning<3>& turning, int dimension) {
   if (!std::isfinite(time)) throw InvalidArgument("Option time of an equilibrium must be finite");
@@ -34,6 +37,10 @@ void require_frictionless(const System& system) {
 void require_bilateral(const System& system) {
   const auto label = system.conditional_label();
   if (label.empty()) return;
+  for (const std::size_t c : system.released())
+    throw InvalidScene("Equilibria of scene \"" + system.layout()->scene +
+                       "\": " + system.layout()->constraints[c].label() +
+                       " has been released and is not in force; put it back, or build the scene without it");
   throw InvalidScene("Equilibria of scene \"" + system.layout()->scene + "\": " + label +
                      " does not always hold; state it as a bilateral one, and check the sign of its force");
 }
@@ -57,7 +64,9 @@ Balance::Balance(const Problem& problem, std::span<const double> guess, double t
   lambda0_ = std::move(start.lambda);
   rows_ = std::move(start.rows);
   scales_ = std::move(start.scales);
-  measure_stiffness();
+  State begin{q0_, std::vector<double>(q0_.size()), lambda0_};
+  frame_.velocity(begin.q, begin.v);
+  measure_stiffness(begin);
 }
 
 Balance::State Balance::start() const {
@@ -100,7 +109,12 @@ void Balance::evaluate(State& s) const {
   }
   share_by_particle(acting);
   s.scale = largest(acting);
-  for (std::size_t i = 0; i < least_force_.size(); ++i) acting[i] = std::max(acting[i], least_force_[i]);
+  s.round_off = true;
+  for (std::size_t i = 0; i < least_force_.size(); ++i) {
+    const double rounding = roundings * epsilon * acting[i] + balanced * least_force_[i];
+    s.round_off = s.round_off && std::abs(s.force[i]) <= rounding;
+    acting[i] = std::max(acting[i], least_force_[i]);
+  }
   s.acting = std::move(acting);
   s.distance = std::move(e.g);
   s.off = 0.0;
@@ -111,6 +125,7 @@ void Balance::evaluate(State& s) const {
                      std::abs(s.distance[r]) / gradient_length(*system_, e.w, lengths, r) / scales_.length);
   }
   s.size = size(s, s.acting);
+  s.round_off = s.round_off && s.off <= roundings * epsilon;
 }
 
 double Balance::size(const State& s, std::span<const double> acting) {
@@ -127,22 +142,36 @@ ActiveRows Balance::rows_at(const State& s) const {
   return independent_rows(*system_, e.w);
 }
 
-/// From the stiffness at the guess: the shift s that keeps K + s M regular along free motions, where K is 0
+/// From the stiffness at a state: shifts s that keep K + s M regular along free motions, where K is 0
 /// (Newton's iteration then converges by this part of K a step), and for each coordinate the force that
 /// counts as 0, made by a displacement of round-off.
-void Balance::measure_stiffness() {
-  std::vector<double> v(q0_.size());
-  frame_.velocity(q0_, v);
-  const LinearTerms terms = linear_terms(*system_, frame_, {time_, q0_, v}, lambda0_);
-  double highest = 0.0;
-  least_force_.assign(q0_.size(), 0.0);
+///
+/// Each coordinate has a shift of its own, a part of the stiffest spring on it, and where there is none of
+/// the stiffest in its uncoupled part of the scene: what is soft is not held by what is stiff elsewhere. The
+/// least that K's round-off allows serves where something is soft beside something stiff on the same
+/// coordinate.
+void Balance::measure_stiffness(const State& s) {
+  const LinearTerms terms = linear_terms(*system_, frame_, {time_, s.q, s.v}, s.lambda);
+  const Islands& parts = problem_.islands();
+  std::vector<double> own(s.q.size(), 0.0), of_part(parts.count, 0.0);
+  least_force_.assign(s.q.size(), 0.0);
   for (const auto& entry : terms.stiffness) {
     const auto row = entry.row(), column = entry.col();
-    highest = std::max(highest, std::abs(entry.value()) / system_->masses()[row]);
-    const double rounding = 10.0 * epsilon * std::max(scales_.unit(column), std::abs(q0_[column]));
+    const double size = std::abs(entry.value()) / system_->masses()[row];
+    own[row] = std::max(own[row], size);
+    of_part[parts.of_coordinate[row]] = std::max(of_part[parts.of_coordinate[row]], size);
+    const double rounding = 10.0 * epsilon * std::max(scales_.unit(column), std::abs(s.q[column]));
     least_force_[row] += std::abs(entry.value()) * rounding / balanced;
   }
-  shift_ = constants.no_stiffness * (highest > 0.0 ? highest : 1.0 / (scales_.time * scales_.time));
+  stiffest_.resize(s.q.size());
+  shift_.resize(s.q.size());
+  least_shift_.resize(s.q.size());
+  for (std::size_t i = 0; i < s.q.size(); ++i) {
+    const double part = of_part[parts.of_coordinate[i]];
+    stiffest_[i] = part > 0.0 ? part : 1.0 / (scales_.time * scales_.time);
+    shift_[i] = constants.no_stiffness * (own[i] > 0.0 ? own[i] : stiffest_[i]);
+    least_shift_[i] = roundings * epsilon / constants.no_stiffness * shift_[i];
+  }
   share_along_rows(terms.w);
 }
 
@@ -175,7 +204,7 @@ void Balance::share_along_rows(std::span<const double> w) {
 }
 
 /// A step (dq, dlambda) of (K + s M) dq - W^T dlambda = R1, W dq + C dlambda = -R2.
-bool Balance::step(const State& s, double shift, std::vector<double>& x) const {
+bool Balance::step(const State& s, std::span<const double> shift, std::vector<double>& x) const {
   const ActiveRows rows = rows_at(s);
   const LinearTerms terms = linear_terms(*system_, frame_, {time_, s.q, s.v}, s.lambda);
   TangentMatrix matrix(*system_, rows, terms, shift);
@@ -212,12 +241,98 @@ bool Balance::improve(State& s, const std::vector<double>& x) const {
   return false;
 }
 
-bool Balance::solve(State& s) const {
-  std::vector<double> x;
-  for (int i = 0; i < most_corrections && s.size > 0.0; ++i) {
-    if (!step(s, shift_, x) || !improve(s, x)) break;
+/// Whether a step climbs against the forces without being near what it climbs to: by Newton and Kantorovich's
+/// theorem it is, where a full step leaves less than a quarter of the residual; and a linear equation tells
+/// nothing farther away than the scene is large.
+bool Balance::leaps_uphill(const State& s, const std::vector<double>& x) const {
+  double power = 0.0, length = 0.0;
+  State there = s;
+  for (std::size_t i = 0; i < s.q.size(); ++i) {
+    power += s.force[i] * x[i];
+    length = std::max(length, std::abs(x[i]) / scales_.unit(i));
+    there.q[i] += x[i];
   }
-  return s.size <= balanced;
+  if (power >= 0.0 || s.round_off) return false;
+  if (length > 1.0) return true;
+  for (std::size_t r = 0; r < s.lambda.size(); ++r) there.lambda[r] += x[s.q.size() + r];
+  try {
+    evaluate(there);
+  } catch (const EquationFault&) {
+    return true;
+  }
+  return size(there, s.acting) > 0.25 * s.size;
+}
+
+void Balance::newton(State& s, std::span<const double> shift) const {
+  std::vector<double> x;
+  for (int i = 0; i < most_corrections && s.size > 0.0; ++i)
+    if (!step(s, shift, x) || leaps_uphill(s, x) || !improve(s, x)) break;
+}
+
+/// Where that leaves more than round-off something may be softer than the shift: the stiffness is measured
+/// anew there, and the least shift taken.
+bool Balance::solve(State& s) const {
+  newton(s, shift_);
+  if (s.round_off) return true;
+  Balance here = *this;
+  here.measure_stiffness(s);
+  here.evaluate(s);
+  here.newton(s, here.least_shift_);
+  evaluate(s);
+  return settled(s, balanced);
+}
+
+/// The largest part of Newton's correction, in units of the coordinates; infinite where it is the shift and
+/// no stiffness that keeps it small.
+double Balance::correction(const State& s) const {
+  std::vector<double> x;
+  if (s.off > balanced || !step(s, least_shift_, x)) return std::numeric_limits<double>::infinity();
+  double most = 0.0;
+  for (std::size_t i = 0; i < s.q.size(); ++i) {
+    const double held = least_shift_[i] * system_->masses()[i] * std::abs(x[i]);
+    const double rounding = roundings * epsilon * s.acting[i];
+    if (held > 0.5 * std::abs(s.force[i]) + rounding) return std::numeric_limits<double>::infinity();
+    most = std::max(most, std::abs(x[i]) / scales_.unit(i));
+  }
+  return most;
+}
+
+/// Forces may cancel each other before they are added to those of the constraints: a residual is round-off if
+/// it is so of their magnitudes, summed without sign.
+bool Balance::is_round_off_of_its_terms(const State& s) const {
+  constexpr std::size_t most_looked_at = 100;
+  std::size_t looked_at = 0;
+  const Layout& layout = *system_->layout();
+  const auto small = [&](int coordinate, double mass, std::size_t width) {
+    const auto first = static_cast<std::size_t>(coordinate);
+    double unbalanced = 0.0, sum = 0.0;
+    for (std::size_t i = first; i < first + width; ++i)
+      unbalanced = std::max(unbalanced, std::abs(s.force[i]) / (roundings * epsilon));
+    if (unbalanced <= s.acting[first]) return true;
+    if (++looked_at > most_looked_at) return false;
+    std::vector<double> one(width);
+    for (std::size_t f = 0; f < layout.forces.size(); ++f) {
+      if (!layout.applied->on(f, {time_, s.q, s.v}, s.lambda, coordinate, mass, one)) return false;
+      sum += largest(one);
+    }
+    return unbalanced <= sum;
+  };
+  return std::ranges::all_of(layout.particles,
+                             [&](const auto& p) {
+                               return small(p.coordinate, p.mass, static_cast<std::size_t>(layout.dimension));
+                             }) &&
+         std::ranges::all_of(layout.rotors, [&](const auto& r) { return small(r.coordinate, 0.0, 1); });
+}
+
+bool Balance::settled(const State& s, double close) const {
+  if (s.size <= close) return true;
+  Balance here = *this;
+  here.measure_stiffness(s);
+  State now = s;
+  here.evaluate(now);
+  if (now.size <= close) return true;
+  if (now.off <= close && here.is_round_off_of_its_terms(now)) return true;
+  return here.correction(now) <= close;
 }
 
 bool Balance::project(State& s) const {
@@ -233,9 +348,10 @@ bool Balance::project(State& s) const {
 
 void Balance::descend(State& s) const {
   const double longest = constants.longest_descent * scales_.length;
-  double shift = 1e6 * shift_;
-  std::vector<double> x;
-  for (int i = 0; i < most_descents; ++i, shift *= 4.0) {
+  double part = 1e6 * constants.no_stiffness;  // of the stiffest, as the shift
+  std::vector<double> x, shift(s.q.size());
+  for (int i = 0; i < most_descents; ++i, part *= 4.0) {
+    std::ranges::transform(stiffest_, shift.begin(), [part](double k) { return part * k; });
     if (!step(s, shift, x)) continue;
     double power = 0.0, length = 0.0;
     for (std::size_t k = 0; k < s.q.size(); ++k) {
@@ -256,7 +372,7 @@ void Balance::descend(State& s) const {
       s = std::move(settled);
       return;
     }
-    shift = std::max(shift / 32.0, shift_);
+    part = std::max(part / 32.0, constants.no_stiffness);
   }
   refuse(s, "no equilibrium was found from this guess");
 }
@@ -294,6 +410,20 @@ bool Balance::balanced_otherwise(State& s) const {
   return true;
 }
 
+/// What to do about a row that moves.
+std::string Balance::remedy(std::size_t row) const {
+  if (!frame_.rotates() || system_->layout()->dimension == 2)
+    return "; give the turning of its drive as an option, or a scene whose constraints do not move";
+  bool of_rotor = false;
+  for (const std::size_t k : system_->row(row))
+    of_rotor = of_rotor || frame_.first(system_->w_columns()[k]) == RotatingFrame::none;
+  if (of_rotor)
+    return "; in space rotors keep their angles while a scene turns: leave out what drives one, and hold "
+           "what "
+           "it carries to particles that the turning carries round";
+  return "; the option turning must be that of its drive, with the same axis and sense";
+}
+
 /// An equilibrium persists; a state that is at rest only for an instant does not. The instants tried are no
 /// likely fraction of a period.
 void Balance::require_lasting(const State& s) const {
@@ -311,13 +441,13 @@ void Balance::require_lasting(const State& s) const {
       std::ostringstream what;
       what << system_->row_label(moving.row) << " moves by " << moving.size << " at t = " << time_ + later
            << (frame_.rotates() ? " relative to the rotating frame" : ", where the scene is to be at rest")
-           << "; give the turning of its drive as an option, or a scene whose constraints do not move";
+           << remedy(moving.row);
       throw NoEquilibrium(what.str());
     }
     Balance then = *this;
     then.time_ += later;
     then.evaluate(at);
-    if (at.size > 1e-8 && !then.balanced_otherwise(at))
+    if (!then.settled(at, 1e-8) && !then.balanced_otherwise(at))
       then.refuse(at, frame_.rotates()
                           ? "the forces or constraints do not turn with the scene"
                           : "the forces or constraints change with time, and so does the balance");
@@ -363,5 +493,32 @@ std::shared_ptr<const Record> find_equilibrium(System system, std::span<const do
     throw NoEquilibrium(fault.what());
   }
 }
+
+namespace detail {
+
+/// As a start is compared with its constraints: to 1e-8 of the largest velocity.
+std::string left_out(const Record& found, std::span<const double> stated) {
+  const Layout& layout = *found.layout;
+  const FlatSample at = found.sample(0);
+  const double close = 1e-8 * std::max(largest(stated), largest(at.v));
+  std::string names;
+  const auto look = [&](const auto& all, int width) {
+    for (const auto& one : all) {
+      bool differs = false;
+      for (int i = one.coordinate; i < one.coordinate + width; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        differs = differs || (stated[k] != 0.0 && std::abs(stated[k] - at.v[k]) > close);
+      }
+      if (differs) names += " \"" + one.name + '"';
+    }
+  };
+  look(layout.particles, layout.dimension);
+  look(layout.rotors, 1);
+  if (names.empty()) return {};
+  return "the velocities that scene \"" + layout.scene + "\" states for" + names +
+         " were left out: nothing moves in an equilibrium but by its turning";
+}
+
+}  // namespace detail
 
 }  // namespace dalembert

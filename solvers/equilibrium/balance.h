@@ -3,6 +3,7 @@
 #include <dalembert/core/results/trajectory.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/linear_terms.h>
 #include <dalembert/solvers/manifold/manifold.h>
 #include <dalembert/solvers/manifold/start.h>
@@ -29,6 +30,8 @@ class Balance {
     /// The larger of R1 over the forces on its own particle, and of R2 over the scene's length.
     double size = 0.0;
     double off = 0.0;  ///< R2's part of it
+    /// Whether R1 is nowhere more than round-off of the forces, and R2 none.
+    bool round_off = false;
   };
 
   /// Projects the guess onto the constraint manifold. Throws InconsistentStart, NoEquilibrium.
@@ -40,6 +43,10 @@ class Balance {
   [[nodiscard]] ActiveRows rows_at(const State& s) const;
   /// The guess, with the multipliers of the motion that begins there.
   [[nodiscard]] State start() const;
+  /// Whether a state is an equilibrium to this part of its forces and lengths: its residual is as small, or
+  /// so is Newton's correction (where a force grows as x^3 it is as small as its own change), or what is left
+  /// is round-off of the forces of which it is the sum.
+  [[nodiscard]] bool settled(const State& s, double close) const;
   /// Newton's iteration from a state; false if it does not converge.
   [[nodiscard]] bool solve(State& s) const;
   /// Descends until Newton's iteration converges. Throws NoEquilibrium.
@@ -59,17 +66,22 @@ class Balance {
   [[nodiscard]] const System& system() const { return *system_; }
   [[nodiscard]] double time() const { return time_; }
   /// More than the largest K/M at the guess, so that K + s M is regular [1 / time^2].
-  [[nodiscard]] double high_stiffness() const { return 10.0 * shift_ / constants.no_stiffness; }
+  [[nodiscard]] double high_stiffness() const { return 10.0 * largest(stiffest_); }
 
  private:
   /// The residual of a state relative to the forces in another.
   [[nodiscard]] static double size(const State& s, std::span<const double> acting);
-  [[nodiscard]] bool step(const State& s, double shift, std::vector<double>& x) const;
+  [[nodiscard]] bool step(const State& s, std::span<const double> shift, std::vector<double>& x) const;
   [[nodiscard]] bool improve(State& s, const std::vector<double>& x) const;
+  [[nodiscard]] bool leaps_uphill(const State& s, const std::vector<double>& x) const;
+  [[nodiscard]] double correction(const State& s) const;
+  [[nodiscard]] bool is_round_off_of_its_terms(const State& s) const;
+  void newton(State& s, std::span<const double> shift) const;
   [[nodiscard]] bool balanced_otherwise(State& s) const;
-  void measure_stiffness();
+  void measure_stiffness(const State& s);
   void share_by_particle(std::span<double> forces) const;
   void share_along_rows(std::span<const double> w);
+  [[nodiscard]] std::string remedy(std::size_t row) const;
   [[noreturn]] void refuse(const State& s, const std::string& why) const;
 
   Problem problem_;
@@ -79,7 +91,8 @@ class Balance {
   std::vector<double> q0_, lambda0_;
   ActiveRows rows_;
   Scales scales_;
-  double shift_ = 0.0;  // see measure_stiffness
+  std::vector<double> stiffest_;             // of each coordinate: the largest K/M of the part it belongs to
+  std::vector<double> shift_, least_shift_;  // see measure_stiffness
   /// Of the forces on each coordinate, so that a displacement of round-off unbalances nothing.
   std::vector<double> least_force_;
 };

@@ -1,12 +1,13 @@
 #include "dalembert/solvers/equilibrium/branches.h"
 
 #include <dalembert/solvers/base/constants.h>
-#include <dalembert/solvers/base/root.h>
-#include <dalembert/solvers/equilibrium/continuation.h>
+#include <dalembert/solvers/equilibrium/singular_points.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 namespace dalembert {
 
@@ -15,8 +16,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// The fraction of the way between two points to which bifurcations are located.
-constexpr double exact = 1e-14;
 constexpr std::size_t most_points = 5000, most_branches = 50;
 
 void validate(const BranchOptions& o) {
@@ -31,7 +30,7 @@ void validate(const BranchOptions& o) {
 class Follower {
  public:
   Follower(std::function<PosedSystem(double)> pose, const BranchOptions& options)
-      : corrector_(std::move(pose), options), step_(options.step) {}
+      : corrector_(std::move(pose), options), step_(options.step), points_(corrector_, step_) {}
 
   FlatDiagram follow() {
     const auto along = corrector_.tangent(corrector_.begin());
@@ -53,14 +52,14 @@ class Follower {
   };
 
   [[nodiscard]] BranchPoint<FlatEquilibrium> point(const Node& node) const {
-    const double softest = node.stiffness.size() > 0 ? node.stiffness[0] : INFINITY;
-    return {corrector_.parameter(node), node.state, softest};
+    return {corrector_.parameter(node), node.state, node.stiffness.least};
   }
   static double& fraction(Node& node) { return node.x[node.x.size() - 1]; }
 
   void follow_branch(const Start start) {
-    Branch<FlatEquilibrium> branch{{point(start.node)}, start.origin, BranchEnd::lost};
+    Branch<FlatEquilibrium> branch{{point(start.node)}, start.origin, BranchEnd::lost, {}};
     Node last = start.node;
+    std::optional<Node> before;
     VectorXd along = start.along;
     double step = step_;
     bool away = false;  // from where it began
@@ -81,7 +80,7 @@ class Follower {
         step *= 0.5;
         continue;
       }
-      if (next->morse_index() != last.morse_index()) locate(last, *next);
+      locate(before ? &*before : nullptr, last, *next);
       branch.points.push_back(point(*next));
       if (next->x != last.x) along = (next->x - last.x).normalized();
       const double distance = (next->x - start.node.x).norm();
@@ -90,72 +89,64 @@ class Follower {
       if (away && distance < 0.5 * step_ && along.dot(start.along) > 0.0) branch.end = BranchEnd::closed;
       if (branch.points.size() == most_points) branch.end = BranchEnd::most_points;
       if (branch.end != BranchEnd::lost) break;
-      last = *next;
+      before = std::exchange(last, *next);
       step = std::min(2.0 * step, step_);
     }
+    if (branch.end == BranchEnd::lost) branch.why = why_lost(last);
     found_.branches.push_back(std::move(branch));
   }
-
-  /// The point between two at which an eigenvalue changes its sign.
-  [[nodiscard]] std::optional<Node> crossing(const Node& a, const Node& b, Index shape) const {
-    const VectorXd chord = b.x - a.x, normal = chord.normalized();
-    std::optional<Node> found;
-    const auto eigenvalue = [&](double way) {
-      Node guess = a;
-      guess.x += way * chord;
-      const auto next = corrector_.correct(guess, normal);
-      if (!next) return 0.0;  // that ends the search with what there is
-      found = next;
-      return next->stiffness[shape];
-    };
-    (void)root(eigenvalue, 0.0, a.stiffness[shape], 1.0, b.stiffness[shape], exact);
-    return found;
+  [[nodiscard]] std::string why_lost(const Node& last) const {
+    std::ostringstream text;
+    text << "beyond " << corrector_.parameter(last) << " no point was found in steps of "
+         << constants.shortest_branch_step * step_ << ": " << corrector_.why();
+    return text.str();
   }
 
-  /// Locates the singular points between two points of a branch, and the branches that emanate there.
+  /// Adds the singular points between two points of a branch, and the branches that emanate there.
   /// Eigenvalues that vanish at one point make one bifurcation.
-  void locate(const Node& a, const Node& b) {
-    const Index first = std::min(a.morse_index(), b.morse_index()),
-                last = std::max(a.morse_index(), b.morse_index());
-    for (Index shape = first; shape < last;) {
-      const auto found = crossing(a, b, shape);
-      Index count = 1;
-      for (; found && shape + count < last; ++count) {
-        const auto other = crossing(a, b, shape + count);
-        if (!other || !same_place(other->x, found->x)) break;
-      }
-      if (found) locate(*found, shape, count);
-      shape += count;
+  void locate(const Node* before, const Node& a, const Node& b) {
+    auto found = points_.between(before, a, b);
+    for (auto& flutter : found.flutters) {
+      found_.flutters.push_back(point(flutter.at));
+      found_.flutters.back().frequency = flutter.frequency;
+    }
+    while (!found.zeros.empty()) {
+      const Node at = found.zeros.front().at;
+      std::vector<Eigen::VectorXd> null;
+      std::vector<Index> places;
+      std::erase_if(found.zeros, [&](const SingularPoints::Zero& zero) {
+        if (!same_place(zero.at.x, at.x)) return false;
+        null.push_back(corrector_.direction(zero.at.stiffness.shapes.col(zero.place)));
+        places.push_back(zero.place);
+        return true;
+      });
+      locate(at, places, null);
     }
   }
-  void locate(const Node& found, Index first, Index count) {
-    if (corrector_.range_defect(found, first) > constants.range_defect) {
+  void locate(const Node& found, const std::vector<Index>& places, const std::vector<VectorXd>& null) {
+    if (corrector_.range_defect(found, places.front()) > constants.range_defect) {
       found_.folds.push_back(point(found));
       return;
     }
     if (std::ranges::any_of(located_, [&](const VectorXd& x) { return same_place(x, found.x); })) return;
     located_.push_back(found.x);
     found_.bifurcations.push_back(point(found));
-    for (const VectorXd& direction : directions(found, first, count)) switch_branch(found, direction);
+    for (const VectorXd& direction : directions(null)) switch_branch(found, direction);
   }
   [[nodiscard]] bool same_place(const VectorXd& a, const VectorXd& b) const {
     return (a - b).norm() < constants.shortest_branch_step * step_;
   }
 
   /// Both directions of a single null vector, eight of two, of more each and its opposite.
-  static std::vector<VectorXd> directions(const Node& at, Index first, Index count) {
+  static std::vector<VectorXd> directions(const std::vector<VectorXd>& null) {
     std::vector<VectorXd> all;
-    const auto add = [&](const VectorXd& shape) {
-      for (const double sign : {1.0, -1.0}) {
-        VectorXd d = VectorXd::Zero(at.x.size());
-        d.head(shape.size()) = sign * shape.normalized();
-        all.push_back(d);
-      }
+    const auto add = [&](const VectorXd& direction) {
+      for (const double sign : {1.0, -1.0}) all.emplace_back(sign * direction.normalized());
     };
-    for (Index k = first; k < first + count; ++k) add(at.shapes.col(k));
-    if (count == 2) {
-      add(at.shapes.col(first) + at.shapes.col(first + 1));
-      add(at.shapes.col(first) - at.shapes.col(first + 1));
+    for (const VectorXd& one : null) add(one);
+    if (null.size() == 2) {
+      add(null[0] + null[1]);
+      add(null[0] - null[1]);
     }
     return all;
   }
@@ -181,6 +172,7 @@ class Follower {
 
   Corrector corrector_;
   double step_;
+  SingularPoints points_;
   std::vector<Start> starts_;
   std::vector<VectorXd> located_;
   FlatDiagram found_;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -32,8 +33,10 @@ struct BranchPoint {
   double parameter;
   State state;
   /// The lowest eigenvalue of the stiffness K on the tangent space, over the masses (see normal_modes), free
-  /// motions at a state of rest included: below 0 the stiffness is not definite [1 / time^2].
+  /// motions at a state of rest included: below 0 the stiffness is not definite. With circulatory forces the
+  /// lowest real part [1 / time^2].
   double softest;
+  double frequency = 0.0;  ///< at a flutter, of the vibration [rad / time]
 };
 
 inline constexpr std::size_t no_bifurcation = std::numeric_limits<std::size_t>::max();
@@ -52,6 +55,7 @@ struct Branch {
   std::vector<BranchPoint<State>> points;
   std::size_t origin = no_bifurcation;  ///< the bifurcation where it emanates, if it does
   BranchEnd end = BranchEnd::lost;
+  std::string why{};  ///< of `lost`: where, and what failed there
 };
 
 template <class State>
@@ -59,6 +63,7 @@ struct Diagram {
   std::vector<Branch<State>> branches;
   std::vector<BranchPoint<State>> bifurcations;  ///< where branches intersect
   std::vector<BranchPoint<State>> folds;         ///< where a branch turns back
+  std::vector<BranchPoint<State>> flutters{};    ///< where a vibration begins to grow, or ceases to
 };
 
 /// For Systems, out of which `follow_branches` makes branches of Equilibrium<D>.
@@ -89,7 +94,7 @@ template <int D>
   for (const auto& one : flat) {
     auto record = std::make_shared<Record>(*one.state.state);
     record->layout = read_by(handles, *record->layout);
-    points.push_back({one.parameter, {std::move(record), one.state.turning}, one.softest});
+    points.push_back({one.parameter, {std::move(record), one.state.turning}, one.softest, one.frequency});
   }
   return points;
 }
@@ -97,10 +102,12 @@ template <int D>
 }  // namespace detail
 
 /// Follows the equilibria of a scene as a parameter changes, `build(parameter)` being the Posed<D> scene:
-/// along each branch by pseudo-arclength continuation, so that it may turn back (a fold); where an eigenvalue
-/// of the stiffness changes its sign, the point is located to round-off and the branches that emanate there
-/// are followed too. (Keller, in Applications of Bifurcation Theory, 1977; Allgower, Georg, Numerical
-/// Continuation Methods, 1990.) Each branch states why it ends, see BranchEnd.
+/// along each branch by pseudo-arclength continuation, so that it may turn back (a fold); where a real
+/// eigenvalue of the stiffness changes its sign, the point is located to round-off and the branches that
+/// emanate there are followed too. (Keller, in Applications of Bifurcation Theory, 1977; Allgower, Georg,
+/// Numerical Continuation Methods, 1990.) Where an equilibrium loses its stability to a vibration that grows
+/// (follower forces, negative damping, gyroscopic forces) no branch of equilibria emanates: such points are
+/// located likewise, see `flutters`. Each branch states why it ends, see BranchEnd.
 ///
 /// Every value builds the scene anew; only numbers may differ. What is returned is read with the handles of
 /// the scene that was built last: `build` may store them for its caller.
@@ -122,9 +129,11 @@ template <int D, class Build>
   const auto layout = build(options.to).scene.system().layout();
   Diagram<Equilibrium<D>> all;
   for (const auto& branch : found.branches)
-    all.branches.push_back({detail::read_by<D>(*layout, branch.points), branch.origin, branch.end});
+    all.branches.push_back(
+        {detail::read_by<D>(*layout, branch.points), branch.origin, branch.end, branch.why});
   all.bifurcations = detail::read_by<D>(*layout, found.bifurcations);
   all.folds = detail::read_by<D>(*layout, found.folds);
+  all.flutters = detail::read_by<D>(*layout, found.flutters);
   return all;
 }
 

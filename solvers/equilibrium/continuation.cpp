@@ -71,11 +71,27 @@ void Corrector::finish(const Here& here, const Balance::State& s, Node& node) co
   node.lambda.assign(flat.lambda.begin(), flat.lambda.end());
   const LinearTerms terms =
       linear_terms(*here.system, here.balance.frame(), {flat.time, flat.q, flat.v}, flat.lambda);
-  auto [values, shapes] = tangent_stiffness(*here.system, terms);
-  node.stiffness = std::move(values);
-  for (Index i = 0; i < shapes.rows(); ++i) shapes.row(i) /= scale_[static_cast<std::size_t>(i)];
-  for (Index k = 0; k < shapes.cols(); ++k) shapes.col(k).normalize();
-  node.shapes = std::move(shapes);
+  node.stiffness = tangent_stiffness(*here.system, terms);
+  node.vibrations = vibrations(*here.system, terms);
+}
+
+Eigen::VectorXd Corrector::direction(const Eigen::VectorXd& shape) const {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(shape.size() + 1);
+  for (Index i = 0; i < shape.size(); ++i) x[i] = shape[i] / scale_[static_cast<std::size_t>(i)];
+  return x.normalized();
+}
+
+std::optional<Node> Corrector::finished(Node guess) const {
+  constexpr double close = 1e-8;  // what `normal_modes` asks of an equilibrium
+  try {
+    const Here here = at(parameter(guess), guess.x);
+    const Balance::State s = state(here, guess);
+    if (!(s.size <= close)) return std::nullopt;
+    finish(here, s, guess);
+    return guess;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
 }
 
 Eigen::VectorXd Corrector::residual(double p, const Node& node, const ActiveRows& rows) const {
@@ -91,17 +107,24 @@ Eigen::VectorXd Corrector::slope_by_parameter(const Node& node, const ActiveRows
   return (residual(value(after), node, rows) - residual(value(before), node, rows)) / (after - before);
 }
 
+/// With l on the left of K's eigenvalue and m such that (l, m) is on the left of all equations: m balances
+/// what l does across the tangent space.
 double Corrector::range_defect(const Node& node, Index shape) const {
   const Here here = at(parameter(node), node.x);
   const Balance::State s = state(here, node);
-  const Eigen::VectorXd slope = slope_by_parameter(node, here.balance.rows_at(s));
-  const Eigen::VectorXd direction = node.shapes.col(shape);
-  const auto by_parameter = slope.head(direction.size());
+  const Eigen::MatrixXd A = jacobian(here, s, node, here.balance.rows_at(s));
+  const auto n = static_cast<Index>(s.q.size()), m = A.rows() - n;
+  Eigen::VectorXd left(n + m);
+  for (Index i = 0; i < n; ++i)
+    left[i] = node.stiffness.duals(i, shape) / here.system->masses()[static_cast<std::size_t>(i)];
+  const Eigen::MatrixXd rows = A.bottomLeftCorner(m, n).transpose();
+  left.tail(m) =
+      dense::least_squares(rows, -A.topLeftCorner(n, n).transpose() * left.head(n), rank_threshold);
+  const Eigen::VectorXd slope = A.col(n + m);
   // Difference quotients keep round-off of the forces that act where the mode moves.
-  const Eigen::Map<const Eigen::VectorXd> acting(s.acting.data(), direction.size());
-  const double least = acting.dot(direction.cwiseAbs());
-  const double size = std::max(by_parameter.norm(), least);
-  return size > 0.0 ? std::abs(by_parameter.dot(direction)) / size : 0.0;
+  const Eigen::Map<const Eigen::VectorXd> acting(s.acting.data(), n);
+  const double size = std::max(slope.cwiseAbs().dot(left.cwiseAbs()), acting.dot(left.head(n).cwiseAbs()));
+  return size > 0.0 ? std::abs(slope.dot(left)) / size : 0.0;
 }
 
 /// [R_q R_lambda R_p] in the units of x, one row per coordinate and one per constraint row.
@@ -178,12 +201,16 @@ std::optional<Node> Corrector::correct(const Node& guess, const Eigen::VectorXd&
       before = size;
       newton_step(here, s, off, normal, node);
       double& fraction = node.x[node.x.size() - 1];
-      if (!node.x.allFinite()) return std::nullopt;
+      if (!node.x.allFinite()) break;
       fraction = std::clamp(fraction, 0.0, 1.0);  // a point beyond is then never found
     }
-  } catch (const EquationFault&) {
-  } catch (const InconsistentStart&) {
-  } catch (const NoEquilibrium&) {
+    why_ = "Newton's iteration does not converge";
+  } catch (const EquationFault& fault) {
+    why_ = fault.what();
+  } catch (const InconsistentStart& start) {
+    why_ = start.what();
+  } catch (const NoEquilibrium& none) {
+    why_ = none.what();
   }
   return std::nullopt;
 }

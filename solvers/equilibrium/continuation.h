@@ -3,12 +3,15 @@
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/equilibrium/balance.h>
 #include <dalembert/solvers/equilibrium/branches.h>
+#include <dalembert/solvers/equilibrium/tangent_modes.h>
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace DALEMBERT_HIDDEN dalembert {
 
@@ -17,12 +20,11 @@ struct Node {
   Eigen::VectorXd x{};
   std::vector<double> lambda{};
   FlatEquilibrium state{};
-  Eigen::VectorXd stiffness{};  ///< eigenvalues of K on the tangent space, increasing
-  Eigen::MatrixXd shapes{};     ///< their eigenvectors, in x without p, of length 1
+  TangentStiffness stiffness{};
+  std::vector<Vibration> vibrations{};
 
-  [[nodiscard]] Eigen::Index morse_index() const {
-    return (stiffness.array() < 0.0).count();
-  }  ///< the number of eigenvalues < 0
+  [[nodiscard]] double fraction() const { return x[x.size() - 1]; }
+  [[nodiscard]] auto growing() const { return std::ranges::count_if(vibrations, &Vibration::grows); }
 };
 
 /// Newton's iteration for a point of a branch in the hyperplane through the guess across `normal`:
@@ -40,13 +42,20 @@ class Corrector {
   [[nodiscard]] const Node& begin() const { return begin_; }
   /// Nothing if the iteration does not converge.
   [[nodiscard]] std::optional<Node> correct(const Node& guess, const Eigen::VectorXd& normal) const;
+  /// The point at x and lambda as they are, if that is one to the accuracy asked of an equilibrium.
+  [[nodiscard]] std::optional<Node> finished(Node guess) const;
+  /// Why the last correction failed.
+  [[nodiscard]] const std::string& why() const { return why_; }
   [[nodiscard]] double parameter(const Node& node) const { return value(node.x[node.x.size() - 1]); }
   /// The unit tangent of the branch at a point, towards options.to; none at a fold. It has no component along
   /// free motions.
   [[nodiscard]] std::optional<Eigen::VectorXd> tangent(const Node& node) const;
-  /// The part of the residual's derivative by p along an eigenvector of K, over that derivative. At a
-  /// singular point it is 0 at a bifurcation (the derivative is in the range of K), not 0 at a fold.
+  /// The part of the residual's derivative by p along the left eigenvector of an eigenvalue of K, over that
+  /// derivative. At a singular point it is 0 at a bifurcation (the derivative is in the range of the
+  /// equations), not 0 at a fold.
   [[nodiscard]] double range_defect(const Node& node, Eigen::Index shape) const;
+  /// The direction of an eigenvector in x, of length 1.
+  [[nodiscard]] Eigen::VectorXd direction(const Eigen::VectorXd& shape) const;
 
  private:
   struct Here {
@@ -69,6 +78,7 @@ class Corrector {
   double from_, range_;
   std::vector<double> scale_;  // of each coordinate
   Node begin_{};
+  mutable std::string why_{};
 };
 
 }  // namespace dalembert

@@ -4,7 +4,6 @@
 #include <dalembert/solvers/equilibrium/mass_metric.h>
 #include <dalembert/solvers/linear/dense.h>
 
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <sstream>
@@ -18,15 +17,22 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Radau IIA of three stages, order 5 (Hairer, Wanner, Solving ODEs II, table IV.5.6); its last stage is the
-/// end of the step.
-const double r6 = std::sqrt(6.0);
-const std::array<double, 3> c{(4.0 - r6) / 10.0, (4.0 + r6) / 10.0, 1.0};
-const Eigen::Matrix3d a{
-    {(88.0 - 7.0 * r6) / 360.0, (296.0 - 169.0 * r6) / 1800.0, (-2.0 + 3.0 * r6) / 225.0},
-    {(296.0 + 169.0 * r6) / 1800.0, (88.0 + 7.0 * r6) / 360.0, (-2.0 - 3.0 * r6) / 225.0},
-    {(16.0 - r6) / 36.0, (16.0 + r6) / 36.0, 1.0 / 9.0},
-};
+constexpr auto stages = static_cast<Index>(radau_nodes.size());
+
+/// The inverse of Runge's matrix: sum_j a_ij c_j^(k-1) = c_i^k/k for k = 1, ..., 5.
+MatrixXd inverse_of_a() {
+  MatrixXd powers(stages, stages), integrals(stages, stages);
+  for (Index i = 0; i < stages; ++i) {
+    double power = 1.0;
+    for (Index k = 0; k < stages; ++k) {
+      const double c = radau_nodes[static_cast<std::size_t>(i)];
+      powers(i, k) = power;
+      integrals(i, k) = (power *= c) / static_cast<double>(k + 1);
+    }
+  }
+  const MatrixXd of = integrals.transpose(), right = powers.transpose();
+  return dense::solve(of, right).transpose();  // powers integrals^-1
+}
 
 /// The multipliers of a sample. Where positions give a spring's force too roughly to be read it is good
 /// enough here: its error enters K by no more than its stiffness times their round-off.
@@ -49,8 +55,6 @@ std::vector<double> multipliers(const System& system, const FlatSample& at) {
 
 }  // namespace
 
-std::span<const double> radau_nodes() { return c; }
-
 Disturbances::Disturbances(const System& system, const ActiveRows& rows, const FlatSample& at,
                            double unit_of_time) {
   const RotatingFrame rest(*system.layout(), {});
@@ -65,43 +69,38 @@ Disturbances::Disturbances(const System& system, const ActiveRows& rows, const F
   G = W.topRows(metric.holonomic);
 }
 
-MatrixXd Disturbances::basis() const {
-  const Index n = coordinates();
-  MatrixXd rows = MatrixXd::Zero(G.rows() + W.rows(), 2 * n);
-  rows.topLeftCorner(G.rows(), n) = G;
-  rows.bottomLeftCorner(W.rows(), n) = E;
-  rows.bottomRightCorner(W.rows(), n) = W;
-  return orthogonal_complement(rows.transpose(), of_full_rank);
+FreeDisturbances::FreeDisturbances(const Disturbances& all) {
+  const Index n = all.coordinates(), m = all.W.rows(), holonomic = all.G.rows();
+  MatrixXd rows = MatrixXd::Zero(holonomic + m, 2 * n);
+  rows.topLeftCorner(holonomic, n) = all.G;
+  rows.bottomLeftCorner(m, n) = all.E;
+  rows.bottomRightCorner(m, n) = all.W;
+  basis = orthogonal_complement(rows.transpose(), of_full_rank);
+  across = MatrixXd::Zero(2 * n, 2 * n - holonomic - m);
+  across.topLeftCorner(n, n - holonomic) = orthogonal_complement(all.G.transpose(), of_full_rank);
+  across.bottomRightCorner(n, n - m) = orthogonal_complement(all.W.transpose(), of_full_rank);
+  MatrixXd x_rate(2 * n, basis.cols());
+  x_rate << basis.bottomRows(n), -all.K * basis.topRows(n) - all.C * basis.bottomRows(n);
+  rate = across.transpose() * x_rate;
 }
 
-/// With (u, w) of stage i, and y, z there times h,
+/// With the inverse b of Runge's matrix, and multipliers gone,
 ///
-///   u_i - h sum a_ij w_j - sum a_ij G_j^T z_j = u
-///   w_i + h sum a_ij (K_j u_j + C_j w_j) - sum a_ij W_j^T y_j = w.
-MatrixXd radau_step(std::span<const Disturbances> nodes, double h, const MatrixXd& x) {
-  const Index n = nodes[0].coordinates(), m = nodes[0].W.rows(), mh = nodes[0].G.rows(),
-              size = 2 * n + m + mh;
-  MatrixXd A = MatrixXd::Zero(3 * size, 3 * size), b = MatrixXd::Zero(3 * size, x.cols());
-  for (Index i = 0; i < 3; ++i) {
-    const Index row = i * size;
-    b.block(row, 0, 2 * n, x.cols()) = x;
-    A.block(row, row, 2 * n, 2 * n).setIdentity();
-    for (Index j = 0; j < 3; ++j) {
-      const Disturbances& node = nodes[static_cast<std::size_t>(j)];
-      const double a_ij = a(i, j);
-      const Index column = j * size;
-      A.block(row, column + n, n, n).diagonal().array() -= h * a_ij;
-      A.block(row, column + 2 * n + m, n, mh) -= a_ij * node.G.transpose();
-      A.block(row + n, column, n, n) += h * a_ij * node.K;
-      A.block(row + n, column + n, n, n) += h * a_ij * node.C;
-      A.block(row + n, column + 2 * n, n, m) -= a_ij * node.W.transpose();
+///   N_k^T sum_i b_ki (B_i c_i - B_0 c_0) = h N_k^T A_k B_k c_k,   k = 1, ..., 5.
+MatrixXd radau_step(const FreeDisturbances& start, std::span<const FreeDisturbances> nodes, double h) {
+  const MatrixXd b = inverse_of_a();
+  const Index d = start.basis.cols();
+  MatrixXd A(stages * d, stages * d), right(stages * d, d);
+  for (Index k = 0; k < stages; ++k) {
+    const FreeDisturbances& own = nodes[static_cast<std::size_t>(k)];
+    for (Index i = 0; i < stages; ++i) {
+      A.block(k * d, i * d, d, d) =
+          b(k, i) * own.across.transpose() * nodes[static_cast<std::size_t>(i)].basis;
     }
-    const Disturbances& own = nodes[static_cast<std::size_t>(i)];
-    A.block(row + 2 * n, row, m, n) = own.E;
-    A.block(row + 2 * n, row + n, m, n) = own.W;
-    A.block(row + 2 * n + m, row, mh, n) = own.G;
+    A.block(k * d, k * d, d, d) -= h * own.rate;
+    right.middleRows(k * d, d) = b.row(k).sum() * own.across.transpose() * start.basis;
   }
-  return dense::solve(A, b).middleRows(2 * size, 2 * n);
+  return dense::solve(A, right).bottomRows(d);
 }
 
 }  // namespace dalembert

@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
 
 namespace dalembert {
@@ -28,8 +29,8 @@ struct EquilibriumOptions {
 template <int D>
 class Equilibrium {
  public:
-  Equilibrium(std::shared_ptr<const Record> state, const Turning<3>& turning)
-      : state_(std::move(state)), turning_(turning) {}
+  Equilibrium(std::shared_ptr<const Record> state, const Turning<3>& turning, std::string left_out = {})
+      : state_(std::move(state)), turning_(turning), left_out_(std::move(left_out)) {}
 
   /// Positions, velocities, multipliers and forces of constraint, by handle; see Sample. A view, valid as
   /// long as a copy of the Equilibrium is.
@@ -37,13 +38,21 @@ class Equilibrium {
   void sample() const&& = delete;  // keep the Equilibrium first
   /// Its rotation; in the plane about an axis along z.
   [[nodiscard]] const Turning<3>& turning() const { return turning_; }
+  /// Whose velocities, stated in the scene, are not those of this equilibrium, in a sentence; empty if none.
+  [[nodiscard]] const std::string& left_out() const { return left_out_; }
   [[nodiscard]] const Layout& layout() const& { return *state_->layout; }
   void layout() const&& = delete;
 
  private:
   std::shared_ptr<const Record> state_;
   Turning<3> turning_;
+  std::string left_out_;
 };
+
+namespace detail {
+/// See Equilibrium::left_out, of velocities as a scene states them.
+[[nodiscard]] std::string left_out(const Record& found, std::span<const double> stated);
+}  // namespace detail
 
 /// The same for a System, out of which `equilibrium` makes an Equilibrium; one sample.
 [[nodiscard]] std::shared_ptr<const Record> find_equilibrium(System system, std::span<const double> guess,
@@ -58,7 +67,8 @@ class Equilibrium {
 /// that is wanted.
 ///
 /// Newton's iteration on (1) for q and lambda, with the curvature of the constraints, -sum lambda g_qq, while
-/// it reduces the residual. From where it does not, the scene descends in steps of
+/// it reduces the residual; against the forces, to a state that is not stable, only from so near that it
+/// converges. From where it does not, the scene descends in steps of
 ///
 ///   (K + s M) dq = W^T dlambda + residual,     W dq = 0 (2)
 ///
@@ -68,14 +78,18 @@ class Equilibrium {
 /// scene moves as it descends), one near the guess is found. Forces of redundant constraints are those of
 /// least norm, as in a run.
 ///
+/// A scene's velocities are no part of the guess: at rest all are 0, else those of the turning. Which ones
+/// were left out `left_out` says, and NormalModes::describe().
+///
 /// Throws NoEquilibrium where nothing is found, where what is found does not persist, because something moves
 /// or rotates otherwise, and for forces that read multipliers: friction at rest takes any value up to a
 /// limit. InconsistentStart if the constraints cannot be satisfied, InvalidArgument if `turning` or `time` is
 /// not finite or a planar scene is to rotate about an axis other than its normal.
 template <int D>
 [[nodiscard]] Equilibrium<D> equilibrium(const Scene<D>& scene, const EquilibriumOptions<D>& options = {}) {
-  return {find_equilibrium(scene.system(), scene.initial_positions(), options.time, options.turning),
-          options.turning};
+  auto found = find_equilibrium(scene.system(), scene.initial_positions(), options.time, options.turning);
+  auto left_out = detail::left_out(*found, scene.initial_velocities());
+  return {std::move(found), options.turning, std::move(left_out)};
 }
 
 }  // namespace dalembert

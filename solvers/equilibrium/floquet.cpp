@@ -3,13 +3,15 @@
 #include <dalembert/solvers/equilibrium/disturbances.h>
 #include <dalembert/solvers/integrator.h>
 #include <dalembert/solvers/linear/dense.h>
+#include <dalembert/solvers/linear/rows.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <sstream>
-#include <utility>
+#include <string>
+#include <vector>
 
 namespace dalembert {
 
@@ -22,9 +24,12 @@ using Eigen::MatrixXd;
 constexpr double tolerance = 1e-12, known = 1e-11;
 /// A deviation after a period that is more than the error of the steps.
 constexpr double returned = 1e-6;
-constexpr int fewest_steps = 16, most_steps = 8192;
+constexpr int most_halvings = 14;
+/// Instants at which a period is checked; the fractions of it at which they are belong to no period of its
+/// own.
+constexpr int checks = 48;
 
-void require_period(const System& system, double period) {
+void require_suited(const System& system, double period) {
   if (!(std::isfinite(period) && period > 0.0)) {
     std::ostringstream what;
     what << "Floquet multipliers of scene \"" << system.layout()->scene << "\": period = " << period
@@ -39,13 +44,11 @@ void require_period(const System& system, double period) {
                        " reads a multiplier; they are defined for scenes without such forces");
 }
 
-/// The nodes of this many steps of a period, and its ends.
-std::vector<double> node_times(double period, int steps) {
-  std::vector<double> times{0.0};
-  for (int k = 0; k < steps; ++k) {
-    for (const double c : radau_nodes()) times.push_back(period * (k + c) / steps);
-  }
-  times.back() = period;
+/// The ends of a period, and instants between that no part of it divides: multiples of the golden section.
+std::vector<double> check_times(double period) {
+  std::vector<double> times{0.0, period};
+  for (int k = 1; k <= checks; ++k) times.push_back(period * std::fmod(k * std::numbers::phi, 1.0));
+  std::ranges::sort(times);
   return times;
 }
 
@@ -80,40 +83,144 @@ void require_return(const Record& motion) {
   compare(first.lambda, last.lambda, force, "multipliers");
 }
 
-/// Throws unless forces and constraints respond to a disturbance at the end of the period as at its start.
-void require_same_forces(const System& system, const Disturbances& first, const Disturbances& last,
-                         double period) {
-  // In units of the period what is smaller than 1 has no effect within it.
+[[noreturn]] void refuse_period(const System& system, const std::string& what, double t, double period) {
+  std::ostringstream text;
+  text << "Scene \"" << system.layout()->scene << "\": " << what << " differ between t = " << t << " and "
+       << t + period << ", so " << period << " is not their period; give their whole period";
+  throw NoEquilibrium(text.str());
+}
+
+/// Throws unless the equations are the same a period later, in the same state of motion.
+void require_same_equations(const System& system, const Record& motion, const FlatSample& now,
+                            double period) {
+  auto e = system.evaluation(), later = e;
+  system.evaluate({now.time, now.q, now.v}, e);
+  system.evaluate({now.time + period, now.q, now.v}, later);
+  const double length = motion.statistics.length;
+  std::vector<double> lengths(now.q.size(), 1.0);
+  for (const auto& rotor : system.layout()->rotors)
+    lengths[static_cast<std::size_t>(rotor.coordinate)] = length;
+  double off = 0.0, size = length / (period * period);
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    const double m = system.masses()[i] / lengths[i];
+    off = std::max(off, std::abs(later.force[i] - e.force[i]) / m);
+    size = std::max(size, std::abs(e.force[i]) / m);
+  }
+  if (off > returned * size) refuse_period(system, "the forces", now.time, period);
+  for (std::size_t r = 0; r < system.holonomic_rows(); ++r) {
+    if (std::abs(later.g[r] - e.g[r]) > returned * length * gradient_length(system, e.w, lengths, r))
+      refuse_period(system, "the positions of " + system.row_label(r), now.time, period);
+  }
+  for (std::size_t r = 0; r < system.rows(); ++r) {
+    const double speed = length / std::min(motion.statistics.time, period);
+    if (std::abs(later.psi[r] - e.psi[r]) > returned * speed * gradient_length(system, e.w, lengths, r))
+      refuse_period(system, "the velocities of " + system.row_label(r), now.time, period);
+  }
+}
+
+/// And unless they respond to a disturbance as before. In units of the period what is smaller than 1 has no
+/// effect within it.
+void require_same_response(const System& system, const Disturbances& now, const Disturbances& later, double t,
+                           double period) {
   const auto differ = [](const MatrixXd& a, const MatrixXd& b) {
     return (a - b).norm() > returned * std::max({a.norm(), b.norm(), 1.0});
   };
-  if (!differ(first.K, last.K) && !differ(first.C, last.C) && !differ(first.W, last.W)) return;
-  std::ostringstream what;
-  what << "Scene \"" << system.layout()->scene << "\": its forces or constraints differ after " << period
-       << ", so that is not their period; give their whole period";
-  throw NoEquilibrium(what.str());
+  if (differ(now.K, later.K)) refuse_period(system, "the derivatives of the forces", t, period);
+  if (differ(now.C, later.C)) refuse_period(system, "the damping forces", t, period);
+  if (differ(now.W, later.W) || differ(now.E, later.E)) refuse_period(system, "the constraints", t, period);
 }
 
-/// The monodromy matrix, in a basis of the disturbances that the constraints allow.
-MatrixXd monodromy(const System& system, const Record& motion, double period) {
-  const FlatSample start = motion.sample(0);
-  auto e = system.evaluation();
-  system.evaluate({start.time, start.q, start.v}, e);
-  const ActiveRows rows = independent_rows(system, e.w);
-  const Disturbances first(system, rows, start, period),
-      last(system, rows, motion.sample(motion.times.size() - 1), period);
-  require_same_forces(system, first, last, period);
-  const MatrixXd basis = first.basis();
-  const std::size_t steps = (motion.times.size() - 1) / 3;
-  if (basis.cols() == 0) return {};  // nothing can move
-  MatrixXd x = basis;
-  for (std::size_t k = 0; k < steps; ++k) {
-    std::vector<Disturbances> nodes;
-    for (std::size_t i = 1; i <= 3; ++i) nodes.emplace_back(system, rows, motion.sample(3 * k + i), period);
-    x = radau_step(nodes, 1.0 / static_cast<double>(steps), x);
+void require_period(const System& system, const Record& motion, const ActiveRows& rows, double period) {
+  const FlatSample first = motion.sample(0), last = motion.sample(motion.times.size() - 1);
+  require_same_response(system, {system, rows, first, period}, {system, rows, last, period}, 0.0, period);
+  for (std::size_t i = 0; i < motion.times.size(); ++i) {
+    const FlatSample now = motion.sample(i);
+    FlatSample later = now;
+    later.time += period;
+    require_same_equations(system, motion, now, period);
+    require_same_response(system, {system, rows, now, period}, {system, rows, later, period}, now.time,
+                          period);
   }
-  return basis.transpose() * x;
 }
+
+/// The monodromy matrix, in a basis of the disturbances that the constraints allow, by steps that are halved
+/// where a step and its two halves differ.
+class Monodromy {
+ public:
+  Monodromy(const System& system, const Record& motion, const ActiveRows& rows, double period)
+      : system_(&system), motion_(&motion), rows_(&rows), period_(period) {}
+
+  [[nodiscard]] MatrixXd matrix() {
+    const Step whole = steps({{0.0, 1.0}}).front();
+    if (whole.start.basis.cols() == 0) return {};
+    const MatrixXd c = refined(whole, 0);
+    return whole.start.basis.transpose() * whole.nodes.back().basis * c;
+  }
+  [[nodiscard]] int taken() const { return taken_; }
+
+ private:
+  /// Fractions of the period.
+  struct Part {
+    double from, to;
+  };
+  struct Step {
+    Part part;
+    FreeDisturbances start;
+    std::vector<FreeDisturbances> nodes;
+    MatrixXd map;
+  };
+  /// One step each over parts of the motion. (Reading it at all instants together costs least.)
+  [[nodiscard]] std::vector<Step> steps(const std::vector<Part>& parts) const {
+    std::vector<double> times;
+    for (const auto [from, to] : parts) {
+      times.push_back(from * period_);
+      for (const double c : radau_nodes) times.push_back((from + c * (to - from)) * period_);
+      times.back() = to * period_;
+    }
+    Record read;
+    read.layout = motion_->layout;
+    motion_->dense->read(times, read);
+    const auto at = [&](std::size_t i) {
+      return FreeDisturbances(Disturbances(*system_, *rows_, read.sample(i), period_));
+    };
+    std::vector<Step> all;
+    for (const Part part : parts) {
+      std::size_t next = all.size() * (radau_nodes.size() + 1);
+      Step step{part, at(next++), {}, {}};
+      while (step.nodes.size() < radau_nodes.size()) step.nodes.push_back(at(next++));
+      step.map = radau_step(step.start, step.nodes, part.to - part.from);
+      all.push_back(std::move(step));
+    }
+    return all;
+  }
+  /// Two halves err by 1/(2^9 - 1) of their difference from the whole; the motion, and with it every rate, is
+  /// known to `known` of itself.
+  [[nodiscard]] MatrixXd refined(const Step& whole, int halvings) {
+    const auto [from, to] = whole.part;
+    const double middle = 0.5 * (from + to);
+    const auto halves = steps({{from, middle}, {middle, to}});
+    const MatrixXd both = halves[1].map * halves[0].map;
+    double rate = 1.0;
+    for (const FreeDisturbances& node : whole.nodes) rate = std::max(rate, node.rate.norm());
+    const double allowed = known * (to - from) * rate * std::max(1.0, both.norm());
+    if ((both - whole.map).norm() <= (std::exp2(radau_order) - 1.0) * allowed) {
+      taken_ += 2;
+      return both;
+    }
+    if (halvings == most_halvings)
+      throw NoEquilibrium("Floquet multipliers of scene \"" + motion_->layout->scene +
+                          "\" do not converge: its motion is not smooth at t = " +
+                          std::to_string(middle * period_) + ", or the period too long");
+    const MatrixXd first = refined(halves[0], halvings + 1);
+    return refined(halves[1], halvings + 1) * first;
+  }
+
+  const System* system_;
+  const Record* motion_;
+  const ActiveRows* rows_;
+  double period_;
+  int taken_ = 0;
+};
 
 }  // namespace
 
@@ -125,30 +232,28 @@ Stability Floquet::stability() const {
 
 Floquet find_multipliers(const std::function<System()>& system, std::span<const double> q,
                          std::span<const double> v, double period) {
-  require_period(system(), period);
-  MatrixXd map;
-  for (int steps = fewest_steps;; steps *= 2) {
-    Integrator integrator(system(), q, v,
-                          {.t_end = period,
-                           .times = node_times(period, steps),
-                           .tolerance = tolerance,
-                           .stepper = Stepper::erk});
-    const auto motion = integrator.run();
-    require_return(*motion);
-    const MatrixXd before = std::exchange(map, monodromy(integrator.system(), *motion, period));
-    // Halved steps of order 5 err by a 31st of the change.
-    const bool settled =
-        before.size() == map.size() && (map - before).norm() <= 31.0 * known * (1.0 + map.norm());
-    if (!settled && steps < most_steps) continue;
-    if (!settled)
-      throw NoEquilibrium("Floquet multipliers of scene \"" + motion->layout->scene +
-                          "\" do not converge: its motion is not smooth, or the period too long");
-    if (map.size() == 0) return {{}, steps};
-    const Eigen::VectorXcd all = dense::eigenvalues(map);
-    Floquet found{{all.data(), all.data() + all.size()}, steps};
-    std::ranges::stable_sort(found.multipliers, std::greater{}, [](auto m) { return std::abs(m); });
-    return found;
-  }
+  require_suited(system(), period);
+  Integrator integrator(system(), q, v,
+                        {.t_end = period,
+                         .times = check_times(period),
+                         .tolerance = tolerance,
+                         .stepper = Stepper::erk,
+                         .dense = true});
+  const auto motion = integrator.run();
+  require_return(*motion);
+  const System& own = integrator.system();
+  const FlatSample start = motion->sample(0);
+  auto e = own.evaluation();
+  own.evaluate({start.time, start.q, start.v}, e);
+  const ActiveRows rows = independent_rows(own, e.w);
+  require_period(own, *motion, rows, period);
+  Monodromy monodromy(own, *motion, rows, period);
+  const MatrixXd matrix = monodromy.matrix();
+  if (matrix.size() == 0) return {};  // nothing can move
+  const Eigen::VectorXcd all = dense::eigenvalues(matrix);
+  Floquet found{{all.data(), all.data() + all.size()}, monodromy.taken()};
+  std::ranges::stable_sort(found.multipliers, std::greater{}, [](auto m) { return std::abs(m); });
+  return found;
 }
 
 }  // namespace dalembert

@@ -90,10 +90,14 @@ std::vector<LuPattern::Entry> TangentMatrix::entries(const System& system, const
 }
 
 TangentMatrix::TangentMatrix(const System& system, const ActiveRows& rows, const LinearTerms& terms, double s)
+    : TangentMatrix(system, rows, terms, std::vector<double>(system.coordinates(), s)) {}
+
+TangentMatrix::TangentMatrix(const System& system, const ActiveRows& rows, const LinearTerms& terms,
+                             std::span<const double> s)
     : pattern_(system.coordinates() + rows.size(), entries(system, rows, terms)), lu_(pattern_) {
   std::size_t entry = 0;
   lu_.set_zero();
-  for (const double m : system.masses()) lu_.add(entry++, s * m);
+  for (std::size_t i = 0; i < s.size(); ++i) lu_.add(entry++, s[i] * system.masses()[i]);
   for (const std::size_t r : rows.rows) {
     for (const std::size_t k : system.row(r)) {
       lu_.add(entry++, -terms.w[k]);

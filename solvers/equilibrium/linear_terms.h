@@ -38,6 +38,9 @@ struct LinearTerms {
 class TangentMatrix {
  public:
   TangentMatrix(const System& system, const ActiveRows& rows, const LinearTerms& terms, double s);
+  /// With an s of its own for each coordinate.
+  TangentMatrix(const System& system, const ActiveRows& rows, const LinearTerms& terms,
+                std::span<const double> s);
   [[nodiscard]] bool regular() const { return regular_; }
   /// In place, one number per coordinate and then one per row.
   void solve(std::span<double> x) { lu_.solve(x); }

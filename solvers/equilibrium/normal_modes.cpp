@@ -9,7 +9,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <set>
 #include <sstream>
+#include <string>
+#include <utility>
 
 namespace dalembert {
 
@@ -153,7 +157,7 @@ void require_equilibrium(const Balance& balance, const FlatSample& at) {
   s.lambda.assign(at.lambda.begin(), at.lambda.end());
   balance.evaluate(s);
   std::ostringstream why;
-  if (s.size > close) why << "forces or constraints have a relative residual of " << s.size;
+  if (!balance.settled(s, close)) why << "forces or constraints have a relative residual of " << s.size;
   auto e = system.evaluation();
   system.evaluate({balance.time(), at.q, at.v}, e);
   const Scales& scales = balance.scales();
@@ -211,6 +215,23 @@ void require_constant(const System& system, const Balance& balance, const FlatSa
       " frame; find the equilibrium for the turning of its drives, or ask for floquet multipliers");
 }
 
+/// What the parts of a body are named after: its rods are internal constraints "body.rod12", its particles
+/// "body.p1".
+std::set<std::string> names_of_bodies(const Layout& layout) {
+  std::set<std::string> names;
+  for (const auto& constraint : layout.constraints) {
+    const auto dot = constraint.name.rfind('.');
+    if (constraint.internal && dot != std::string::npos) names.insert(constraint.name.substr(0, dot));
+  }
+  return names;
+}
+
+std::string name_with_body(const std::string& particle, const std::set<std::string>& bodies) {
+  const auto dot = particle.rfind('.');
+  const std::string body = particle.substr(0, dot);
+  return dot != std::string::npos && bodies.contains(body) ? body : particle;
+}
+
 }  // namespace
 
 const char* name(Stability stability) {
@@ -260,22 +281,39 @@ template <int D>
 std::string NormalModes<D>::describe() const {
   std::ostringstream text;
   text << name(stability()) << ": " << modes_.reason;
+  const auto bodies = names_of_bodies(*layout_);
   for (std::size_t k = 0; k < size(); ++k) {
     if (!is_free(k)) continue;
     text << "; free motion of";
-    const auto moves = [&](int first, int width) {
-      bool any = false;
+    std::string last;  // the particles of a body follow each other
+    const auto add = [&](const std::string& one, int first, int width) {
+      bool moves = false;
       for (int i = first; i < first + width; ++i)
-        any = any || std::abs(modes_.modes[k].shape[static_cast<std::size_t>(i)]) > 0.5;
-      return any;
+        moves = moves || std::abs(modes_.modes[k].shape[static_cast<std::size_t>(i)]) > 0.5;
+      if (moves && std::exchange(last, one) != one) text << " \"" << one << '"';
     };
     for (const auto& particle : layout_->particles)
-      if (moves(particle.coordinate, D)) text << " \"" << particle.name << '"';
-    for (const auto& rotor : layout_->rotors)
-      if (moves(rotor.coordinate, 1)) text << " \"" << rotor.name << '"';
+      add(name_with_body(particle.name, bodies), particle.coordinate, D);
+    for (const auto& rotor : layout_->rotors) add(rotor.name, rotor.coordinate, 1);
   }
+  if (!note_.empty()) text << "; " << note_;
   return text.str();
 }
+
+namespace detail {
+
+bool same_elements(const Layout& a, const Layout& b) {
+  if (a.id == b.id) return true;
+  const auto same = [](const auto& x, const auto& y) {
+    const auto count = static_cast<std::ptrdiff_t>(std::min(x.size(), y.size()));
+    return std::equal(x.begin(), x.begin() + count, y.begin(),
+                      [](const auto& p, const auto& q) { return p.scene == q.scene && p.name == q.name; });
+  };
+  return same(a.particles, b.particles) && same(a.rotors, b.rotors) && same(a.constraints, b.constraints) &&
+         a.particles.size() + a.rotors.size() > 0;
+}
+
+}  // namespace detail
 
 template class NormalModes<2>;
 template class NormalModes<3>;

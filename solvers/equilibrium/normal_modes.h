@@ -34,6 +34,11 @@ struct ModesOptions {
   std::size_t lowest = 0;
 };
 
+namespace detail {
+/// Whether two scenes have their points in common, as far as both have any: copies of one.
+[[nodiscard]] bool same_elements(const Layout& a, const Layout& b);
+}  // namespace detail
+
 /// For a System and what `find_equilibrium` gave, out of which `normal_modes` makes NormalModes.
 [[nodiscard]] Modes find_modes(const System& system, const FlatSample& at, const Turning<3>& turning,
                                const ModesOptions& options);
@@ -43,8 +48,9 @@ struct ModesOptions {
 template <int D>
 class NormalModes {
  public:
-  NormalModes(std::shared_ptr<const Layout> layout, Modes modes)
-      : layout_(std::move(layout)), modes_(std::move(modes)) {}
+  /// `note` is added to what `describe` says.
+  NormalModes(std::shared_ptr<const Layout> layout, Modes modes, std::string note = {})
+      : layout_(std::move(layout)), modes_(std::move(modes)), note_(std::move(note)) {}
 
   [[nodiscard]] std::size_t size() const { return modes_.modes.size(); }
   [[nodiscard]] std::complex<double> eigenvalue(std::size_t k) const { return mode(k).eigenvalue; }
@@ -79,7 +85,8 @@ class NormalModes {
   }
 
   [[nodiscard]] Stability stability() const { return modes_.stability; }
-  /// The verdict with its reason, and the free motions with the particles that move most in them.
+  /// The verdict with its reason, and the free motions with the bodies, particles and rotors that move most
+  /// in them; and what the equilibrium leaves out.
   [[nodiscard]] std::string describe() const;
 
  private:
@@ -87,6 +94,7 @@ class NormalModes {
 
   std::shared_ptr<const Layout> layout_;
   Modes modes_;
+  std::string note_;
 };
 
 extern template class NormalModes<2>;
@@ -115,15 +123,16 @@ extern template class NormalModes<3>;
 /// Uncoupled parts of a scene are judged separately. The numbers of a part's K are known to round-off of the
 /// largest: within that an eigenvalue is undecided, or 0 and tried.
 ///
-/// Throws InvalidArgument if the equilibrium is not one of this scene as it is now, InvalidScene if `lowest`
-/// is not suitable or its equations change with time.
+/// The equilibrium may be that of a copy of the scene. Throws InvalidArgument if it is not one of this scene
+/// as it is now, InvalidScene if `lowest` is not suitable or its equations change with time.
 template <int D>
 [[nodiscard]] NormalModes<D> normal_modes(const Scene<D>& scene, const Equilibrium<D>& equilibrium,
                                           const ModesOptions& options = {}) {
   const System system = scene.system();
-  if (system.layout()->id != equilibrium.layout().id)
+  if (!detail::same_elements(*system.layout(), equilibrium.layout()))
     throw InvalidArgument("This equilibrium belongs to another scene than \"" + scene.name() + '"');
-  return {system.layout(), find_modes(system, equilibrium.sample().flat(), equilibrium.turning(), options)};
+  return {system.layout(), find_modes(system, equilibrium.sample().flat(), equilibrium.turning(), options),
+          equilibrium.left_out()};
 }
 
 }  // namespace dalembert

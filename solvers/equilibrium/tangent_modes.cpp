@@ -7,9 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <numeric>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 namespace dalembert {
@@ -28,6 +29,7 @@ struct Tangent {
   Matrix shapes;                         ///< M^-1/2 N
   Matrix K, C, B, E;
   bool symmetric;  ///< K
+  Matrix metric;   ///< M^1/2 N
 };
 
 /// N^T X N, with 0 for what is round-off of the summed terms.
@@ -52,17 +54,12 @@ Tangent tangent(const System& system, const LinearTerms& terms, std::vector<std:
             onto(N, metric.C),  // 0 where a guide takes up Coriolis forces
             metric.W.bottomRows(velocity_rows) * N,
             metric.E.bottomRows(velocity_rows) * N,
-            skew.isZero(0.0)};
+            skew.isZero(0.0),
+            metric.root.cwiseInverse().asDiagonal() * N};
   if (t.symmetric) t.K = ((t.K + t.K.transpose()) / 2).eval();
   for (Index k = 0; k < velocity_rows; ++k)
     if (t.B.row(k).norm() < rank_threshold) t.B.row(k).setZero();  // dependent on holonomic rows
   return t;
-}
-
-std::vector<std::size_t> up_to(std::size_t count) {
-  std::vector<std::size_t> all(count);
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  return all;
 }
 
 /// Uncoupled parts of a scene are scenes of their own: what is small in one is not lost beside what is stiff
@@ -96,22 +93,34 @@ std::string grows(std::complex<double> s) {
   return text.str();
 }
 
-void refute(Modes& found, Stability stability, const std::string& reason) {
-  if (found.stability == Stability::unstable || found.stability == stability) return;
-  found.stability = stability;
-  found.reason = reason;
-}
+/// The verdict of all modes, with the cause that weighs most: of those that grow the one that grows fastest.
+struct Verdict {
+  Modes& found;
+  double growth = 0.0;
+
+  void grows_by(std::complex<double> s) {
+    if (!(s.real() > growth)) return;
+    growth = s.real();
+    found.stability = Stability::unstable;
+    found.reason = grows(s);
+  }
+  void leave_undecided(const std::string& reason) const {
+    if (found.stability != Stability::stable) return;
+    found.stability = Stability::undecided;
+    found.reason = reason;
+  }
+};
 
 /// K z = omega^2 z. What is within round-off of 0 counts as 0, to be decided by a finite motion.
-void of_conservative(const Tangent& t, Modes& found) {
+void of_conservative(const Tangent& t, Verdict& verdict) {
   const auto [square, shapes] = dense::symmetric_eigen(t.K);
   const double zero = round_off_of_a_sum * (square.size() > 0 ? square.cwiseAbs().maxCoeff() : 0.0);
   for (Index k = 0; k < square.size(); ++k) {
     std::complex<double> s = std::sqrt(std::complex<double>(-square[k]));
     if (std::abs(square[k]) <= zero) s = 0.0;
     s = {std::abs(s.real()), std::abs(s.imag())};
-    found.modes.push_back(mode(s, shapes.col(k).cast<std::complex<double>>(), t));
-    if (s.real() > 0.0) refute(found, Stability::unstable, grows(s));
+    verdict.found.modes.push_back(mode(s, shapes.col(k).cast<std::complex<double>>(), t));
+    verdict.grows_by(s);
   }
 }
 
@@ -126,9 +135,9 @@ double scale_time(Tangent& t) {
   return Omega;
 }
 
-/// The equations (2) of the header.
+/// The equations (2) of the header, and for each number the size of the terms that it is the sum of.
 struct FirstOrder {
-  Matrix P, matrix;
+  Matrix P, matrix, size;
 };
 
 FirstOrder first_order(const Tangent& t) {
@@ -139,9 +148,20 @@ FirstOrder first_order(const Tangent& t) {
     P = orthogonal_complement(t.B.transpose());
   }
   const Index c = P.cols();
-  Matrix matrix(d + c, d + c);
+  Matrix matrix(d + c, d + c), size(d + c, d + c);
   matrix << -lifted, P, P.transpose() * (t.C * lifted - t.K), -P.transpose() * t.C * P;
-  return {std::move(P), std::move(matrix)};
+  const Matrix p = P.cwiseAbs(), l = Matrix::Constant(d, d, lifted.norm());
+  size << l, p, p.transpose() * (t.C.cwiseAbs() * l + Matrix::Constant(d, d, t.K.norm())),
+      p.transpose() * t.C.cwiseAbs() * p;
+  return {std::move(P), std::move(matrix), std::move(size)};
+}
+
+/// A basis of A x = 0, as far as can be told: each row is measured by what its numbers are sums of, as a row
+/// of round-off would look like any other by its own length.
+Matrix kernel(const Matrix& A, const Matrix& size) {
+  Vector scale = size.rowwise().maxCoeff();
+  for (double& x : scale) x = x > 0.0 ? 1.0 / x : 1.0;
+  return dense::kernel(scale.asDiagonal() * A, round_off_of_a_sum);
 }
 
 /// A basis of the states at rest: P^T K z = 0, E z = 0. (Not by rows of unit length: those of K may be
@@ -158,19 +178,25 @@ std::pair<Matrix, Matrix> split(const Matrix& columns) {
   return {orthogonal_complement(rest), std::move(rest)};
 }
 
-/// A matrix deflated by its known zero eigenvalues: those of the states at rest, and of motions that go along
-/// them for ever, A (A x) = 0, one at most to each.
+/// A matrix deflated by its known zero eigenvalues: those of the states at rest, and of the motions that go
+/// along them for ever: x with A x among those known so far, at most as many as the last time. (A heading
+/// moves a skate sideways, and nothing turns it back.)
 struct Deflated {
   Matrix zeros, rest;  ///< orthonormal; span(zeros) is invariant
 
-  Deflated(const Matrix& A, const Matrix& at_rest) {
-    const auto [still, moving] = split(at_rest);
-    const Matrix again = moving.transpose() * A * moving;  // rows of any size
-    const Matrix further = dense::kernel(again.rowwise().normalized(), round_off_of_a_sum);
-    const auto [steady, others] = split(further.leftCols(std::min(further.cols(), at_rest.cols())));
-    zeros.resize(A.rows(), still.cols() + steady.cols());
-    zeros << still, moving * steady;
-    rest = moving * others;
+  Deflated(const FirstOrder& f, const Matrix& at_rest) {
+    std::tie(zeros, rest) = split(at_rest);
+    for (Index last = at_rest.cols(); last > 0 && rest.cols() > 0;) {
+      const Matrix again = rest.transpose() * f.matrix * rest,
+                   size = rest.cwiseAbs().transpose() * f.size * rest.cwiseAbs();
+      const Matrix further = kernel(again, size);
+      last = std::min(further.cols(), last);
+      const auto [steady, others] = split(further.leftCols(last));
+      Matrix all(zeros.rows(), zeros.cols() + steady.cols());
+      all << zeros, rest * steady;
+      zeros = std::move(all);
+      rest = (rest * others).eval();
+    }
   }
   /// The eigenvector of A from one, y, of rest^T A rest.
   [[nodiscard]] Eigen::VectorXcd lift(const Matrix& A, std::complex<double> s,
@@ -201,33 +227,45 @@ bool has_energy(const Tangent& t) {
   return D.rows() == 0 || shares.minCoeff() >= -round_off_of_a_sum;
 }
 
-/// Draws the conclusion from an eigenvalue that is known to an error.
-void judge(Modes& found, std::complex<double> s, double error, bool carries_energy) {
-  if (s.real() > error) {
-    refute(found, Stability::unstable, grows(s));
-  } else if (!(s.real() < -error) && !carries_energy) {
+/// A solution z exp(s t) of (1) that is no state at rest.
+struct Solution {
+  std::complex<double> s;
+  double error;  ///< to which s is known
+  Eigen::VectorXcd z;
+  bool positive;  ///< whether its energy is > 0
+};
+
+/// Draws the conclusion from an eigenvalue.
+void judge(Verdict& verdict, const Solution& x, bool energy_tells) {
+  if (x.s.real() > x.error) {
+    verdict.grows_by(x.s);
+  } else if (!(x.s.real() < -x.error) && !(energy_tells && x.positive)) {
     std::ostringstream text;
-    text << "it cannot be told whether a mode of " << s.imag() << " rad/time grows as exp(" << s.real()
-         << " t), since that is known to " << error << ", and its energy is not > 0";
-    refute(found, Stability::undecided, text.str());
+    text << "it cannot be told whether a mode of " << x.s.imag() << " rad/time grows as exp(" << x.s.real()
+         << " t), since that is known to " << x.error << ", and its energy is not > 0";
+    verdict.leave_undecided(text.str());
   }
 }
 
-void of_any(Tangent t, Modes& found) {
+/// The states at rest, one per column, and the other solutions with Im s >= 0.
+struct Solutions {
+  Matrix at_rest;
+  std::vector<Solution> others;
+};
+
+Solutions solutions(Tangent& t) {
   /// Of each term of the matrix and each step of the QR algorithm, in units of round-off of the largest.
   constexpr double backward = 10.0;
   const double Omega = scale_time(t);
   const FirstOrder f = first_order(t);
-  Matrix at_rest = states_at_rest(t, f);
-  for (Index k = 0; k < at_rest.cols(); ++k)
-    found.modes.push_back(mode(0.0, at_rest.col(k).cast<std::complex<double>>(), t));
+  Solutions found{states_at_rest(t, f), {}};
+  Matrix at_rest = found.at_rest;
   at_rest.conservativeResizeLike(Matrix::Zero(f.matrix.rows(), at_rest.cols()));
-  const Deflated deflated(f.matrix, at_rest);
+  const Deflated deflated(f, at_rest);
   const Matrix A = deflated.rest.transpose() * f.matrix * deflated.rest;
-  if (A.size() == 0) return;
+  if (A.size() == 0) return found;
   const auto [values, right] = dense::complex_eigen(A);
   const Eigen::MatrixXcd left = dense::inverse(right);
-  const bool energy_tells = has_energy(t);
   for (Index k = 0; k < A.rows(); ++k) {
     const std::complex<double> s = values[k];
     if (s.imag() < 0.0) continue;
@@ -239,28 +277,117 @@ void of_any(Tangent t, Modes& found) {
     const double kinetic = std::norm(s) * z.squaredNorm();
     const double energy = kinetic + (z.adjoint() * t.K * z)(0, 0).real();
     const double unknown = round_off_of_a_sum * z.cwiseAbs().dot(t.K.cwiseAbs() * z.cwiseAbs());
-    found.modes.push_back(mode(Omega * s, z, t));
-    judge(found, Omega * s, Omega * error, energy_tells && energy > 1e-9 * kinetic + unknown);
+    found.others.push_back({Omega * s, Omega * error, z, energy > 1e-9 * kinetic + unknown});
   }
+  return found;
+}
+
+void of_any(Tangent t, Verdict& verdict) {
+  const Solutions all = solutions(t);
+  for (Index k = 0; k < all.at_rest.cols(); ++k)
+    verdict.found.modes.push_back(mode(0.0, all.at_rest.col(k).cast<std::complex<double>>(), t));
+  const bool energy_tells = has_energy(t);
+  for (const Solution& x : all.others) {
+    verdict.found.modes.push_back(mode(x.s, x.z, t));
+    judge(verdict, x, energy_tells);
+  }
+}
+
+/// Whether every eigenvalue of a symmetric K is >= 0, within round-off.
+bool is_positive(const Tangent& t) {
+  if (t.K.size() == 0) return true;
+  const Vector values = dense::symmetric_eigen(t.K).values;
+  return values.minCoeff() >= -round_off_of_a_sum * values.cwiseAbs().maxCoeff();
+}
+
+/// Those of one part, see `vibrations`.
+void append_vibrations(Tangent t, std::vector<Vibration>& found) {
+  if (t.K.rows() == 0) return;
+  const bool gyroscopic = !onto(Matrix::Identity(t.C.rows(), t.C.rows()), t.C - t.C.transpose()).isZero(0.0);
+  if (t.B.rows() == 0 && has_energy(t) && (!gyroscopic || is_positive(t))) return;
+  if (t.B.rows() == 0 && t.C.isZero(0.0)) {
+    for (const std::complex<double> square : dense::eigenvalues(-t.K)) {
+      const std::complex<double> s = std::sqrt(square);  // Re s >= 0
+      if (s.imag() > 0.0) found.push_back({s, 0.0});
+    }
+    return;
+  }
+  for (const Solution& x : solutions(t).others)
+    if (x.s.imag() > x.error) found.push_back({x.s, x.error});
+}
+
+/// K of one part: its eigenvalues with right eigenvectors and, as rows, those on the left.
+struct Decomposed {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd right, left;
+};
+
+Decomposed decomposed(const Tangent& t) {
+  if (t.symmetric) {
+    const auto [values, shapes] = dense::symmetric_eigen(t.K);
+    return {values.cast<std::complex<double>>(), shapes.cast<std::complex<double>>(),
+            shapes.transpose().cast<std::complex<double>>()};
+  }
+  auto [values, right] = dense::complex_eigen(t.K);
+  Eigen::MatrixXcd left = dense::inverse(right);
+  return {std::move(values), std::move(right), std::move(left)};
 }
 
 }  // namespace
 
 Modes dense_modes(const System& system, const LinearTerms& terms) {
   Modes found{{}, Stability::stable, "every mode decays or vibrates with positive energy"};
+  Verdict verdict{found};
   for (Tangent& t : tangents(system, terms)) {
     if (t.K.rows() == 0) continue;  // a part without freedom
     const bool conservative = t.B.rows() == 0 && t.C.isZero(0.0) && t.symmetric;
-    conservative ? of_conservative(t, found) : of_any(std::move(t), found);
+    conservative ? of_conservative(t, verdict) : of_any(std::move(t), verdict);
   }
   std::ranges::stable_sort(found.modes, {}, [](const Mode& m) { return std::abs(m.eigenvalue); });
   return found;
 }
 
+std::vector<Vibration> vibrations(const System& system, const LinearTerms& terms) {
+  std::vector<Vibration> found;
+  for (Tangent& t : tangents(system, terms)) append_vibrations(std::move(t), found);
+  std::ranges::stable_sort(found, std::greater{}, [](const Vibration& x) { return x.s.real(); });
+  return found;
+}
+
 TangentStiffness tangent_stiffness(const System& system, const LinearTerms& terms) {
-  const Tangent t = tangent(system, terms, up_to(system.coordinates()), up_to(system.rows()));
-  auto [values, shapes] = dense::symmetric_eigen((t.K + t.K.transpose()) / 2);
-  return {std::move(values), t.shapes * shapes};
+  struct Real {
+    double value;
+    Vector shape, dual;
+  };
+  std::vector<Real> real;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Tangent& t : tangents(system, terms)) {
+    if (t.K.rows() == 0) continue;
+    const Decomposed K = decomposed(t);
+    const double zero = round_off_of_a_sum * K.values.cwiseAbs().maxCoeff();
+    for (Index k = 0; k < K.values.size(); ++k) {
+      const double value = std::abs(K.values[k]) <= zero ? 0.0 : K.values[k].real();
+      least = std::min(least, value);
+      if (K.values[k].imag() != 0.0) continue;
+      Real one{value, Vector::Zero(static_cast<Index>(t.all)), Vector::Zero(static_cast<Index>(t.all))};
+      const Vector u = t.shapes * K.right.col(k).real(), dual = t.metric * K.left.row(k).transpose().real();
+      for (std::size_t i = 0; i < t.coordinates.size(); ++i) {
+        one.shape[static_cast<Index>(t.coordinates[i])] = u[static_cast<Index>(i)];
+        one.dual[static_cast<Index>(t.coordinates[i])] = dual[static_cast<Index>(i)];
+      }
+      real.push_back(std::move(one));
+    }
+  }
+  std::ranges::stable_sort(real, {}, &Real::value);
+  const auto n = static_cast<Index>(system.coordinates()), count = static_cast<Index>(real.size());
+  TangentStiffness found{Vector(count), Matrix(n, count), Matrix(n, count), least};
+  for (Index k = 0; k < count; ++k) {
+    const Real& one = real[static_cast<std::size_t>(k)];
+    found.values[k] = one.value;
+    found.shapes.col(k) = one.shape;
+    found.duals.col(k) = one.dual;
+  }
+  return found;
 }
 
 }  // namespace dalembert

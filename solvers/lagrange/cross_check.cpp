@@ -18,6 +18,10 @@ std::string CrossCheck::report() const {
   line("positions", position);
   line("velocities", velocity);
   line("forces of constraint", force);
+  text << "at " << states << " random states:\n";
+  line("positions of the embedding and of the constraints", embedded);
+  line("accelerations", acceleration);
+  line("forces of constraint", reaction);
   return text.str();
 }
 
@@ -40,9 +44,10 @@ Comparison::Comparison(const System& system, const Statistics& statistics)
   const double length = statistics.length;
   for (const auto& rotor : system.layout()->rotors)
     length_[static_cast<std::size_t>(rotor.coordinate)] = length;
-  for (Difference* d : {&found_.position, &found_.velocity, &found_.force})
+  for (Difference* d : {&found_.position, &found_.velocity, &found_.force, &found_.embedded,
+                        &found_.acceleration, &found_.reaction})
     d->largest = std::numeric_limits<double>::quiet_NaN();
-  found_.position.unit = length;
+  found_.position.unit = found_.embedded.unit = length;
   found_.velocity.unit = statistics.time > 0.0 ? length / statistics.time : 0.0;
 }
 
@@ -59,8 +64,7 @@ void Comparison::compare(double time, std::span<const double> a, std::span<const
   }
 }
 
-void Comparison::add(const FlatSample& sample, std::span<const double> q, std::span<const double> v,
-                     std::span<const double> Z) {
+void Comparison::compare_forces(const FlatSample& sample, std::span<const double> Z, Difference& found) {
   const Layout& layout = *system_->layout();
   std::ranges::fill(sum_, 0.0);
   for (std::size_t slot = 0; slot < layout.slot_coordinate.size(); ++slot)
@@ -68,13 +72,29 @@ void Comparison::add(const FlatSample& sample, std::span<const double> q, std::s
   auto e = system_->evaluation();
   system_->evaluate({sample.time, sample.q, sample.v}, e);
   for (std::size_t i = 0; i < sum_.size(); ++i) {
-    found_.velocity.unit = std::max(found_.velocity.unit, std::abs(sample.v[i]) * length_[i]);
     for (const double force : {sum_[i], e.force[i]})
-      if (std::isfinite(force)) found_.force.unit = std::max(found_.force.unit, std::abs(force) / length_[i]);
+      if (std::isfinite(force)) found.unit = std::max(found.unit, std::abs(force) / length_[i]);
   }
+  compare(sample.time, sum_, Z, true, found);
+}
+
+void Comparison::add(const FlatSample& sample, std::span<const double> q, std::span<const double> v,
+                     std::span<const double> Z) {
+  for (std::size_t i = 0; i < sum_.size(); ++i)
+    found_.velocity.unit = std::max(found_.velocity.unit, std::abs(sample.v[i]) * length_[i]);
   compare(sample.time, sample.q, q, false, found_.position);
   compare(sample.time, sample.v, v, false, found_.velocity);
-  compare(sample.time, sum_, Z, true, found_.force);
+  compare_forces(sample, Z, found_.force);
+}
+
+void Comparison::add_state(const FlatSample& sample, std::span<const double> q, std::span<const double> a,
+                           std::span<const double> Z) {
+  ++found_.states;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    found_.acceleration.unit = std::max(found_.acceleration.unit, std::abs(a[i]) * length_[i]);
+  compare(sample.time, sample.q, q, false, found_.embedded);
+  compare(sample.time, sample.a, a, false, found_.acceleration);
+  compare_forces(sample, Z, found_.reaction);
 }
 
 void Comparison::require_same_start() const {

@@ -1,9 +1,13 @@
 #pragma once
 
 #include <dalembert/core/lagrange/embedding.h>
+#include <dalembert/solvers/integrator.h>
 #include <dalembert/solvers/lagrange/lagrangian_simulation.h>
 
+#include <random>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace dalembert {
 
@@ -25,6 +29,10 @@ struct CrossCheck {
   /// Of all forces of constraint on a particle together, Z = W^T lambda against Z = m a - F; relative to the
   /// largest of constraint or applied ones.
   Difference force;
+  /// At random states that satisfy both sides' constraints, where the motion need never come: how far the
+  /// embedding is from the scene's constraints, the accelerations relative to the largest, and Z as above.
+  Difference embedded, acceleration, reaction;
+  int states = 0;  ///< how many there were; of 10 those at which either side has no motion are left out
 
   /// One line for each.
   [[nodiscard]] std::string report() const;
@@ -37,6 +45,9 @@ class Comparison {
   Comparison(const System& system, const Statistics& statistics);
   void add(const FlatSample& sample, std::span<const double> q, std::span<const double> v,
            std::span<const double> Z);
+  /// The same at a state of its own, with accelerations; `sample` is of the scene, as near as can be.
+  void add_state(const FlatSample& sample, std::span<const double> q, std::span<const double> a,
+                 std::span<const double> Z);
   [[nodiscard]] CrossCheck result() const { return found_; }
   /// Throws InvalidArgument unless the first sample agrees to the accuracy asked of a start.
   void require_same_start() const;
@@ -44,21 +55,61 @@ class Comparison {
  private:
   void compare(double time, std::span<const double> a, std::span<const double> b, bool of_force,
                Difference& found) const;
+  void compare_forces(const FlatSample& sample, std::span<const double> Z, Difference& found);
 
   const System* system_;
   std::vector<double> length_;  ///< of each coordinate: 1, or for an angle the scene's length
   std::vector<double> sum_;     ///< of forces of constraint
   CrossCheck found_;
 };
+
+/// Numbers from -1 to 1, the same in every run and on every machine.
+template <int N>
+[[nodiscard]] Vec<N> random_numbers(std::mt19937& generator) {
+  Vec<N> x;
+  for (int k = 0; k < N; ++k) x[k] = static_cast<double>(generator()) / 2147483648.0 - 1.0;
+  return x;
+}
+
+/// Compares both sides at states around the start: as far from it as the coordinates' scales, and at rates
+/// that move them so far in the motion's own time.
+template <int D, int N>
+void compare_random_states(const Scene<D>& scene, const LagrangianSystem<N>& system,
+                           const Embedding<D, N>& embedding, double t, double time, Comparison& comparison) {
+  constexpr int states = 10;
+  std::mt19937 generator(1);
+  const System equations = scene.system();
+  const Options begin{.t_end = t + time, .t_start = t, .assemble = true};
+  std::vector<double> q(equations.coordinates()), v(q.size()), a(q.size()), Z(q.size());
+  for (int k = 0; k < states; ++k) {
+    Vec<N> x = random_numbers<N>(generator), rate = random_numbers<N>(generator) / time;
+    x += system.position().cwiseQuotient(system.scale());
+    try {
+      const Integrator lagrangian(system.rotor_scene(t).system(), std::span(x.data(), N),
+                                  std::span(rate.data(), N), begin);
+      const FlatSample now = lagrangian.sample();
+      const auto scaled = [&](std::span<const double> u) -> Vec<N> {
+        return system.scale().cwiseProduct(Eigen::Map<const Vec<N>>(u.data()));
+      };
+      embedding.write(*equations.layout(), t, scaled(now.q), scaled(now.v), scaled(now.a), q, v, a);
+      const Integrator own(equations, q, v, begin);
+      constraint_forces(equations, {t, q, v}, a, Z);
+      comparison.add_state(own.sample(), q, a, Z);
+    } catch (
+        const Error&) {  // no state of motion: where a Lagrangian has no inertia, or a joint does not reach
+    }
+  }
+}
 }  // namespace detail
 
 /// The motion and the forces of constraint from both formulations of a system (notes, mln5, mln8): `scene`
 /// with its constraints, `system` with its Lagrangian, and `embedding`, the positions of the particles as
 /// functions of its coordinates. Both runs take the same options.
 ///
-/// The two share steppers but none of the equations, so what they agree in is right unless both are
-/// misstated. Throws InvalidArgument if they do not begin in the same state or the embedding leaves out a
-/// particle; else what `simulate` throws.
+/// The two share steppers but none of the equations. What is never felt in the motion that is run (the spring
+/// between two pendulums that are released alike) shows at random states, at whose accelerations and forces
+/// both are compared too. What both agree in is right unless both are misstated. Throws InvalidArgument if
+/// they do not begin in the same state or the embedding leaves out a particle; else what `simulate` throws.
 template <int D, int N>
 [[nodiscard]] CrossCheck cross_check(const Scene<D>& scene, const LagrangianSystem<N>& system,
                                      const Embedding<D, N>& embedding, const Options& options) {
@@ -72,6 +123,8 @@ template <int D, int N>
                    embedded.constraint_forces(i));
     if (i == 0) comparison.require_same_start();
   }
+  const double time = run.statistics().time > 0.0 ? run.statistics().time : options.t_end - options.t_start;
+  detail::compare_random_states(scene, system, embedding, options.t_start, time, comparison);
   return comparison.result();
 }
 

@@ -1,0 +1,241 @@
+#include "dalembert/solvers/equilibrium/singular_points.h"
+
+#include <dalembert/solvers/base/numbers.h>
+#include <dalembert/solvers/base/root.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace dalembert {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// The fraction of the way between two points to which a point is located directly: adjacent numbers.
+constexpr double exact = 1e-14;
+/// Covectors of orthonormal shapes give their cosines: two shapes of which each is more than this of the
+/// other are the same, as sqrt(1 - 0.8^2) < 0.8 is left for all others.
+constexpr double same_shape = 0.8;
+constexpr int most_halvings = 10;
+
+/// The place in b of what is most alike to both ends of a pair.
+Index place_of(const Node& at, const Node& a, const Node& b, std::pair<Index, Index> pair) {
+  const Eigen::MatrixXd& shapes = at.stiffness.shapes;
+  const VectorXd alike = (a.stiffness.duals.col(pair.first).transpose() * shapes).cwiseAbs() +
+                         (b.stiffness.duals.col(pair.second).transpose() * shapes).cwiseAbs();
+  Index place = 0;
+  if (alike.size() > 0) (void)alike.maxCoeff(&place);
+  return place;
+}
+
+/// The Lagrange polynomials of some nodes at x.
+template <std::size_t N>
+std::array<double, N> weights(const std::array<double, N>& nodes, double x) {
+  std::array<double, N> w;
+  for (std::size_t i = 0; i < N; ++i) {
+    w[i] = 1.0;
+    for (std::size_t j = 0; j < N; ++j)
+      if (j != i) w[i] *= (x - nodes[j]) / (nodes[i] - nodes[j]);
+  }
+  return w;
+}
+
+/// Two vibrations of an undamped scene that meet: half of their distance squared; < 0 before, where both are
+/// on the imaginary axis, > 0 after, off it to either side. (It passes 0 with a slope, and is known to
+/// round-off where either eigenvalue is known to its square root.)
+double of_meeting(const std::vector<Vibration>& all, std::size_t rank, double frequency) {
+  if (rank < all.size() && all[rank].grows()) return all[rank].s.real() * all[rank].s.real();
+  double first = std::numeric_limits<double>::infinity(), second = first;  // distances from the frequency
+  for (const Vibration& v : all) {
+    if (v.grows()) continue;
+    const double off = v.s.imag() - frequency;
+    if (std::abs(off) < std::abs(first))
+      second = std::exchange(first, off);
+    else if (std::abs(off) < std::abs(second))
+      second = off;
+  }
+  return std::isfinite(second) ? -0.25 * (first - second) * (first - second)
+                               : -std::numeric_limits<double>::max();
+}
+
+}  // namespace
+
+SingularPoints::Found SingularPoints::between(const Node* before, const Node& a, const Node& b) const {
+  Found found;
+  zeros(before, a, b, 0, found);
+  flutters(a, b, found);
+  return found;
+}
+
+std::optional<Node> SingularPoints::on_chord(const Node& a, const Node& b, double way) const {
+  Node guess = way < 0.5 ? a : b;
+  guess.x = a.x + way * (b.x - a.x);
+  return corrector_->correct(guess, (b.x - a.x).normalized());
+}
+
+SingularPoints::Followed SingularPoints::follow(const Node& a, const Node& b) {
+  const Index m = a.stiffness.values.size(), n = b.stiffness.values.size();
+  const Eigen::MatrixXd to_b = (a.stiffness.duals.transpose() * b.stiffness.shapes).cwiseAbs(),
+                        to_a = (a.stiffness.shapes.transpose() * b.stiffness.duals).cwiseAbs();
+  Followed found;
+  found.alike = to_b.cwiseProduct(to_a).cwiseSqrt();
+  std::vector<char> taken(static_cast<std::size_t>(n), 0);
+  for (Index i = 0; i < m; ++i) {
+    Index j = 0;
+    const bool known = n > 0 && found.alike.row(i).maxCoeff(&j) > same_shape;
+    if (!known || std::exchange(taken[static_cast<std::size_t>(j)], 1) == 1)
+      found.of_a.push_back(i);
+    else
+      found.pairs.emplace_back(i, j);
+  }
+  for (Index j = 0; j < n; ++j)
+    if (taken[static_cast<std::size_t>(j)] == 0) found.of_b.push_back(j);
+  return found;
+}
+
+/// Whether something that is not known again may have passed 0: shapes of one frequency are not told from
+/// each other, but they are from those on the other side of 0.
+bool SingularPoints::Followed::matters(const Node& a, const Node& b) const {
+  constexpr double alike_at_all = 0.5;  // a shape among two others is at least sqrt(1/2) of one
+  for (const Index i : of_a) {
+    for (const Index j : of_b) {
+      const bool passed = (a.stiffness.values[i] < 0.0) != (b.stiffness.values[j] < 0.0);
+      if (passed && alike(i, j) > alike_at_all) return true;
+    }
+  }
+  return false;
+}
+
+void SingularPoints::Followed::pair_the_rest() {
+  for (std::size_t k = 0; k < std::min(of_a.size(), of_b.size()); ++k) pairs.emplace_back(of_a[k], of_b[k]);
+}
+
+bool SingularPoints::may_have_turned(const Node* before, const Node& a, const Node& b,
+                                     const Followed& followed) {
+  if (before == nullptr) return false;
+  const double ratio = (b.x - a.x).norm() / (a.x - before->x).norm();
+  const Followed earlier = follow(*before, a);
+  return std::ranges::any_of(earlier.pairs, [&](const Pair& pair) {
+    const double first = before->stiffness.values[pair.first], now = a.stiffness.values[pair.second];
+    const auto next = std::ranges::find(followed.pairs, pair.second, &Pair::first);
+    if (next == followed.pairs.end() || now == 0.0) return false;
+    const double then = b.stiffness.values[next->second], expected = now + ratio * (now - first);
+    return (now < 0.0) == (then < 0.0) && (now < 0.0) != (expected < 0.0);
+  });
+}
+
+void SingularPoints::zeros(const Node* before, const Node& a, const Node& b, int depth, Found& found) const {
+  Followed followed = follow(a, b);
+  const bool first = before == nullptr && depth == 0;  // nothing tells where eigenvalues head for
+  const bool clear = !first && !followed.matters(a, b) && !may_have_turned(before, a, b, followed);
+  if (!clear && depth < most_halvings && (b.x - a.x).norm() > exact) {
+    if (const auto middle = on_chord(a, b, 0.5)) {
+      zeros(before, a, *middle, depth + 1, found);
+      zeros(&a, *middle, b, depth + 1, found);
+      return;
+    }
+  }
+  followed.pair_the_rest();
+  for (const Pair& pair : followed.pairs) {
+    if ((a.stiffness.values[pair.first] < 0.0) == (b.stiffness.values[pair.second] < 0.0)) continue;
+    if (auto zero = locate(a, b, pair)) found.zeros.push_back(std::move(*zero));
+  }
+}
+
+/// First roughly, by points that are corrected. Close to the zero that fails: two branches may intersect
+/// there, and Newton's matrix is singular. So the branch is interpolated then.
+std::optional<SingularPoints::Zero> SingularPoints::locate(const Node& a, const Node& b, Pair pair) const {
+  std::optional<Node> near;
+  const auto eigenvalue = [&](double way) {
+    auto next = on_chord(a, b, way);
+    if (!next) return 0.0;  // that ends the search with what there is
+    near = std::move(next);
+    return near->stiffness.values.size() > 0 ? near->stiffness.values[place_of(*near, a, b, pair)] : 0.0;
+  };
+  (void)root(eigenvalue, 0.0, a.stiffness.values[pair.first], 1.0, b.stiffness.values[pair.second], exact);
+  if (!near) near = b;
+  if (auto better = interpolated(a, b, *near, pair)) near = std::move(better);
+  const Index place = place_of(*near, a, b, pair);
+  return Zero{std::move(*near), place};
+}
+
+/// Branches are analytic, also where they intersect: through points on both sides, at Chebyshev's places
+/// along the chord, the polynomial errs by (width/r)^8/128 if the next singularity is r away.
+std::optional<Node> SingularPoints::interpolated(const Node& a, const Node& b, const Node& near,
+                                                 Pair pair) const {
+  constexpr std::size_t count = 8;
+  const VectorXd along = (b.x - a.x).normalized();
+  const double width = 0.1 * step_;
+  std::array<double, count> ways, values;
+  std::array<Node, count> nodes;
+  for (std::size_t k = 0; k < count; ++k) {
+    ways[k] = std::cos((static_cast<double>(k) + 0.5) / count * std::numbers::pi);
+    Node guess = near;
+    guess.x += width * ways[k] * along;
+    if (guess.fraction() < 0.0 || guess.fraction() > 1.0) return std::nullopt;
+    auto next = corrector_->correct(guess, along);
+    if (!next || (next->x - near.x).norm() > 2.0 * width || next->stiffness.values.size() == 0)
+      return std::nullopt;
+    nodes[k] = std::move(*next);
+    values[k] = nodes[k].stiffness.values[place_of(nodes[k], a, b, pair)];
+  }
+  const auto eigenvalue = [&](double way) {
+    const auto w = weights(ways, way);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < count; ++k) sum += w[k] * values[k];
+    return sum;
+  };
+  if ((values[0] > 0.0) == (values[count - 1] > 0.0)) return std::nullopt;
+  const auto w =
+      weights(ways, root(eigenvalue, ways[0], values[0], ways[count - 1], values[count - 1], exact));
+  Node found = near;
+  found.x.setZero();
+  std::ranges::fill(found.lambda, 0.0);
+  for (std::size_t k = 0; k < count; ++k) {
+    found.x += w[k] * nodes[k].x;
+    for (std::size_t r = 0; r < found.lambda.size(); ++r) found.lambda[r] += w[k] * nodes[k].lambda[r];
+  }
+  return corrector_->finished(std::move(found));
+}
+
+void SingularPoints::flutters(const Node& a, const Node& b, Found& found) const {
+  const auto [fewer, more] = std::minmax(a.growing(), b.growing());
+  for (auto rank = fewer; rank < more; ++rank)
+    if (auto flutter = locate_flutter(a, b, static_cast<std::size_t>(rank)))
+      found.flutters.push_back(std::move(*flutter));
+}
+
+/// Where the vibration of a rank, by decreasing growth, begins to grow: with damping where its real part is
+/// 0; without where it meets another on the imaginary axis.
+std::optional<SingularPoints::Flutter> SingularPoints::locate_flutter(const Node& a, const Node& b,
+                                                                      std::size_t rank) const {
+  const bool grows_at_b = b.growing() > a.growing();
+  const Node &steady = grows_at_b ? a : b, &grown = grows_at_b ? b : a;
+  Vibration last = grown.vibrations[rank];
+  const bool damped =
+      rank < steady.vibrations.size() && steady.vibrations[rank].s.real() < -steady.vibrations[rank].error;
+  std::optional<Node> near = grown;
+  const auto excess = [&](const Node& node) {
+    const bool there = rank < node.vibrations.size();
+    if (there && node.vibrations[rank].grows()) last = node.vibrations[rank];
+    if (!damped) return of_meeting(node.vibrations, rank, last.s.imag());
+    return there ? node.vibrations[rank].s.real() : -std::numeric_limits<double>::max();
+  };
+  const auto on_way = [&](double way) {
+    auto next = on_chord(steady, grown, way);
+    if (!next) return 0.0;
+    near = std::move(next);
+    return excess(*near);
+  };
+  (void)root(on_way, 0.0, excess(steady), 1.0, excess(grown), exact);
+  // What turns into steady growth and not into a vibration that is just kept up is no flutter's limit.
+  if (std::abs(last.s.real()) > std::sqrt(rank_threshold) * std::abs(last.s.imag())) return std::nullopt;
+  return Flutter{std::move(*near), last.s.imag()};
+}
+
+}  // namespace dalembert

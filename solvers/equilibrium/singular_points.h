@@ -1,0 +1,68 @@
+#pragma once
+
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/equilibrium/continuation.h>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// The points of a branch, between two that follow each other, at which its stability may change: where a
+/// real eigenvalue of the stiffness changes its sign, and where a vibration begins to grow or ceases to.
+///
+/// Eigenvalues are followed by their shapes and not by their order: of two that change their signs against
+/// each other the numbers above and below 0 do not tell. Two shapes are the same if the covector of either
+/// gives more than `same_shape` of the other; where that tells too little the step is divided.
+class SingularPoints {
+ public:
+  /// A real eigenvalue that is 0 at a point, by its place in Node::stiffness.
+  struct Zero {
+    Node at;
+    Eigen::Index place;
+  };
+  struct Flutter {
+    Node at;
+    double frequency;
+  };
+  struct Found {
+    std::vector<Zero> zeros;
+    std::vector<Flutter> flutters;
+  };
+
+  SingularPoints(const Corrector& corrector, double step) : corrector_(&corrector), step_(step) {}
+
+  /// Between a and b, `before` a on the branch if there is such a point.
+  [[nodiscard]] Found between(const Node* before, const Node& a, const Node& b) const;
+
+ private:
+  /// An eigenvalue at both ends of a step, by its places there.
+  using Pair = std::pair<Eigen::Index, Eigen::Index>;
+  struct Followed {
+    std::vector<Pair> pairs{};
+    std::vector<Eigen::Index> of_a{}, of_b{};  ///< that are not known again
+    Eigen::MatrixXd alike{};                   ///< how much each of a is of each of b
+
+    [[nodiscard]] bool matters(const Node& a, const Node& b) const;
+    /// By their order, where shapes do not tell.
+    void pair_the_rest();
+  };
+  [[nodiscard]] static Followed follow(const Node& a, const Node& b);
+  /// Whether an eigenvalue that heads for 0 at a has the same sign at b: it may have been there and back.
+  [[nodiscard]] static bool may_have_turned(const Node* before, const Node& a, const Node& b,
+                                            const Followed& followed);
+  void zeros(const Node* before, const Node& a, const Node& b, int depth, Found& found) const;
+  void flutters(const Node& a, const Node& b, Found& found) const;
+
+  [[nodiscard]] std::optional<Node> on_chord(const Node& a, const Node& b, double way) const;
+  [[nodiscard]] std::optional<Zero> locate(const Node& a, const Node& b, Pair pair) const;
+  [[nodiscard]] std::optional<Node> interpolated(const Node& a, const Node& b, const Node& near,
+                                                 Pair pair) const;
+  [[nodiscard]] std::optional<Flutter> locate_flutter(const Node& a, const Node& b, std::size_t rank) const;
+
+  const Corrector* corrector_;
+  double step_;
+};
+
+}  // namespace dalembert
