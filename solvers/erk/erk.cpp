@@ -56,9 +56,9 @@ double ErkStepper::State::shorter(double step, double factor) const {
 /// The step to try: h, or an equal part of the way to the next output time or the end of the run, unless
 /// several outputs fall into one step.
 double ErkStepper::State::step_towards(double wanted) const {
-  const double gap = std::min(wanted, t_end) - to.t;
-  if (gap < 0.5 * h && wanted < t_end) return std::min(h, t_end - to.t);
-  return gap / std::max(1.0, std::ceil(gap / h - constants.stretch));
+  const double gap = std::min(wanted, t_end) - to.t, next_h = std::min(h, longest);
+  if (gap < 0.5 * next_h && wanted < t_end) return std::min(next_h, t_end - to.t);
+  return std::min(longest, gap / std::max(1.0, std::ceil(gap / next_h - constants.stretch)));
 }
 
 /// Accepts `next` as the end of a step.
@@ -143,6 +143,19 @@ void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v)
     const double round_off = 10.0 * (rounding + of_time * std::abs(speeds[0])) / h;
     q[i] = x.value;
     v[i] = std::abs(cubic - better) <= round_off ? better : x.derivative;
+  }
+}
+
+/// The polynomial of degree 5 through both ends.
+void ErkStepper::sketch(double t, std::span<double> q, std::span<double> v) {
+  const State& s = *state_;
+  if (s.crossed || s.has_middle || s.from.t == s.to.t) return interpolate(t, q, v);
+  const Hermite<2> of_ends({s.from.t, s.to.t}, t);
+  for (std::size_t i = 0; i < s.n; ++i) {
+    const auto x =
+        of_ends({s.from.q[i], s.to.q[i]}, {s.from.va[i], s.to.va[i]}, {s.from.va[s.n + i], s.to.va[s.n + i]});
+    q[i] = x.value;
+    v[i] = x.derivative;
   }
 }
 

@@ -39,6 +39,7 @@ class ErkStepper final : public TimeStepper {
   [[nodiscard]] const Scales& scales() const;
   [[nodiscard]] double sine() const override;
   void interpolate(double t, std::span<double> q, std::span<double> v) override;
+  void sketch(double t, std::span<double> q, std::span<double> v) override;
   [[nodiscard]] int degree() const override { return 8; }  // Hermite<3>
   [[nodiscard]] bool springs(double /*t*/, Springs& /*out*/) const override { return false; }
   void count(Statistics& statistics) const override;

@@ -32,7 +32,7 @@ struct ErkStepper::State {
     double t = 0.0;
     std::vector<double> q, va;
     double sine = 1.0;  // see Manifold
-    Side side{};        // of the switches in the equations; unset if there are none
+    Slope side{};       // of friction laws; unset if there are none
 
     [[nodiscard]] Angle angle() const { return {t, sine}; }
   };
@@ -108,6 +108,7 @@ struct ErkStepper::State {
   std::vector<double> force_of_spring;     // per row, 0 in rigid ones; empty if all are
   Way covered;                             // by the steps taken; `scales` may be those of one that is tried
   double usual;                            // step, however near the end of the run is
+  double longest;                          // that is allowed
   double h;                                // to try next
   long steps = 0, failures = 0, stability_limited = 0;
 
@@ -129,7 +130,7 @@ struct ErkStepper::State {
   std::optional<Sticking> sticking;     // if there are any
   std::vector<double> multipliers;      // work
   Motion before_switch, behind_switch;  // work
-  Side stage_side, behind_side;         // of stages, the latter behind a switch
+  Slope stage_side, behind_side;        // of stages, the latter behind a switch
   bool passed_switch = false;           // by the last attempt,
   bool passed_several = false;          // and more than one
   Node short_of, beyond;                // where steps end in front of a switch, and behind it

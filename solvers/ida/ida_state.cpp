@@ -20,7 +20,7 @@ IdaStepper::State::State(const Problem& problem, const Start& start, const Optio
       t_start(options.t_start),
       t_end(options.t_end),
       first_step(std::min(constants.first_implicit_step * std::sqrt(options.tolerance) * start.scales.time,
-                          options.t_end - options.t_start)),
+                          longest_step(options))),
       e(system->evaluation()),
       lambda(start.lambda),
       impulse_row(start.rows.size()),

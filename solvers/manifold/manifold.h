@@ -1,6 +1,5 @@
 #pragma once
 
-#include <dalembert/core/autodiff/branches.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/linear/problem.h>
 #include <dalembert/solvers/manifold/friction.h>
@@ -83,11 +82,6 @@ class Manifold {
   /// unit of it: 0, as n is, where there are no constraints.
   void weakest_directions(std::span<double> n, std::span<double> response);
 
-  /// From here on comparisons that the constraints make are recorded.
-  void listen() { listening_ = true; }
-  /// Those of the last `accelerate` or `project`.
-  [[nodiscard]] const Branches::Outcomes& heard() const { return heard_; }
-
   /// The multipliers last found, one per row of the system; 0 in rows that are not in use.
   void multipliers(std::span<double> lambda) const;
 
@@ -103,8 +97,6 @@ class Manifold {
   [[nodiscard]] const char* method() const { return matrix_.method(); }
 
  private:
-  template <class F>
-  void hear(const F& equations);
   void evaluate(const Instant& at);
   void add_springs();
   void weigh_springs();
@@ -122,8 +114,7 @@ class Manifold {
   std::vector<double> gamma_, x_, q_before_;
   Springs springs_, springs_before_;
   std::vector<double> s_;
-  bool following_ = false, listening_ = false;
-  Branches::Outcomes heard_;
+  bool following_ = false;
   SaddleMatrix matrix_;
   MinimumNorm minimum_norm_;
   WeakestDirection weakest_;

@@ -22,6 +22,8 @@ class TimeStepper {
   [[nodiscard]] virtual double sine() const = 0;
   /// The state at a time inside the last step (or at the start, before the first). Throws EquationFault.
   virtual void interpolate(double t, std::span<double> q, std::span<double> v) = 0;
+  /// The same to what a look at the motion needs, without further evaluations of the equations.
+  virtual void sketch(double t, std::span<double> q, std::span<double> v) { interpolate(t, q, v); }
   /// Its degree as a polynomial in t, at most.
   [[nodiscard]] virtual int degree() const = 0;
   /// The multipliers of compliant rows at such a time. False if the positions determine them.
