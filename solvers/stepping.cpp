@@ -236,7 +236,11 @@ void Stepping::pass_switch() {
   const Comparisons::Switch one = *switch_;
   const double t = one.at.t;
   Comparisons& comparisons = stretch_->comparisons;
-  comparisons.require_no_corner(one, start());
+  // Between two of them a motion that is driven back and forth leaves its place by round-off.
+  const double brief = std::sqrt(epsilon) * start().scales.time;
+  switches_at_once_ = t - std::exchange(last_switch_, t) <= brief ? switches_at_once_ + 1 : 0;
+  if (switches_at_once_ > constants.most_at_one_time) comparisons.chatters(one);
+  comparisons.require_no_corner(one);
   State now = interpolate(t);
   Start before = start();
   take_way(before.scales);
@@ -246,7 +250,9 @@ void Stepping::pass_switch() {
   comparisons.require_leaving(one, next.a);
   Comparisons behind(problem(), next, t, tolerance_of_a_step(stretch_->by, options_.tolerance), t + one.ahead,
                      one.behind);
-  go_on_with(stretch(problem(), std::move(next), t, stretch_->by, std::move(behind)));
+  auto made = stretch(problem(), std::move(next), t, stretch_->by, std::move(behind));
+  made->stepper->begins_at_switch();
+  go_on_with(std::move(made));
 }
 
 /// The scene's length grows with its path.

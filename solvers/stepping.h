@@ -106,6 +106,8 @@ class Stepping {
   std::shared_ptr<KeptSteps> kept_;  // if the options ask for it
 
   std::optional<Comparisons::Switch> switch_;  // at which the last step ends
+  double last_switch_ = 0.0;
+  int switches_at_once_ = 0;  // in a row
   long steps_ = 0;
   Angle angle_;  // at the last step
   double sine_at_handover_ = 0.0;

@@ -65,9 +65,14 @@ class Branches {
       f();
     } catch (const Fault&) {
       listening->go_back(next);
+      listening->strayed_ = true;
       const Natural natural(*listening);
       f();
     }
+  }
+  /// Whether that has happened since it was last asked.
+  [[nodiscard]] static bool strayed() {
+    return listening != nullptr && std::exchange(listening->strayed_, false);
   }
 
  private:
@@ -119,6 +124,7 @@ class Branches {
   const Sides* held_;
   Branches* outer_;
   std::size_t batch_ = 0, next_ = 0;
+  bool strayed_ = false;
 };
 
 }  // namespace dalembert

@@ -75,9 +75,9 @@ struct Constants {
   double resolved = 0.45, passed_over = 9.4;
 
   // Events and switches.
-  /// A polynomial that disagrees with its function by no more than this part of what that varies shows the
-  /// places where it turns to well below the square of this.
-  double unresolved_by_interpolant = 1e-3;
+  /// A polynomial that disagrees with its function, where that is checked, by no more than this part of what
+  /// it varies shows where it turns. Beside a kink the disagreement may be so many times that at the checks.
+  double unresolved_by_interpolant = 1e-6, beside_a_kink = 30.0;
 
   // Linear algebra.
   /// Rows at a smaller angle than the root of this are left to LU of the whole matrix, so that the Schur

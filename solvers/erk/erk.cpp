@@ -1,5 +1,6 @@
 #include "dalembert/solvers/erk/erk.h"
 
+#include <dalembert/core/autodiff/branches.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/erk/erk_state.h>
@@ -25,17 +26,20 @@ double ErkStepper::State::round_off_of_projection() const {
 double ErkStepper::State::attempt(double step) {
   scales.way = covered;
   passed_switch = passed_several = false;
+  (void)Branches::strayed();
   try {
     run_stages(to, step, stages - 1);
     finish(to, step, next);
-    const double e =
-        error(step) * (step < constants.far_too_short * usual && over == 0.0 ? constants.unreliable : 1.0);
+    const bool not_smooth =
+        steps == 0 ? begins_at_switch : step < constants.far_too_short * usual && over == 0.0;
+    const double e = error(step) * (not_smooth ? constants.unreliable : 1.0);
     if (e > 1.0) return e;
     if (steps % stability_check_interval == 0) watch_stability(step);
     const double correction = project();
     next.sine = manifold.sine();
+    const double of_switch = Branches::strayed() ? effect_of_switch(to, next, step) : 0.0;
     return std::max({e, correction / (constants.most_correction + round_off_of_projection()),
-                     disagreement(step) / constants.most_disagreement, error_of_switch(step)});
+                     disagreement(step) / constants.most_disagreement, of_switch, error_of_switch(step)});
   } catch (const EquationFault& error) {
     fault = error.what();
     return std::numeric_limits<double>::infinity();
@@ -113,6 +117,7 @@ void ErkStepper::step(double wanted) {
 }
 
 const Scales& ErkStepper::scales() const { return state_->scales; }
+void ErkStepper::begins_at_switch() { state_->begins_at_switch = true; }
 double ErkStepper::time() const { return state_->to.t; }
 double ErkStepper::sine() const { return state_->to.sine; }
 

@@ -35,6 +35,7 @@ class ErkStepper final : public TimeStepper {
 
   /// The step may replace the last one and end before it.
   void step(double wanted) override;
+  void begins_at_switch() override;
   [[nodiscard]] double time() const override;
   [[nodiscard]] const Scales& scales() const;
   [[nodiscard]] double sine() const override;

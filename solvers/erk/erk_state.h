@@ -99,6 +99,7 @@ struct ErkStepper::State {
   Node from, to;  // the last step; before the first, both are the start
   Node middle;    // of that step, if `has_middle`
   bool has_middle = false;
+  bool begins_at_switch = false;
   bool crossed = false;  // the last step passed a singular position
   Node next;             // where a step goes until it is accepted
   std::array<std::vector<double>, stages> stage;

@@ -35,15 +35,20 @@ Comparisons::Comparisons(const Problem& problem, const Start& start, double t, d
     : system_(&problem.system()),
       scales_(start.scales),
       tolerance_(tolerance),
-      manifold_(problem, start.rows, start.scales.lengths()),
       e_(system_->evaluation()),
       lambda_(start.lambda.size()),
       a_(start.q.size()),
       from_(t) {
+  const auto make_manifold = [&] {
+    if (!manifold_) manifold_.emplace(problem, start.rows, start.scales.lengths());
+  };
+  if (system_->frictional()) make_manifold();
   if (!hear({t, start.q, start.v}, nullptr, heard_)) heard_.clear();
   any_ = std::ranges::any_of(heard_, [](const auto& batch) { return !batch.empty(); });
+  if (!any_) return;
+  make_manifold();
   held_ = heard_;
-  if (any_) choose_sides(start);
+  choose_sides(start);
   list_margins();
 }
 
@@ -79,8 +84,8 @@ bool Comparisons::hear(const Instant& at, const Branches::Sides* held, Branches:
       system_->evaluate(at, e_);
       return true;
     }
-    if (!manifold_.accelerate(at, a_)) return false;
-    manifold_.multipliers(lambda_);
+    if (!manifold_->accelerate(at, a_)) return false;
+    manifold_->multipliers(lambda_);
     system_->add_friction(at, lambda_, e_.force);
     return true;
   } catch (const EquationFault&) {
@@ -92,7 +97,7 @@ bool Comparisons::accelerate(Motion& at, const Branches::Sides& held) {
   const Branches holding(nullptr, &held);
   at.a.resize(at.q.size());
   try {
-    return manifold_.accelerate(at.instant(), at.a);
+    return manifold_->accelerate(at.instant(), at.a);
   } catch (const EquationFault&) {
     return false;
   }
@@ -141,15 +146,15 @@ double Comparisons::margin_at(std::size_t k, double t) {
 std::vector<std::size_t> Comparisons::suspects(double to) {
   if (at_from_.empty()) at_from_ = margins_at(from_, false);
   const auto at_middle = margins_at(0.5 * (from_ + to), true);
-  auto at_end = margins_at(to, false);
+  at_end_ = margins_at(to, false);
   std::vector<std::size_t> all;
   for (std::size_t k = 0; k < margins_.size(); ++k) {
-    const double least = std::min({at_from_[k], at_middle[k], at_end[k]});
-    const double bend = std::abs(at_from_[k] - 2.0 * at_middle[k] + at_end[k]);
-    const bool constant = at_from_[k] == at_middle[k] && at_middle[k] == at_end[k] && least > 0.0;
+    const double least = std::min({at_from_[k], at_middle[k], at_end_[k]});
+    const double bend = std::abs(at_from_[k] - 2.0 * at_middle[k] + at_end_[k]);
+    if (std::ranges::find(passed_, margins_[k]) != passed_.end()) continue;
+    const bool constant = at_from_[k] == at_middle[k] && at_middle[k] == at_end_[k] && least > 0.0;
     if (!constant && !(least > bend)) all.push_back(k);
   }
-  if (all.empty()) at_from_ = std::move(at_end);
   return all;
 }
 
@@ -163,7 +168,8 @@ std::optional<Comparisons::Bracket> Comparisons::first_root(std::size_t k, doubl
   std::vector<double> checks;
   for (const double t : check_times(from_, to, degree)) checks.push_back(f(t));
   const double rounding = constants.roundings_at_contacts * epsilon * largest(whole.values);
-  auto parts = resolve(f, whole, checks, rounding);
+  constexpr std::size_t most_parts = 128;
+  auto parts = resolve(f, whole, checks, rounding, most_parts);
   if (parts.empty()) parts.push_back(std::move(whole));  // faster than can be followed: as far as is seen
   for (const Interpolant& p : parts) {
     for (std::size_t j = 1; j < p.nodes.size(); ++j) {
@@ -216,15 +222,17 @@ Comparisons::Switch Comparisons::behind(const Root& root, double step) {
   return one;
 }
 
-/// Whether the accelerations of both sides differ by more than the step can tell, at the switch or behind it.
+/// Whether a constraint has a corner, or the accelerations of both sides differ, at the switch or behind it,
+/// by more than the tolerance of speeds in the scene's own time.
 bool Comparisons::matters(const Switch& one, double to) {
+  if (corner(one)) return true;
   Motion end{to, one.at.q, one.at.v, {}};
   stepper_->interpolate(to, end.q, end.v);
   for (const Motion& at : {one.at, end}) {
     Motion before = at, after = at;
     if (!accelerate(before, held_) || !accelerate(after, one.behind)) return true;
     for (std::size_t i = 0; i < at.v.size(); ++i) {
-      const double effect = one.step * std::abs(after.a[i] - before.a[i]);
+      const double effect = scales_.time * std::abs(after.a[i] - before.a[i]);
       if (!(effect <= scales_.velocity_error(i, at.v[i], tolerance_))) return true;
     }
   }
@@ -232,26 +240,27 @@ bool Comparisons::matters(const Switch& one, double to) {
 }
 
 std::optional<Comparisons::Switch> Comparisons::leave(TimeStepper& stepper) {
-  constexpr int most_passed = 100;  // in one step, of those that do not matter
   const double from = from_, to = stepper.time();
   if (!any_ || !(to > from)) return std::nullopt;
   stepper_ = &stepper;
+  passed_.clear();
   const Branches holding(nullptr, &held_);
-  for (int passed = 0; from_ < to; ++passed) {
-    const auto root = first_switch(to);
-    if (!root) break;
+  while (const auto root = first_switch(to)) {
     Switch one = behind(*root, to - from);
     if (matters(one, to)) return one;
+    passed_.push_back(margins_[root->margin]);
     held_ = std::move(one.behind);
-    from_ = passed < most_passed ? root->t + one.ahead : to;
+    from_ = std::min(to, root->t + one.ahead);
     list_margins();
   }
-  from_ = std::max(from_, to);
+  at_from_ = at_end_;
+  from_ = to;
   return std::nullopt;
 }
 
-void Comparisons::require_no_corner(const Switch& one, const Start& start) {
-  const auto lengths = start.scales.lengths();
+/// The row of a rigid constraint that jumps at a switch, or whose velocity does, if one does.
+std::optional<std::size_t> Comparisons::corner(const Switch& one) {
+  const auto lengths = scales_.lengths();
   auto before = system_->evaluation();
   const auto evaluate = [&](const Branches::Sides& held, System::Evaluation& e) {
     const Branches holding(nullptr, &held);
@@ -266,15 +275,20 @@ void Comparisons::require_no_corner(const Switch& one, const Start& start) {
     const bool holonomic = r < system_->holonomic_rows();
     const double jump = holonomic ? std::abs(e_.g[r] - before.g[r]) : 0.0;
     const double of_velocity = std::abs(e_.psi[r] - before.psi[r]);
-    if (of_velocity <= most * start.scales.speed() * gradient &&
-        jump <= most * start.scales.length * gradient)
-      continue;
-    throw StepFailure{system_->row_label(r) +
-                          " changes its gradient by a jump here: the velocity before does not satisfy it "
-                          "behind. That is an impact, which the equations do not describe; end the run here, "
-                          "or round it off",
-                      one.at.t};
+    if (of_velocity > most * scales_.speed() * gradient || jump > most * scales_.length * gradient) return r;
   }
+  return std::nullopt;
+}
+
+void Comparisons::require_no_corner(const Switch& one) {
+  const auto row = corner(one);
+  if (!row) return;
+  throw StepFailure{
+      system_->row_label(*row) +
+          " changes its gradient by a jump here: the velocity before does not satisfy it behind. "
+          "That is an impact, which the equations do not describe; end the run here, or round it "
+          "off",
+      one.at.t};
 }
 
 /// The friction that a switch reverses, if one does.
@@ -285,7 +299,7 @@ std::optional<std::string> Comparisons::would_stick(const Switch& one) {
     Slope slope;
     Motion at = one.at;
     if (!accelerate(at, held)) return slope;
-    manifold_.multipliers(lambda_);
+    manifold_->multipliers(lambda_);
     const Branches holding(nullptr, &held);
     switches.find(at.instant(), lambda_, slope);
     return slope;
@@ -302,12 +316,16 @@ void Comparisons::require_leaving(const Switch& one, std::span<const double> a) 
     const double margin = margin_ahead(one.margin, at, ahead);
     if (margins_[one.margin].side != 0 && std::abs(margin) < clearly * one.distance) continue;
     if (margin < 0.0) return;
-    if (const auto message = would_stick(one)) throw StepFailure{*message, one.at.t};
-    throw StepFailure{system_->label_of_batch(margins_[one.margin].batch) +
-                          " switches here, and on both sides the motion is driven back to where it does: it "
-                          "would chatter. Smooth the switch, or end the run here",
-                      one.at.t};
+    chatters(one);
   }
+}
+
+void Comparisons::chatters(const Switch& one) {
+  if (const auto message = would_stick(one)) throw StepFailure{*message, one.at.t};
+  throw StepFailure{system_->label_of_batch(margins_[one.margin].batch) +
+                        " switches here, and on both sides the motion is driven back to where it does: it "
+                        "would chatter. Smooth the switch, or end the run here",
+                    one.at.t};
 }
 
 }  // namespace dalembert

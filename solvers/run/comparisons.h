@@ -49,16 +49,21 @@ class Comparisons {
   [[nodiscard]] std::optional<Switch> leave(TimeStepper& stepper);
 
   /// Throws StepFailure where a rigid constraint or its velocity jumps at a switch.
-  void require_no_corner(const Switch& one, const Start& start);
+  void require_no_corner(const Switch& one);
   /// Throws StepFailure where the motion on the other side, with the accelerations a, leads back at once
   /// (Filippov): then neither side goes on.
   void require_leaving(const Switch& one, std::span<const double> a);
+  [[noreturn]] void chatters(const Switch& one);
 
  private:
   /// A comparison, whose difference may leave its side.
   struct Margin {
     std::size_t batch, comparison;
     int side;
+
+    bool operator==(const Margin& other) const {
+      return batch == other.batch && comparison == other.comparison;
+    }
   };
   struct Root {
     double t;
@@ -82,21 +87,24 @@ class Comparisons {
   [[nodiscard]] std::optional<Bracket> first_root(std::size_t k, double to);
   [[nodiscard]] std::optional<Root> first_switch(double to);
   [[nodiscard]] Switch behind(const Root& root, double step);
+  [[nodiscard]] std::optional<std::size_t> corner(const Switch& one);
   [[nodiscard]] bool matters(const Switch& one, double to);
   [[nodiscard]] std::optional<std::string> would_stick(const Switch& one);
 
   const System* system_;
   Scales scales_;
   double tolerance_;
-  Manifold manifold_;
+  std::optional<Manifold> manifold_;  // if anything is compared, or read from it
   System::Evaluation e_;
   std::vector<double> lambda_, a_;
   bool any_ = false, chosen_ = false;
   Branches::Sides held_, heard_;
   std::vector<Margin> margins_;
+  std::vector<Margin> passed_;      // in the step that is looked at, without effect
   TimeStepper* stepper_ = nullptr;  // of the step that is looked at
   double from_;                     // up to where the sides are known to hold
-  std::vector<double> at_from_;     // the margins there, if they are known
+  std::vector<double> at_from_;     // the margins there, if they are known,
+  std::vector<double> at_end_;      // and where the step ends
   Motion motion_, other_;           // work
 };
 

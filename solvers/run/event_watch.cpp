@@ -129,7 +129,8 @@ std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& ste
                                               const std::vector<double>& at_checks) {
   if (event >= asked_for_) return {std::move(whole)};
   const auto function = [&](double t) { return value(event, step.read(t)); };
-  auto parts = resolve(function, std::move(whole), at_checks, round_off() * largest_[event]);
+  constexpr std::size_t most_parts = 4096;  // of a step: some hundred periods are still resolved
+  auto parts = resolve(function, std::move(whole), at_checks, round_off() * largest_[event], most_parts);
   if (parts.empty()) {
     throw StepFailure{"Event \"" + events_[event].name +
                           "\" varies faster than it can be followed within a step of " +

@@ -12,8 +12,6 @@ namespace dalembert {
 
 namespace {
 
-/// Of a step, its parts: a function with some hundred periods in it is still resolved.
-constexpr std::size_t most_parts = 4096;
 /// Halvings after which a part is as short as the flat top of a smooth function is wide, the root of
 /// round-off.
 constexpr double shortest_part = 1.5e-8;
@@ -109,38 +107,57 @@ bool agrees(const Interpolant& p, const std::vector<double>& at_checks, double r
     }
   }
   if (error <= std::max(constants.unresolved_by_interpolant * (high - low), round_off)) return true;
-  return low * high > 0.0 && 2.0 * error < least;
+  return low * high > 0.0 && constants.beside_a_kink * error < least;
+}
+
+}  // namespace
+
+namespace {
+
+/// Whether a function differs between times next to each other by what its interpolant misses.
+bool is_noise(const FunctionOfTime& f, const Interpolant& p, const std::vector<double>& at_checks) {
+  const double from = p.nodes.front(), to = p.nodes.back(), missed = disagreement_of(p, at_checks);
+  const auto times = check_times(from, to, p.degree());
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double t = times[i],
+                 apart = std::max(next_to_each_other * (to - from), 4.0 * epsilon * std::abs(t));
+    for (const double beside : {t - apart, t + apart})
+      if (std::abs(f(beside) - at_checks[i]) > 0.1 * missed) return true;
+  }
+  return false;
+}
+
+/// Both halves of a part in its place.
+void halve(const FunctionOfTime& f, const Interpolant& p, double round_off, std::vector<Part>& out) {
+  const double a = p.nodes.front(), b = p.nodes.back();
+  for (const auto& [from, to] : {std::pair(a, 0.5 * (a + b)), std::pair(0.5 * (a + b), b)}) {
+    Part half{interpolate(f, from, to, p.degree()), false};
+    std::vector<double> checks;
+    for (const double time : check_times(from, to, p.degree())) checks.push_back(f(time));
+    half.resolved = agrees(half.p, checks, round_off);
+    out.push_back(std::move(half));
+  }
 }
 
 }  // namespace
 
 std::vector<Interpolant> resolve(const FunctionOfTime& f, Interpolant first,
-                                 const std::vector<double>& at_checks, double round_off) {
-  if (agrees(first, at_checks, round_off)) return {std::move(first)};
-  const int degree = first.degree();
-  const double from = first.nodes.front(), length = first.nodes.back() - from;
-  const double t = check_times(from, first.nodes.back(), degree)[0];
-  const double beside = t + std::max(next_to_each_other * length, 4.0 * epsilon * std::abs(t));
-  const bool noise = std::abs(f(beside) - at_checks[0]) > 0.1 * disagreement_of(first, at_checks);
-  if (noise) return {std::move(first)};
+                                 const std::vector<double>& at_checks, double round_off,
+                                 std::size_t most_parts) {
+  if (agrees(first, at_checks, round_off) || is_noise(f, first, at_checks)) return {std::move(first)};
+  const double length = first.nodes.back() - first.nodes.front();
   std::vector<Part> parts{{std::move(first), false}};
   for (bool all = false; !all;) {
     all = true;
     std::vector<Part> next;
     for (Part& part : parts) {
       const double a = part.p.nodes.front(), b = part.p.nodes.back();
-      if (part.resolved || b - a <= std::max(shortest_part * length, 64.0 * epsilon * std::abs(b))) {
+      const bool shortest = b - a <= std::max(shortest_part * length, 64.0 * epsilon * std::abs(b));
+      all = all && (part.resolved || shortest);
+      if (part.resolved || shortest)
         next.push_back(std::move(part));
-        continue;
-      }
-      all = false;
-      for (const auto& [start, end] : {std::pair(a, 0.5 * (a + b)), std::pair(0.5 * (a + b), b)}) {
-        Part half{interpolate(f, start, end, degree), false};
-        std::vector<double> checks;
-        for (const double time : check_times(start, end, degree)) checks.push_back(f(time));
-        half.resolved = agrees(half.p, checks, round_off);
-        next.push_back(std::move(half));
-      }
+      else
+        halve(f, part.p, round_off, next);
     }
     if (next.size() > most_parts) return {};
     parts = std::move(next);

@@ -33,11 +33,12 @@ using FunctionOfTime = std::function<double(double)>;
 /// Looks where a function itself varies: interpolants of a function over parts of an interval, in their
 /// order, each of which agrees with it at the times of the check, or lies further from 0 than it disagrees.
 /// `first` is that of the whole and `at_checks` the function's values there; differences below `round_off`
-/// are none. At a kink or a jump parts end at `most_divisions` halvings.
+/// are none. At a kink or a jump parts end where they are as short as the flat top of a smooth function.
 ///
 /// Empty if the function varies faster than `most_parts` parts resolve. (What differs as much between times
 /// next to each other is round-off, and remains as it is.)
 [[nodiscard]] std::vector<Interpolant> resolve(const FunctionOfTime& f, Interpolant first,
-                                               const std::vector<double>& at_checks, double round_off);
+                                               const std::vector<double>& at_checks, double round_off,
+                                               std::size_t most_parts);
 
 }  // namespace dalembert

@@ -16,6 +16,8 @@ class TimeStepper {
 
   /// One accepted step, not beyond t_end; `wanted` is the next time of output. Throws StepFailure.
   virtual void step(double wanted) = 0;
+  /// Before the first step: that begins at a switch, where the equations may have no higher derivatives.
+  virtual void begins_at_switch() {}
   /// Where the last step ended.
   [[nodiscard]] virtual double time() const = 0;
   /// See Manifold::sine; at or close to that time.
