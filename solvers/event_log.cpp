@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -68,8 +69,10 @@ void EventLog::look(Stepping& stepping) {
                  .step = scales.way.step});
     transitions_->adopt(scales);
   }
-  const auto reader = [&](double t) { return read(stepping, t); };
-  const auto found = watch_.look(reader, stepping.time(), stepping.degree());
+  const EventWatch::Read reader = [&](double t) { return read(stepping, t); };
+  const auto all = watch_.look({reader, stepping.time(), stepping.degree(), stepping.at_end()});
+  std::vector<Occurrence> found;
+  for (const auto& one : all) found.push_back(one.what);
   const auto changes = [this](const Occurrence& one) {
     return one.event >= asked_for_ || watch_.event(one.event).change;
   };
@@ -93,6 +96,9 @@ void EventLog::look(Stepping& stepping) {
     change_ = due_.empty() ? *first : due_.front();
     if (!due_.empty()) due_.erase(due_.begin());
   }
+  left_.clear();
+  std::ranges::copy_if(all, std::back_inserter(left_),
+                       [&](const auto& one) { return one.what.time > until; });
   if (transitions_ != nullptr)
     transitions_->require_open(read(stepping, change_ ? change_->time : stepping.time()));
   looked_to_ = stepping.time();
@@ -135,7 +141,7 @@ void EventLog::carry_out(Stepping& stepping) {
 }
 
 void EventLog::begin_anew(double t, Stepping& stepping) {
-  watch_.begin_anew(read(stepping, t), asked_for_);
+  watch_.begin_anew(read(stepping, t), asked_for_, std::exchange(left_, {}));
   looked_to_ = t;
   change_.reset();
   if (!due_.empty()) {

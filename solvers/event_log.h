@@ -67,7 +67,8 @@ class EventLog {
   std::shared_ptr<const System> system_;  // that goes on after a change
   std::vector<Occurrence> due_;           // changes of the scene at the time of another one
   std::optional<Occurrence> change_, last_;
-  int repeated_ = 0;  // times that the last change was due at one time
+  int repeated_ = 0;                     // times that the last change was due at one time
+  std::vector<EventWatch::Found> left_;  // of the last step, behind a change
   std::optional<double> end_;
   double looked_to_;
 };

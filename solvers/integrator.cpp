@@ -133,6 +133,12 @@ struct DALEMBERT_HIDDEN Integrator::State {
   void go_to(double time) {
     while (reached() < time && !ended()) step_once(time);
     visit(std::min(time, reached()));
+    finish();
+  }
+
+  /// What changes where the run ends is carried out, though no step follows.
+  void finish() {
+    while (log && log->pending() && reached() >= options.t_end) log->carry_out(stepping);
   }
 
   template <class Observe>
@@ -251,6 +257,7 @@ void Integrator::step() {
   s.guarded([&s] {
     if (s.reached() < s.options.t_end && !s.ended()) s.step_once(s.options.t_end);
     s.visit(s.reached());
+    s.finish();
   });
 }
 

@@ -63,9 +63,7 @@ Stepping::Stepping(std::shared_ptr<const System> of, std::span<const double> q, 
   keep_step(options.t_start);
 }
 
-/// From `start` at time t.
-std::unique_ptr<Stepping::Stretch> Stepping::stretch(const Problem& problem, Start start, double t,
-                                                     Stepper by) const {
+Options Stepping::options_from(double t, Stepper by) const {
   Options options = options_;
   options.t_start = t;
   options.stepper = by;
@@ -74,13 +72,34 @@ std::unique_ptr<Stepping::Stretch> Stepping::stretch(const Problem& problem, Sta
     options.tolerance =
         std::max(tolerance_of_a_step(options_.stepper, options_.tolerance), smallest_tolerance);
   }
+  return options;
+}
+
+/// From `start` at time t.
+std::unique_ptr<Stepping::Stretch> Stepping::stretch(const Problem& problem, Start start, double t,
+                                                     Stepper by) const {
+  Comparisons comparisons(problem, start, t, tolerance_of_a_step(by, options_.tolerance));
+  if (comparisons.chosen()) {
+    const Branches holding(nullptr, comparisons.held());
+    start = begin_anew(problem, start, t, start.q, start.v);
+  }
+  return stretch(problem, std::move(start), t, by, std::move(comparisons));
+}
+
+std::unique_ptr<Stepping::Stretch> Stepping::stretch(const Problem& problem, Start start, double t,
+                                                     Stepper by, Comparisons comparisons) const {
+  const Options options = options_from(t, by);
   Reader reader(problem, start, options_.tolerance);
-  auto stepper = make_stepper(problem, start, options);
-  auto made = std::make_unique<Stretch>(
-      Stretch{problem, std::move(start), by, std::move(reader), std::move(stepper), std::nullopt});
+  std::unique_ptr<TimeStepper> stepper;
+  {
+    const Branches holding(nullptr, comparisons.held());
+    stepper = make_stepper(problem, start, options);
+  }
+  auto made = std::make_unique<Stretch>(Stretch{problem, std::move(start), std::move(comparisons), by,
+                                                std::move(reader), std::move(stepper), std::nullopt});
   // A run by the explicit stepper finds itself where friction sticks.
   if (problem.system().frictional() && options_.stepper == Stepper::ida)
-    made->sticking.emplace(problem, made->start, t, options_.tolerance);
+    made->sticking.emplace(problem, made->start, options_.tolerance);
   return made;
 }
 
@@ -92,6 +111,7 @@ void Stepping::go_on_with(std::unique_ptr<Stretch> next) {
   if (kept_) own_steps().begin(next->problem.shared_system(), next->start, t);
   past_ = std::move(past);
   angle_ = {t, 1.0};
+  switch_.reset();
   stretch_ = std::move(next);
 }
 
@@ -107,18 +127,22 @@ std::shared_ptr<const DenseOutput> Stepping::dense(double end) {
 }
 
 void Stepping::keep_step(double from) {
+  const Branches holding = stretch_->hold();
   if (kept_) own_steps().add(*stretch_->stepper, from, steps_);
 }
 
 void Stepping::step(double wanted) {
   // Before a step, so that all output within the last has been read from the stepper that took it.
+  if (switch_) pass_switch();
   exchange_rows();
   if (options_.stepper == Stepper::ida) watch_sine();
   if (steps_++ == 0) watch_sliding();
   const double from = time();
   try {
+    const Branches holding = stretch_->hold();
     stretch_->stepper->step(wanted);
     error_.add(stretch_->stepper->error(), time() - from);
+    switch_ = stretch_->comparisons.leave(*stretch_->stepper);
     keep_step(from);
   } catch (const StepFailure&) {
     // Newton's iteration may fail anywhere; where the constraints are close to dependent the explicit
@@ -132,7 +156,7 @@ void Stepping::step(double wanted) {
 
 void Stepping::read(double t, Moment& m) {
   m.t = t;
-  stretch_->stepper->interpolate(t, m.q, m.v);
+  stepper_at(t, m.q, m.v);
   stretch_->reader.read(m, springs_at(t), steps_);
   past_.residual_position = std::max(past_.residual_position, m.position.size);
   past_.residual_velocity = std::max(past_.residual_velocity, m.velocity.size);
@@ -141,7 +165,7 @@ void Stepping::read(double t, Moment& m) {
 
 /// The stepper's state, with the forces that it has found for compliant constraints.
 const Stepping::State& Stepping::interpolate(double t) {
-  stretch_->stepper->interpolate(t, state_.q, state_.v);
+  stepper_at(t, state_.q, state_.v);
   if (const Springs* const springs = springs_at(t)) stretch_->reader.manifold().follow(*springs);
   return state_;
 }
@@ -211,10 +235,53 @@ void Stepping::begin_changed(double t, std::shared_ptr<const System> system, std
 void Stepping::restart(Stepper by) {
   const double t = time();
   State now = interpolate(t);
-  // The explicit stepper takes -g/C for the forces of compliant constraints: g must be as exact.
-  if (system().compliant())
-    stretch_->reader.manifold().project_positions(t, now.q, now.v, 0.1 * start().scales.rounding(now.q));
+  put_on_springs(t, now);
   go_on_with(stretch(problem(), begin_anew(problem(), start(), t, now.q, now.v), t, by));
+}
+
+/// The explicit stepper takes -g/C for the forces of compliant constraints: g must be as exact.
+void Stepping::put_on_springs(double t, State& now) {
+  if (!system().compliant()) return;
+  stretch_->reader.manifold().project_positions(t, now.q, now.v, 0.1 * start().scales.rounding(now.q));
+}
+
+/// A fresh stepper on the sides behind a switch.
+void Stepping::pass_switch() {
+  const Comparisons::Switch one = *switch_;
+  const double t = one.at.t;
+  Comparisons& comparisons = stretch_->comparisons;
+  // Between two of them a motion that is driven back and forth leaves its place by round-off.
+  const double brief = std::sqrt(epsilon) * start().scales.time;
+  switches_at_once_ = t - std::exchange(last_switch_, t) <= brief ? switches_at_once_ + 1 : 0;
+  if (switches_at_once_ > constants.most_at_one_time) comparisons.chatters(one);
+  comparisons.require_no_corner(one);
+  State now = interpolate(t);
+  Start before = start();
+  take_way(before.scales);
+  const Branches holding(nullptr, &one.behind);
+  put_on_springs(t, now);
+  Start next = begin_anew(problem(), before, t, now.q, now.v);
+  comparisons.require_leaving(one, next.a);
+  Comparisons behind(problem(), next, t, tolerance_of_a_step(stretch_->by, options_.tolerance), t + one.ahead,
+                     one.behind);
+  auto made = stretch(problem(), std::move(next), t, stretch_->by, std::move(behind));
+  made->stepper->begins_at_switch();
+  go_on_with(std::move(made));
+}
+
+/// The scene's length grows with its path.
+void Stepping::take_way(Scales& scales) const {
+  if (!scales.of_path) return;
+  const Statistics so_far = statistics();
+  scales.take({.length = so_far.length,
+               .speed = so_far.length / so_far.time,
+               .rate = scales.way.rate,
+               .step = scales.way.step});
+}
+
+void Stepping::stepper_at(double t, std::span<double> q, std::span<double> v) {
+  const Branches holding = stretch_->hold();
+  stretch_->stepper->interpolate(t, q, v);
 }
 
 Statistics Stepping::statistics() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/solvers/run/accumulated_error.h>
+#include <dalembert/solvers/run/comparisons.h>
 #include <dalembert/solvers/run/kept_steps.h>
 #include <dalembert/solvers/run/reader.h>
 #include <dalembert/solvers/run/singularity.h>
@@ -28,7 +29,9 @@ class Stepping {
   Stepping(std::shared_ptr<const System> system, std::span<const double> q, std::span<const double> v,
            const Options& options, double nearest_contact);
 
-  [[nodiscard]] double time() const { return stretch_->stepper->time(); }
+  /// Where the last step ended, or where it came to a switch of the equations.
+  [[nodiscard]] double time() const { return switch_ ? switch_->at.t : stretch_->stepper->time(); }
+  [[nodiscard]] bool at_end() const { return time() >= options_.t_end; }
   [[nodiscard]] const Problem& problem() const { return stretch_->problem; }
   /// The one whose equations are stepped.
   [[nodiscard]] const System& system() const { return problem().system(); }
@@ -65,10 +68,14 @@ class Stepping {
   struct Stretch {
     Problem problem;
     Start start;
+    Comparisons comparisons;
     Stepper by;  // that of the options, or close to a singular position the explicit one
     Reader reader;
     std::unique_ptr<TimeStepper> stepper;
     std::optional<Sticking> sticking;  // in a run by the implicit stepper, if there is friction
+
+    /// As long as it lives equations are evaluated on the sides of this stretch.
+    [[nodiscard]] Branches hold() const { return {nullptr, comparisons.held()}; }
   };
   /// A state of the stepper's own, not put onto the constraints.
   struct State {
@@ -77,8 +84,11 @@ class Stepping {
   const State& interpolate(double t);
   [[nodiscard]] const Springs* springs_at(double t);
 
+  [[nodiscard]] Options options_from(double t, Stepper by) const;
   [[nodiscard]] std::unique_ptr<Stretch> stretch(const Problem& problem, Start start, double t,
                                                  Stepper by) const;
+  [[nodiscard]] std::unique_ptr<Stretch> stretch(const Problem& problem, Start start, double t, Stepper by,
+                                                 Comparisons comparisons) const;
   void go_on_with(std::unique_ptr<Stretch> next);
   [[nodiscard]] KeptSteps& own_steps();
   void keep_step(double from);
@@ -89,6 +99,10 @@ class Stepping {
   void hand_over(double sine);
   void watch_sliding();
   void restart(Stepper by);
+  void put_on_springs(double t, State& now);
+  void pass_switch();
+  void take_way(Scales& scales) const;
+  void stepper_at(double t, std::span<double> q, std::span<double> v);
 
   Options options_;
   std::unique_ptr<Stretch> stretch_;
@@ -96,6 +110,9 @@ class Stepping {
   std::shared_ptr<KeptSteps> kept_;  // if the options ask for it
 
   AccumulatedError error_;
+  std::optional<Comparisons::Switch> switch_;  // at which the last step ends
+  double last_switch_ = 0.0;
+  int switches_at_once_ = 0;  // in a row
   long steps_ = 0;
   Angle angle_;  // at the last step
   double sine_at_handover_ = 0.0;

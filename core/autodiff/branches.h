@@ -1,62 +1,130 @@
 #pragma once
 
-#include <bit>
+#include <algorithm>
+#include <compare>
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
 namespace dalembert {
 
-/// The outcome of every comparison in the equations of a scene: what a user writes with abs, max or `if (x >
-/// 0)` has a kink or a jump where one of its comparisons changes its outcome, and nowhere else. So a
-/// discontinuity is found where it is stated, however small it is and wherever between two stages it falls.
+/// The outcome of every comparison in the equations of a scene: what a user writes with abs, max, floor or
+/// `if (x > 0)` has a kink or a jump where one of its comparisons changes its outcome, and nowhere else. So a
+/// discontinuity is found where it is stated, however small it is and wherever within a step it falls.
+///
+/// A comparison of a with b hands out a - b, a function of the motion that is 0 where the equation switches,
+/// and the side of 0 that the equation was evaluated on. Evaluated again on the sides that were heard before
+/// the equation is smooth, also beyond its switches: so a step goes by one smooth piece, up to where that
+/// ends.
 ///
 /// Duals report their comparisons to the listener of this thread, if there is one. (A scalar type of its own
 /// would need no such thing, but would compile every equation once more.)
 class Branches {
  public:
-  /// One number for all comparisons (less, equal, greater) of each batch.
-  using Outcomes = std::vector<std::uint64_t>;
+  struct Comparison {
+    double difference;  ///< a - b, or how far within its piece the argument of a function with jumps is
+    int side;           ///< of 0, on which the equation was evaluated
+    double piece;       ///< that was taken of a function with jumps
+  };
+  /// Of each batch, in the order in which it makes them.
+  using Sides = std::vector<std::vector<Comparison>>;
 
-  /// Goes on from what `out` holds.
-  explicit Branches(Outcomes& out) : out_(&out), outer_(std::exchange(listening, this)) {}
+  /// Notes in `heard` what is compared, and evaluates on the sides of `held`; each unless it is null.
+  Branches(Sides* heard, const Sides* held)
+      : heard_(heard), held_(held), outer_(std::exchange(listening, this)) {}
   Branches(const Branches&) = delete;
   Branches& operator=(const Branches&) = delete;
   ~Branches() { listening = outer_; }
 
-  /// The number of comparisons that it has heard.
-  [[nodiscard]] long count() const { return count_; }
-
-  /// What is compared from here on belongs to this batch.
+  /// What is compared from here on belongs to this batch, which begins anew.
   static void begin_batch(std::size_t number) {
     if (listening != nullptr) listening->begin(number);
   }
-  static void compare(double a, double b) {
-    if (listening != nullptr) listening->add(a < b ? 1U : a == b ? 2U : 3U);
+  /// Whether comparisons of plain numbers, which nobody hears, would make a difference.
+  [[nodiscard]] static bool needed() {
+    return listening != nullptr && (listening->held_ == nullptr || listening->own() != nullptr);
   }
-  /// The piece of a piecewise function that was taken: like as many comparisons as it has jumps.
-  static void choose(double piece) {
-    if (listening != nullptr) listening->add(std::bit_cast<std::uint64_t>(piece));
+  [[nodiscard]] static std::partial_ordering compare(double a, double b) {
+    return listening == nullptr ? a <=> b : listening->add(a, b);
+  }
+  /// The piece of a function with jumps, of which `natural` is that of its argument.
+  [[nodiscard]] static double choose(double natural) {
+    return listening == nullptr ? natural : listening->add_piece(natural);
+  }
+  /// How far the argument is from where that piece ends.
+  static void within(double distance) {
+    if (listening != nullptr) (void)listening->note({distance, 1, 0.0});
+  }
+  /// Calls f. Where that fails, as a root beyond the end of its piece may, calls it on the sides where its
+  /// arguments are.
+  template <class Fault, class F>
+  static void or_naturally(const F& f) {
+    if (listening == nullptr || listening->held_ == nullptr) return f();
+    const std::size_t next = listening->next_;
+    try {
+      f();
+    } catch (const Fault&) {
+      listening->go_back(next);
+      listening->strayed_ = true;
+      const Natural natural(*listening);
+      f();
+    }
+  }
+  /// Whether that has happened since it was last asked.
+  [[nodiscard]] static bool strayed() {
+    return listening != nullptr && std::exchange(listening->strayed_, false);
   }
 
  private:
+  /// As long as it lives nothing is held.
+  struct Natural {
+    Branches& own;
+    const Sides* held;
+    explicit Natural(Branches& listener) : own(listener), held(std::exchange(listener.held_, nullptr)) {}
+    Natural(const Natural&) = delete;
+    Natural& operator=(const Natural&) = delete;
+    ~Natural() { own.held_ = held; }
+  };
   void begin(std::size_t number) {
     batch_ = number;
-    if (out_->size() <= number) out_->resize(number + 1);
+    next_ = 0;
+    if (heard_ == nullptr) return;
+    if (heard_->size() <= number) heard_->resize(number + 1);
+    (*heard_)[number].clear();
   }
-  void add(std::uint64_t outcome) {
-    ++count_;
-    if (out_->empty()) return;
-    constexpr std::uint64_t fnv_prime = 1099511628211U;
-    (*out_)[batch_] = ((*out_)[batch_] ^ outcome) * fnv_prime;
+  void go_back(std::size_t next) {
+    next_ = next;
+    if (heard_ == nullptr || batch_ >= heard_->size()) return;
+    auto& heard = (*heard_)[batch_];
+    heard.erase(heard.begin() + static_cast<std::ptrdiff_t>(std::min(next, heard.size())), heard.end());
   }
+  [[nodiscard]] const Comparison* own() const {
+    if (held_ == nullptr || batch_ >= held_->size() || next_ >= (*held_)[batch_].size()) return nullptr;
+    return &(*held_)[batch_][next_];
+  }
+  Comparison note(Comparison natural) {
+    if (const Comparison* const other = own()) {
+      natural.side = other->side;
+      natural.piece = other->piece;
+    }
+    ++next_;
+    if (heard_ != nullptr && batch_ < heard_->size()) (*heard_)[batch_].push_back(natural);
+    return natural;
+  }
+  std::partial_ordering add(double a, double b) {
+    const std::partial_ordering natural = a <=> b;
+    const bool held = own() != nullptr;
+    const Comparison its = note({a - b, natural < 0 ? -1 : natural == 0 ? 0 : 1, 0.0});
+    return held ? std::partial_ordering(its.side <=> 0) : natural;
+  }
+  double add_piece(double natural) { return note({1.0, 1, natural}).piece; }
 
   static inline thread_local constinit Branches* listening = nullptr;
-  Outcomes* out_;
+  Sides* heard_;
+  const Sides* held_;
   Branches* outer_;
-  std::size_t batch_ = 0;
-  long count_ = 0;
+  std::size_t batch_ = 0, next_ = 0;
+  bool strayed_ = false;
 };
 
 }  // namespace dalembert

@@ -122,10 +122,7 @@ class Dual : Functions<Dual<N, Order>> {
   friend bool operator==(const Dual& a, const Dual& b) { return a.value == b.value; }
   friend auto operator<=>(const Dual& a, const Dual& b) { return a <=> b.value; }
   friend bool operator==(const Dual& a, double b) { return a.value == b; }
-  friend auto operator<=>(const Dual& a, double b) {
-    Branches::compare(a.value, b);
-    return a.value <=> b;
-  }
+  friend auto operator<=>(const Dual& a, double b) { return Branches::compare(a.value, b); }
 
   friend bool isfinite(const Dual& a) { return std::isfinite(a.value) && detail::all_finite(a.gradient); }
 

@@ -22,7 +22,7 @@ template <std::floating_point T>
 /// The functions of <cmath> for a number D that carries derivatives, each with its first and second one; see
 /// Dual::chain. They are called without std::.
 ///
-/// Where a function has a kink or a jump, it reports the side of its argument to Branches: abs, max, min and
+/// Where a function has a kink or a jump, it asks Branches for the side of its argument: abs, max, min and
 /// what is made of them, copysign, and floor, ceil, trunc, round, fmod, whose derivatives are those between
 /// their jumps. What has no derivative somewhere (sqrt at 0) gives one there that is not finite.
 ///
@@ -153,15 +153,16 @@ struct Functions {
   }
   friend D hypot(const D& a, const D& b, const D& c) { return sqrt(a * a + b * b + c * c); }
 
-  friend D floor(const D& a) { return piece(std::floor(a.value)); }
-  friend D ceil(const D& a) { return piece(std::ceil(a.value)); }
-  friend D trunc(const D& a) { return piece(std::trunc(a.value)); }
-  friend D round(const D& a) { return piece(std::round(a.value)); }
+  friend D floor(const D& a) { return piece(a.value, std::floor(a.value), 0.0, 1.0); }
+  friend D ceil(const D& a) { return piece(a.value, std::ceil(a.value), 1.0, 0.0); }
+  friend D trunc(const D& a) { return truncated(a.value, std::trunc(a.value)); }
+  friend D round(const D& a) { return piece(a.value, std::round(a.value), 0.5, 0.5); }
   /// a - n b, n the integer part of a/b.
   friend D fmod(const D& a, const D& b) {
-    const double f = std::fmod(a.value, b.value);
-    D r = a - piece(std::round((a.value - f) / b.value)) * b;
-    r.value = f;
+    const double f = std::fmod(a.value, b.value), natural = std::round((a.value - f) / b.value);
+    const D n = truncated(a.value / b.value, natural);
+    D r = a - n * b;
+    if (n.value == natural) r.value = f;  // without round-off
     return r;
   }
 
@@ -174,9 +175,18 @@ struct Functions {
     const double f_a = sign * 2.0 * std::numbers::inv_sqrtpi * std::exp(-a.value * a.value);
     return D::chain(a, f, f_a, -2.0 * a.value * f_a);
   }
-  /// A constant, between two jumps.
-  [[nodiscard]] static D piece(double f) {
-    Branches::choose(f + 0.0);  // -0 is no other piece than 0
+  /// A constant, f of the argument, which jumps where that is so far below or above it.
+  [[nodiscard]] static D piece(double argument, double f, double below, double above) {
+    f = Branches::choose(f);
+    return between(argument, f, below, above);
+  }
+  [[nodiscard]] static D truncated(double argument, double f) {
+    f = Branches::choose(f);
+    return between(argument, f, f > 0.0 ? 0.0 : 1.0, f < 0.0 ? 0.0 : 1.0);
+  }
+  [[nodiscard]] static D between(double argument, double f, double below, double above) {
+    Branches::within(argument - (f - below));
+    Branches::within(f + above - argument);
     return D(f);
   }
 };

@@ -73,7 +73,7 @@ struct FrictionFromLaw {
 ///
 /// lambda is a number, or a vector for a constraint of several equations, and has the sign that
 /// Sample::multiplier has: positive pushes towards g > 0. Where it may have either, as on a wire, the
-/// law takes abs(lambda), whose kink the explicit stepper finds and steps over. Time may stand in front; for
+/// law takes abs(lambda), whose kink a run finds and goes on from. Time may stand in front; for
 /// several points return std::tuple{f_a, f_b}. The force is an applied one, F in M q'' = F + W^T lambda: it
 /// is no part of the constraint's force, and its power is listed by `audit`.
 ///

@@ -64,9 +64,11 @@ class LawBatch final : public ForceBatch {
   [[nodiscard]] std::span<const int> constraints() const override { return constraints_; }
 
   void add_force(const Instant& at, const Multipliers& lambda, std::span<double> F) const override {
+    const bool by_numbers = !Branches::needed();
     detail::for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      const Vec<inputs> f =
-          forces<double>(e, at, own(lambda, i), detail::AsNumber{}, detail::AsNumber{}, detail::AsNumber{});
+      const Vec<inputs> f = by_numbers ? forces<double>(e, at, own(lambda, i), detail::AsNumber{},
+                                                        detail::AsNumber{}, detail::AsNumber{})
+                                       : heard_forces(e, at, own(lambda, i), i);
       detail::require_finite(detail::all_finite(f), i, "is not a finite number");
       detail::scatter(e, f, elements_.coordinates(i), F);
     });
@@ -117,6 +119,20 @@ class LawBatch final : public ForceBatch {
         detail::pull_back(e, f_lambda.data(), out.data() + (i * rows + static_cast<std::size_t>(r)) * width);
       }
     });
+  }
+
+  /// With numbers that report their comparisons, of the type that `linearise` takes.
+  [[nodiscard]] static Vec<inputs> heard_forces(const E& e, const Instant& at, std::span<const double> lambda,
+                                                std::size_t i) {
+    using S = Dual<2 * inputs, 1>;
+    Vec<inputs> values;
+    Branches::or_naturally<ElementFault>([&] {
+      const VecOf<S, inputs> f =
+          forces<S>(e, at, lambda, detail::AsConstant<S>{}, detail::AsConstant<S>{}, detail::AsConstant<S>{});
+      for (int k = 0; k < inputs; ++k) values[k] = f[k].value;
+      detail::require_finite(detail::all_finite(values), i, "is not a finite number");
+    });
+    return values;
   }
 
   /// The multipliers that element i reads.

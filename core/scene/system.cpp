@@ -107,8 +107,10 @@ template <class F>
 void System::on_constraints(double t, const F& f) const {
   for (std::size_t b = 0; b < parts_.constraints.size(); ++b) {
     try {
-      Branches::begin_batch(b);
-      f(*parts_.constraints[b], constraint_places_[b]);
+      Branches::or_naturally<ElementFault>([&] {
+        Branches::begin_batch(b);
+        f(*parts_.constraints[b], constraint_places_[b]);
+      });
     } catch (const ElementFault& fault) {
       const auto number = static_cast<std::size_t>(parts_.constraint_numbers[b][fault.element]);
       throw EquationFault(layout_->constraints[number].label() + ' ' + fault.what + at_time(t));
@@ -117,11 +119,13 @@ void System::on_constraints(double t, const F& f) const {
 }
 
 void System::evaluate(const Instant& at, Evaluation& out) const {
-  std::ranges::copy(parts_.constant_force, out.force.begin());
   if (!out_of_force_.empty()) {
     for (auto* part : {&out.g, &out.psi, &out.w}) std::ranges::fill(*part, 0.0);
   }
-  add_forces(at, out.force);
+  Branches::or_naturally<EquationFault>([&] {
+    std::ranges::copy(parts_.constant_force, out.force.begin());
+    add_forces(at, out.force);
+  });
   on_constraints(at.t, [&](const ConstraintBatch& batch, const ConstraintPlaces& own) {
     batch.evaluate(at, {own.holonomic ? own.rows.in(std::span(out.g)) : std::span<double>{},
                         own.rows.in(std::span(out.psi)), own.w.in(std::span(out.w))});

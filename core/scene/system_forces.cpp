@@ -75,19 +75,20 @@ void System::add_friction(const Instant& at, std::span<const double> lambda, std
 }
 
 void System::friction_slope(const Instant& at, std::span<const double> lambda, std::span<double> out) const {
-  on_forces(first_reading_, parts_.forces.size(), at, lambda,
-            [&](const ForceBatch& batch, const Multipliers& read, const ForcePlaces& own) {
-              batch.slope(at, read, own.slope.in(out));
-            });
+  const auto write = [&](const ForceBatch& batch, const Multipliers& read, const ForcePlaces& own) {
+    batch.slope(at, read, own.slope.in(out));
+  };
+  Branches::or_naturally<EquationFault>(
+      [&] { on_forces(first_reading_, parts_.forces.size(), at, lambda, write); });
 }
 
 void System::linearise_forces(const Instant& at, std::span<const double> lambda, Linearisation& out) const {
-  on_forces(0, parts_.forces.size(), at, lambda,
-            [&](const ForceBatch& batch, const Multipliers& read, const ForcePlaces& own) {
-              batch.slope(at, read, own.slope.in(std::span(out.friction)));
-              batch.linearise(at, read, own.stiffness.in(std::span(out.stiffness)),
-                              own.damping.in(std::span(out.damping)));
-            });
+  friction_slope(at, lambda, out.friction);
+  const auto linearise = [&](const ForceBatch& batch, const Multipliers& read, const ForcePlaces& own) {
+    batch.linearise(at, read, own.stiffness.in(std::span(out.stiffness)),
+                    own.damping.in(std::span(out.damping)));
+  };
+  Branches::or_naturally<EquationFault>([&] { on_forces(0, parts_.forces.size(), at, lambda, linearise); });
 }
 
 double System::potential_energy(const Instant& at) const {

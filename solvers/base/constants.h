@@ -75,6 +75,11 @@ struct Constants {
   /// 1e-4 to 1e-8); beyond the second no order is unstable. See OrderGuard.
   double resolved = 0.45, passed_over = 9.4;
 
+  // Events and switches.
+  /// A polynomial that disagrees with its function, where that is checked, by no more than this part of what
+  /// it varies shows where it turns. Beside a kink the disagreement may be so many times that at the checks.
+  double unresolved_by_interpolant = 1e-6, beside_a_kink = 30.0;
+
   // Linear algebra.
   /// Rows at a smaller angle than the root of this are left to LU of the whole matrix, so that the Schur
   /// complement never loses more than half of the digits.

@@ -3,6 +3,7 @@
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/constants.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -72,6 +73,8 @@ void validate(const Options& o) {
   require(!(o.ledger && o.audit == Audited::off), "ledger", "true",
           "needs an audit; choose Audited::error or Audited::report");
   require(o.max_steps > 0, "max_steps", o.max_steps, "must be > 0");
+  require(std::isfinite(o.max_step) && o.max_step >= 0.0, "max_step", o.max_step,
+          "must be finite and > 0, or 0 for none");
 }
 
 Options starting_at(double time, Options o) {
@@ -83,6 +86,11 @@ Options starting_at(double time, Options o) {
 
 double tolerance_of_a_step(Stepper stepper, double tolerance) {
   return stepper == Stepper::ida ? constants.share_of_a_step * tolerance : tolerance;
+}
+
+double longest_step(const Options& o) {
+  const double run = o.t_end - o.t_start;
+  return o.max_step > 0.0 ? std::min(o.max_step, run) : run;
 }
 
 std::vector<double> sample_times(const Options& o) {

@@ -53,6 +53,9 @@ struct Options {
   /// Costs about as much as the run itself.
   bool ledger = false;
   long max_steps = 10'000'000;  ///< give up after so many steps
+  /// No step is longer; 0: as long as the tolerance allows. For events whose functions vary much faster than
+  /// the motion. Finite, >= 0 [time]
+  double max_step = 0.0;
 
   /// False: an initial state that violates a constraint is an error. True: it is projected onto the
   /// constraint manifold, by Newton steps that are each the least in the mass-weighted norm.
@@ -66,6 +69,9 @@ struct Options {
 
 /// What each step of a run with this tolerance is held to, in the measures of Options::tolerance.
 [[nodiscard]] double tolerance_of_a_step(Stepper stepper, double tolerance);
+
+/// No step of a run is longer: max_step, or the whole run.
+[[nodiscard]] double longest_step(const Options& options);
 
 /// The sample times that the options ask for. Throws InvalidArgument, naming the option, its value
 /// and its bounds, if any option makes no sense.

@@ -1,5 +1,6 @@
 #include "dalembert/solvers/erk/erk.h"
 
+#include <dalembert/core/autodiff/branches.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/erk/erk_state.h>
@@ -25,19 +26,22 @@ double ErkStepper::State::round_off_of_projection() const {
 double ErkStepper::State::attempt(double step) {
   scales.way = covered;
   passed_switch = passed_several = false;
+  (void)Branches::strayed();
   try {
     if (to.rows != manifold.exchanges()) find_sine(to);
     projected = close_to_singular(step);
     run_stages(to, step, stages - 1, projected);
     finish(to, step, next);
-    const bool doubtful = step < constants.far_too_short * usual && over == 0.0;
-    const double e = error(step, doubtful ? constants.unreliable : 1.0);
+    const bool not_smooth =
+        steps == 0 ? begins_at_switch : step < constants.far_too_short * usual && over == 0.0;
+    const double e = error(step, not_smooth ? constants.unreliable : 1.0);
     if (e > 1.0) return e;
     if (steps % check_interval == 0) watch_stability(step);
     const double correction = project();
     note_sine(next);
+    const double of_switch = Branches::strayed() ? effect_of_switch(to, next, step) : 0.0;
     return std::max({e, correction / (constants.most_correction + round_off_of_projection()),
-                     disagreement(step) / constants.most_disagreement, error_of_switch(step)});
+                     disagreement(step) / constants.most_disagreement, of_switch, error_of_switch(step)});
   } catch (const EquationFault& error) {
     fault = error.what();
     return std::numeric_limits<double>::infinity();
@@ -67,9 +71,9 @@ std::string ErkStepper::State::cause() const {
 /// The step to try: h, or an equal part of the way to the next output time or the end of the run, unless
 /// several outputs fall into one step.
 double ErkStepper::State::step_towards(double wanted) const {
-  const double gap = std::min(wanted, t_end) - to.t;
-  if (gap < 0.5 * h && wanted < t_end) return std::min(h, t_end - to.t);
-  return gap / std::max(1.0, std::ceil(gap / h - constants.stretch));
+  const double gap = std::min(wanted, t_end) - to.t, next_h = std::min(h, longest);
+  if (gap < 0.5 * next_h && wanted < t_end) return std::min(next_h, t_end - to.t);
+  return std::min(longest, gap / std::max(1.0, std::ceil(gap / next_h - constants.stretch)));
 }
 
 /// Accepts `next` as the end of a step.
@@ -128,6 +132,7 @@ void ErkStepper::step(double wanted) {
 }
 
 const Scales& ErkStepper::scales() const { return state_->scales; }
+void ErkStepper::begins_at_switch() { state_->begins_at_switch = true; }
 double ErkStepper::time() const { return state_->to.t; }
 double ErkStepper::sine() const { return state_->to.sine; }
 StepError ErkStepper::error() const { return state_->reached; }
@@ -159,6 +164,19 @@ void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v)
     const double round_off = 10.0 * (rounding + of_time * std::abs(speeds[0])) / h;
     q[i] = x.value;
     v[i] = std::abs(cubic - better) <= round_off ? better : x.derivative;
+  }
+}
+
+/// The polynomial of degree 5 through both ends.
+void ErkStepper::sketch(double t, std::span<double> q, std::span<double> v) {
+  const State& s = *state_;
+  if (s.crossed || s.has_middle || s.from.t == s.to.t) return interpolate(t, q, v);
+  const Hermite<2> of_ends({s.from.t, s.to.t}, t);
+  for (std::size_t i = 0; i < s.n; ++i) {
+    const auto x =
+        of_ends({s.from.q[i], s.to.q[i]}, {s.from.va[i], s.to.va[i]}, {s.from.va[s.n + i], s.to.va[s.n + i]});
+    q[i] = x.value;
+    v[i] = x.derivative;
   }
 }
 

@@ -35,11 +35,13 @@ class ErkStepper final : public TimeStepper {
 
   /// The step may replace the last one and end before it.
   void step(double wanted) override;
+  void begins_at_switch() override;
   [[nodiscard]] double time() const override;
   [[nodiscard]] const Scales& scales() const;
   [[nodiscard]] StepError error() const override;
   [[nodiscard]] double sine() const override;
   void interpolate(double t, std::span<double> q, std::span<double> v) override;
+  void sketch(double t, std::span<double> q, std::span<double> v) override;
   [[nodiscard]] int degree() const override { return 8; }  // Hermite<3>
   [[nodiscard]] bool springs(double /*t*/, Springs& /*out*/) const override { return false; }
   void count(Statistics& statistics) const override;

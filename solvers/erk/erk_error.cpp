@@ -41,7 +41,7 @@ void ErkStepper::State::measure_noise() {
   }
   if (switches.any()) {  // behind a switch the accelerations are others
     manifold.multipliers(multipliers);
-    switches.find({to.t, noise_q, noise_v}, multipliers, manifold.heard(), stage_side);
+    switches.find({to.t, noise_q, noise_v}, multipliers, stage_side);
     if (!switches.same(to.side, stage_side)) return;
   }
   for (std::size_t i = 0; i < n; ++i)

@@ -43,9 +43,10 @@ ErkStepper::State::State(const Problem& problem, const Start& start, const Optio
       covered(start.scales.way),
       usual(constants.first_explicit_step * std::pow(options.tolerance, 1.0 / pair.order) *
             start.scales.time),
-      h(std::min(usual, options.t_end - options.t_start)),
+      longest(longest_step(options)),
+      h(std::min(usual, longest)),
       passage(n),
-      switches(*system, {options.t_start, start.q, start.v}, start.lambda),
+      switches(*system),
       multipliers(start.lambda.size()) {
   for (Node* node : {&from, &to, &middle, &next, &short_of, &beyond}) {
     node->t = options.t_start;
@@ -54,10 +55,9 @@ ErkStepper::State::State(const Problem& problem, const Start& start, const Optio
     node->va.insert(node->va.end(), start.a.begin(), start.a.end());
   }
   if (switches.any()) {
-    sticking.emplace(problem, start, options.t_start, tolerance);
-    manifold.listen();
-    for (Side* side : {&from.side, &to.side, &middle.side, &next.side, &short_of.side, &beyond.side,
-                       &stage_side, &behind_side})
+    sticking.emplace(problem, start, tolerance);
+    for (Slope* side : {&from.side, &to.side, &middle.side, &next.side, &short_of.side, &beyond.side,
+                        &stage_side, &behind_side})
       switches.make_room(*side);
   }
   for (std::size_t i = 1; i < stage.size(); ++i) {

@@ -35,7 +35,7 @@ struct ErkStepper::State {
     std::vector<double> q, va;
     double sine = 1.0;  // see Manifold,
     long rows = 0;      // of those in use after so many exchanges
-    Side side{};        // of the switches in the equations; unset if there are none
+    Slope side{};       // of friction laws; unset if there are none
 
     [[nodiscard]] Angle angle() const { return {t, sine}; }
   };
@@ -112,6 +112,7 @@ struct ErkStepper::State {
   Node from, to;  // the last step; before the first, both are the start
   Node middle;    // of that step, if `has_middle`
   bool has_middle = false;
+  bool begins_at_switch = false;
   bool projected = false;  // the stages of the last attempt
   bool crossed = false;    // the last step passed a singular position
   Node next;               // where a step goes until it is accepted
@@ -126,6 +127,7 @@ struct ErkStepper::State {
   std::vector<double> force_of_spring;  // per row, 0 in rigid ones; empty if all are
   Way covered;                          // by the steps taken; `scales` may be those of one that is tried
   double usual;                         // step, however near the end of the run is
+  double longest;                       // that is allowed
   double h;                             // to try next
   long steps = 0, failures = 0, stability_limited = 0;
 
@@ -146,7 +148,7 @@ struct ErkStepper::State {
   std::optional<Sticking> sticking;     // if there are any
   std::vector<double> multipliers;      // work
   Motion before_switch, behind_switch;  // work
-  Side stage_side, behind_side;         // of stages, the latter behind a switch
+  Slope stage_side, behind_side;        // of stages, the latter behind a switch
   bool passed_switch = false;           // by the last attempt,
   bool passed_several = false;          // and more than one
   Node short_of, beyond;                // where steps end in front of a switch, and behind it

@@ -24,7 +24,7 @@ bool looks(std::size_t stage) { return verner87.b[stage] != 0.0; }
 /// Which side `node` is on, with the multipliers that its acceleration was found with.
 void ErkStepper::State::find_side(Node& node) {
   manifold.multipliers(multipliers);
-  switches.find({node.t, node.q, halves(node.va).first}, multipliers, manifold.heard(), node.side);
+  switches.find({node.t, node.q, halves(node.va).first}, multipliers, node.side);
 }
 
 /// Of the last node, where no attempt has led.
@@ -39,7 +39,7 @@ void ErkStepper::State::find_side_anew() {
 void ErkStepper::State::look(std::size_t i, double t) {
   if (!looks(i) || !switches.any()) return;
   manifold.multipliers(multipliers);
-  switches.find({t, stage_q, halves(stage[i]).first}, multipliers, manifold.heard(), stage_side);
+  switches.find({t, stage_q, halves(stage[i]).first}, multipliers, stage_side);
   if (switches.same(to.side, stage_side)) return;
   if (passed_switch && !switches.same(behind_side, stage_side)) passed_several = true;
   passed_switch = true;
@@ -131,19 +131,12 @@ StepFailure ErkStepper::State::why_not_over(Node& before) {
     if (!manifold.accelerate({next.t, next.q, v}, v_dot)) break;
     find_side(next);
   } while (ahead < usual && switches.same(before.side, next.side));
-  const Violation jump = velocity_violation(*system, manifold.equations(), scales.lengths());
-  if (jump.size > constants.most_correction * tolerance * scales.speed())
-    return {system->row_label(jump.row) +
-                " changes its gradient by a jump here: the velocity before does not satisfy it behind. That "
-                "is an impact, which the equations do not describe; end the run here, or round it off",
-            before.t};
-  const std::string what = switches.others(before.side, next.side);
-  return {
-      (what.empty() ? std::string("the motion") : what) +
-          " switches here, and no solution continues: either both sides drive the motion back to the switch, "
-          "or it "
-          "jumps by more than double precision resolves. Smooth the switch, or end the run here",
-      before.t};
+  const auto friction = switches.turned(before.side, next.side);
+  return {(friction ? switches.friction(*friction) : std::string("the motion")) +
+              " switches here, and no solution continues: either both sides drive the motion back to the "
+              "switch, or it jumps by more than double precision resolves. Smooth the switch, or end the run "
+              "here",
+          before.t};
 }
 
 /// After a step over a switch, whether the motion behind it leads back to it at once, as it led to it from
@@ -170,18 +163,12 @@ void ErkStepper::State::go_on_behind() {
   h = usual;
   passage.forget();
   passage.remember(to.t, halves(to.va).second);
-  if (!driven_back()) return;
-  if (const auto friction = switches.turned(from.side, to.side)) {
-    read(from, before_switch);
-    read(to, behind_switch);
-    if (sticking->jumps(before_switch, behind_switch, *friction))
-      end = StepFailure{sticking->would_stick(*friction), to.t};
-    return;
-  }
-  end = StepFailure{switches.others(from.side, to.side) +
-                        " switches here, and on both sides the motion is driven back to where it does: it "
-                        "would chatter. Smooth the switch, or end the run here",
-                    to.t};
+  const auto friction = switches.turned(from.side, to.side);
+  if (!friction || !driven_back()) return;
+  read(from, before_switch);
+  read(to, behind_switch);
+  if (sticking->jumps(before_switch, behind_switch, *friction))
+    end = StepFailure{sticking->would_stick(*friction), to.t};
 }
 
 void ErkStepper::State::read(const Node& node, Motion& out) const {

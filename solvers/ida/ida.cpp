@@ -64,6 +64,7 @@ IdaStepper::IdaStepper(const Problem& problem, const Start& start, const Options
   check(IDASetInitStep(ida, s.first_step), "IDASetInitStep");
   check(IDASetStopTime(ida, s.t_end), "IDASetStopTime");
   check(IDASetMaxNumSteps(ida, -1), "IDASetMaxNumSteps");
+  check(IDASetMaxStep(ida, options.max_step), "IDASetMaxStep");  // 0: none
 }
 
 IdaStepper::~IdaStepper() = default;

@@ -19,7 +19,7 @@ IdaStepper::State::State(const Problem& problem, const Start& start, const Optio
       tolerance(tolerance_of_a_step(Stepper::ida, options.tolerance)),
       t_end(options.t_end),
       first_step(std::min(constants.first_implicit_step * std::sqrt(options.tolerance) * start.scales.time,
-                          options.t_end - options.t_start)),
+                          longest_step(options))),
       e(system->evaluation()),
       lambda(start.lambda),
       impulse_row(start.rows.size()),

@@ -1,5 +1,6 @@
 #include "dalembert/solvers/manifold/friction.h"
 
+#include <dalembert/core/autodiff/branches.h>
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/numbers.h>
 
@@ -113,6 +114,7 @@ bool FrictionSolver::solve(const Instant& at, std::span<const double> w, std::sp
 /// A law that has no slope at -lambda has no solution there either.
 bool FrictionSolver::mirrored_slope(const Instant& at) try {
   for (const double value : lambda_) mirrored_.push_back(-value);
+  const Branches anywhere(nullptr, nullptr);
   system_->friction_slope(at, mirrored_, slope_mirrored_);
   return true;
 } catch (const EquationFault&) {
@@ -136,6 +138,7 @@ void FrictionSolver::find_what_is_read(const Instant& at) {
     return size *
            (2.0 * static_cast<double>(generator()) / static_cast<double>(std::minstd_rand::max()) - 1.0);
   };
+  const Branches anywhere(nullptr, nullptr);
   for (int k = 0; k < trials; ++k) {
     std::ranges::generate(v, [&] { return any_up_to(speed); });
     std::ranges::generate(lambda, [&] { return any_up_to(force); });

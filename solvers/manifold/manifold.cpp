@@ -157,16 +157,8 @@ bool Manifold::exchange_rows(double own) {
   return factorise_those_in_use();
 }
 
-template <class F>
-void Manifold::hear(const F& equations) {
-  if (!listening_) return equations();
-  const Branches listening(heard_);
-  equations();
-}
-
 void Manifold::evaluate(const Instant& at) {
-  std::ranges::fill(heard_, 0);
-  hear([&] { system_->evaluate(at, e_); });
+  system_->evaluate(at, e_);
   add_springs();
   ++evaluations_;
 }
@@ -235,7 +227,7 @@ void Manifold::correct_velocities(std::span<double> v) {
 /// (3) and (4), with the matrix and the forces at hand.
 bool Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
   const std::size_t n = at.q.size();
-  hear([&] { system_->bias(at, gamma_); });
+  system_->bias(at, gamma_);
   if (!solve_beside_springs(at, springs_.lambda)) return false;
   if (following_) {
     for (std::size_t k = 0; k < rows_.rows.size(); ++k)
@@ -298,7 +290,7 @@ bool Manifold::project(double t, std::span<double> q, std::span<double> v, std::
   }
   if (!factorise()) return false;
   correct_velocities(v);
-  if (!system_->damping_pattern().empty() || listening_) evaluate({t, q, v});
+  if (!system_->damping_pattern().empty()) evaluate({t, q, v});
   return solve_for_accelerations({t, q, v}, a);
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <dalembert/core/autodiff/branches.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/linear/problem.h>
 #include <dalembert/solvers/manifold/friction.h>
@@ -111,11 +110,6 @@ class Manifold {
   /// enters f but by its square: in no direction does u g change where u W = 0.
   [[nodiscard]] Gap gap(const Instant& at, double length);
 
-  /// From here on comparisons that the constraints make are recorded.
-  void listen() { listening_ = true; }
-  /// Those of the last `accelerate` or `project`.
-  [[nodiscard]] const Branches::Outcomes& heard() const { return heard_; }
-
   /// The multipliers last found, one per row of the system; 0 in rows that are not in use.
   void multipliers(std::span<double> lambda) const;
 
@@ -131,8 +125,6 @@ class Manifold {
   [[nodiscard]] const char* method() const { return matrix_.method(); }
 
  private:
-  template <class F>
-  void hear(const F& equations);
   void evaluate(const Instant& at);
   [[nodiscard]] bool compliant(std::size_t row) const {
     return system_->in_force(row) && system_->law(row).compliant();
@@ -157,8 +149,7 @@ class Manifold {
   std::vector<double> gamma_, x_, q_before_;
   Springs springs_, springs_before_;
   std::vector<double> s_, reflected_;
-  bool following_ = false, listening_ = false;
-  Branches::Outcomes heard_;
+  bool following_ = false;
   SaddleMatrix matrix_;
   MinimumNorm minimum_norm_;
   WeakestDirection weakest_;

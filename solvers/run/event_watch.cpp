@@ -19,54 +19,6 @@ bool wanted(Crossing crossing, int before) {
   return crossing == Crossing::either || (crossing == Crossing::rising) == (before < 0);
 }
 
-/// The interpolant of a function's values at the Chebyshev nodes of a step, in its barycentric form (Berrut,
-/// Trefethen, SIAM Review 46 (2004) 501).
-struct Interpolant {
-  const std::vector<double>&nodes, &values;
-
-  [[nodiscard]] double weight(std::size_t j) const {
-    return (j % 2 == 0 ? 1.0 : -1.0) * (j == 0 || j + 1 == nodes.size() ? 0.5 : 1.0);
-  }
-  [[nodiscard]] double operator()(double t) const {
-    double sum = 0.0, weights = 0.0;
-    for (std::size_t j = 0; j < nodes.size(); ++j) {
-      if (t == nodes[j]) return values[j];
-      const double w = weight(j) / (t - nodes[j]);
-      sum += w * values[j];
-      weights += w;
-    }
-    return sum / weights;
-  }
-  [[nodiscard]] double slope(std::size_t j) const {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      if (k != j) sum += weight(k) * (values[k] - values[j]) / (nodes[j] - nodes[k]);
-    return sum / weight(j);
-  }
-  /// Where between a and b it is closest to 0, or beyond it, seen from the side of `side`; by golden-section
-  /// search.
-  [[nodiscard]] double turn(double a, double b, int side) const {
-    constexpr double section = 0.6180339887498949;
-    const auto height = [&](double t) { return side * (*this)(t); };
-    double low = b - section * (b - a), high = a + section * (b - a);
-    double f_low = height(low), f_high = height(high);
-    for (int i = 0; i < 40; ++i) {  // to 1e-8 of the interval, where an extremum is flat to round-off
-      if (f_low < f_high) {
-        b = std::exchange(high, low);
-        f_high = f_low;
-        low = b - section * (b - a);
-        f_low = height(low);
-      } else {
-        a = std::exchange(low, high);
-        f_low = f_high;
-        high = a + section * (b - a);
-        f_high = height(high);
-      }
-    }
-    return 0.5 * (a + b);
-  }
-};
-
 }  // namespace
 
 EventWatch::EventWatch(std::vector<FlatEvent> events, const Layout& layout)
@@ -80,13 +32,16 @@ EventWatch::EventWatch(std::vector<FlatEvent> events, const Layout& layout)
   }
 }
 
-void EventWatch::begin_anew(const FlatSample& start, std::size_t positive) {
+void EventWatch::begin_anew(const FlatSample& start, std::size_t positive, const std::vector<Found>& left) {
   from_ = start.time;
+  asked_for_ = positive;
   at_from_.clear();
   side_.clear();
   for (std::size_t e = 0; e < events_.size(); ++e) {
     at_from_.push_back(value(e, start));
     side_.push_back(e < positive ? first_side(e, at_from_.back()) : at_from_.back() < 0.0 ? -1 : 1);
+    const auto next = std::ranges::find(left, e, [](const Found& one) { return one.what.event; });
+    if (next != left.end() && side_[e] == 0) side_[e] = next->before;
   }
 }
 
@@ -112,35 +67,48 @@ double EventWatch::value(std::size_t event, const FlatSample& at) {
   return value;
 }
 
-/// The nodes of the step, and the points where the interpolant turns towards 0 between two of one sign.
+/// The nodes of the interpolants, and the points where one turns towards 0 between two of one sign.
 std::vector<EventWatch::Place> EventWatch::places(std::size_t event, const Read& read,
-                                                  const std::vector<double>& values) {
-  const Interpolant p{nodes_, values};
-  std::vector<Place> places{{nodes_.front(), values.front()}};
-  for (std::size_t j = 1; j < nodes_.size(); ++j) {
-    const double a = nodes_[j - 1], b = nodes_[j], f_a = values[j - 1], f_b = values[j];
-    const int side = sign(f_b);
-    // What begins at 0 may have had the other sign meanwhile.
-    const bool from_zero = j == 1 && side_[event] == 0;
-    if (side != 0 && (from_zero || side == sign(f_a)) && side * p.slope(j - 1) < 0.0 &&
-        side * p.slope(j) > 0.0) {
-      const double t = p.turn(a, b, side);
-      const double high = from_zero ? -round_off() * largest_[event] : std::min(std::abs(f_a), std::abs(f_b));
-      if (side * p(t) < high) places.push_back({t, value(event, read(t))});
+                                                  const std::vector<Interpolant>& parts) {
+  std::vector<Place> places{{parts.front().nodes.front(), parts.front().values.front()}};
+  for (const Interpolant& p : parts) {
+    for (std::size_t j = 1; j < p.nodes.size(); ++j) {
+      const double a = p.nodes[j - 1], b = p.nodes[j], f_a = p.values[j - 1], f_b = p.values[j];
+      const int side = sign(f_b);
+      // What begins at 0 may have had the other sign meanwhile.
+      const bool from_zero = places.size() == 1 && side_[event] == 0;
+      if (side != 0 && (from_zero || side == sign(f_a)) && side * p.slope(j - 1) < 0.0 &&
+          side * p.slope(j) > 0.0) {
+        const double t = p.turn(a, b, side);
+        const double high =
+            from_zero ? -round_off() * largest_[event] : std::min(std::abs(f_a), std::abs(f_b));
+        const double f_t = side * p(t) < high ? value(event, read(t)) : f_b;
+        const bool touches = event < asked_for_ && std::abs(f_t) <= round_off() * largest_[event];
+        if (f_t != f_b && !touches) places.push_back({t, f_t});
+      }
+      places.push_back({b, f_b});
     }
-    places.push_back({b, f_b});
   }
   return places;
 }
 
-void EventWatch::find(std::size_t event, const Read& read, const std::vector<double>& values,
-                      std::vector<Occurrence>& occurred) {
-  const auto function = [&](double t) { return value(event, read(t)); };
-  const auto all = places(event, read, values);
+/// A function that is 0 to round-off where the run ends has crossed 0 if it was not before.
+int EventWatch::side_at_end(std::size_t event, const Place& before, const Place& end) const {
+  const double zero = round_off() * largest_[event];
+  return std::abs(end.value) <= zero && std::abs(before.value) > zero ? 0 : sign(end.value);
+}
+
+void EventWatch::find(std::size_t event, const Step& step, const std::vector<Interpolant>& parts,
+                      std::vector<Found>& found) {
+  const auto function = [&](double t) { return value(event, step.read(t)); };
+  const auto all = places(event, step.read, parts);
   for (std::size_t i = 1; i < all.size(); ++i) {
     const auto [a, f_a] = all[i - 1];
-    const auto [b, f_b] = all[i];
-    const int before = side_[event], after = sign(f_b);
+    auto [b, f_b] = all[i];
+    int after = sign(f_b);
+    if (step.ends_run && i + 1 == all.size()) after = side_at_end(event, all[i - 1], all[i]);
+    if (after == 0) f_b = 0.0;
+    const int before = side_[event];
     if (before == 0) {
       side_[event] = first_side(event, f_b);
       continue;
@@ -151,25 +119,53 @@ void EventWatch::find(std::size_t event, const Read& read, const std::vector<dou
     side_[event] = after == 0 ? -before : after;
     if (f_a == 0.0) continue;
     if (wanted(events_[event].crossing, before))
-      occurred.push_back({event, root(function, a, f_a, b, f_b, exact)});
+      found.push_back({{event, root(function, a, f_a, b, f_b, exact)}, before});
   }
 }
 
-std::vector<Occurrence> EventWatch::look(const Read& read, double to, int degree) {
-  std::vector<std::vector<double>> values;
-  for (const double first : at_from_) values.push_back({first});
-  nodes_ = {from_};
-  for (int j = 1; j <= degree; ++j) {
-    nodes_.push_back(chebyshev_node(from_, to, j, degree));
-    const FlatSample at = read(nodes_.back());
-    for (std::size_t e = 0; e < events_.size(); ++e) values[e].push_back(value(e, at));
+/// The interpolants that show the function of an event that was asked for. (Those of contacts are functions
+/// of the motion that its steps follow.)
+std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& step, Interpolant whole,
+                                              const std::vector<double>& at_checks) {
+  if (event >= asked_for_) return {std::move(whole)};
+  const auto function = [&](double t) { return value(event, step.read(t)); };
+  constexpr std::size_t most_parts = 4096;  // of a step: some hundred periods are still resolved
+  auto parts = resolve(function, std::move(whole), at_checks, round_off() * largest_[event], most_parts);
+  if (parts.empty()) {
+    throw StepFailure{"Event \"" + events_[event].name +
+                          "\" varies faster than it can be followed within a step of " +
+                          std::to_string(step.to - from_) +
+                          "; choose a max_step in the options that is shorter than what it does between two "
+                          "zeros",
+                      from_};
   }
-  std::vector<Occurrence> occurred;
-  for (std::size_t e = 0; e < events_.size(); ++e) find(e, read, values[e], occurred);
-  std::ranges::stable_sort(occurred, {}, &Occurrence::time);
-  for (std::size_t e = 0; e < events_.size(); ++e) at_from_[e] = values[e].back();
-  from_ = to;
-  return occurred;
+  return parts;
+}
+
+std::vector<EventWatch::Found> EventWatch::look(const Step& step) {
+  std::vector<Interpolant> whole(events_.size());
+  std::vector<std::vector<double>> at_checks(events_.size());
+  for (std::size_t e = 0; e < events_.size(); ++e) whole[e] = {{from_}, {at_from_[e]}};
+  for (int j = 1; j <= step.degree; ++j) {
+    const double t = chebyshev_node(from_, step.to, j, step.degree);
+    const FlatSample at = step.read(t);
+    for (std::size_t e = 0; e < events_.size(); ++e) {
+      whole[e].nodes.push_back(t);
+      whole[e].values.push_back(value(e, at));
+    }
+  }
+  for (const double t : asked_for_ > 0 ? check_times(from_, step.to, step.degree) : std::vector<double>{}) {
+    const FlatSample at = step.read(t);
+    for (std::size_t e = 0; e < asked_for_; ++e) at_checks[e].push_back(value(e, at));
+  }
+  std::vector<Found> found;
+  for (std::size_t e = 0; e < events_.size(); ++e) {
+    at_from_[e] = whole[e].values.back();
+    find(e, step, resolved(e, step, std::move(whole[e]), at_checks[e]), found);
+  }
+  std::ranges::stable_sort(found, {}, [](const Found& one) { return one.what.time; });
+  from_ = step.to;
+  return found;
 }
 
 }  // namespace dalembert

@@ -3,6 +3,7 @@
 #include <dalembert/core/results/event.h>
 #include <dalembert/core/results/trajectory.h>
 #include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/run/interpolant.h>
 
 #include <functional>
 #include <memory>
@@ -15,25 +16,37 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// Finds the events of a run, step by step: where the functions change their sign on the stepper's own
 /// polynomial, with recovered forces.
 ///
-/// Within a step a function is known at the nodes of a Chebyshev interpolant of the polynomial's degree.
-/// Where that turns towards 0 between two nodes of one sign, or first crosses the 0 that it began with, the
-/// function itself is evaluated: so two roots within a step are found as well, if the interpolant resolves
-/// the function.
+/// Within a step a function is known at the nodes of a Chebyshev interpolant of the polynomial's degree, or
+/// of as many as resolve it. Where one turns towards 0 between two nodes of one sign, or first crosses the 0
+/// that it began with, the function itself is evaluated: so two roots within a step are found as well.
 class EventWatch {
  public:
   /// The polynomial of the last step at a time inside it.
   using Read = std::function<FlatSample(double t)>;
+  /// Steps follow each other.
+  struct Step {
+    const Read& read;
+    double to;
+    int degree;
+    bool ends_run;
+  };
+  /// And the sign that the function had before.
+  struct Found {
+    Occurrence what;
+    int before;
+  };
 
   /// Throws InvalidArgument for an event without function.
   EventWatch(std::vector<FlatEvent> events, const Layout& layout);
 
-  /// What happened in a step that ended at `to`, in the order of time; steps follow each other. Throws
-  /// StepFailure if a function throws or gives no number.
-  [[nodiscard]] std::vector<Occurrence> look(const Read& read, double to, int degree);
+  /// What happened in a step, in the order of time. Throws StepFailure if a function throws, gives no number
+  /// or cannot be followed.
+  [[nodiscard]] std::vector<Found> look(const Step& step);
   /// From here on steps are those of a run that begins, or begins anew, at a sample; the values of the
   /// functions there are no crossing, and as long as one is 0 to round-off of its largest value so far it has
-  /// no sign. Those from number `positive` on come from above 0 where they are 0.
-  void begin_anew(const FlatSample& start, std::size_t positive);
+  /// no sign. Those from number `positive` on come from above 0 where they are 0. What was found in the last
+  /// step but is `left` behind the start still has the sign that it had before.
+  void begin_anew(const FlatSample& start, std::size_t positive, const std::vector<Found>& left);
   [[nodiscard]] const FlatEvent& event(std::size_t number) const { return events_[number]; }
 
  private:
@@ -43,13 +56,16 @@ class EventWatch {
   [[nodiscard]] double value(std::size_t event, const FlatSample& at);
   [[nodiscard]] int first_side(std::size_t event, double value) const;
   [[nodiscard]] std::vector<Place> places(std::size_t event, const Read& read,
-                                          const std::vector<double>& values);
-  void find(std::size_t event, const Read& read, const std::vector<double>& values,
-            std::vector<Occurrence>& occurred);
+                                          const std::vector<Interpolant>& parts);
+  [[nodiscard]] int side_at_end(std::size_t event, const Place& before, const Place& end) const;
+  void find(std::size_t event, const Step& step, const std::vector<Interpolant>& parts,
+            std::vector<Found>& found);
+  [[nodiscard]] std::vector<Interpolant> resolved(std::size_t event, const Step& step, Interpolant whole,
+                                                  const std::vector<double>& at_checks);
 
   std::vector<FlatEvent> events_;
   double from_ = 0.0;
-  std::vector<double> nodes_;    ///< of the step that is looked at
+  std::size_t asked_for_ = 0;    ///< the first of them; behind are those of contacts
   std::vector<double> at_from_;  ///< of each event its value where the last step ended,
   std::vector<int> side_;        ///< its sign there or before, if it is 0; 0 if it never had one,
   std::vector<double> largest_;  ///< and the largest value so far

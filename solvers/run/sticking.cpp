@@ -29,7 +29,8 @@ void between(const Motion& a, const Motion& b, double part, Motion& to) {
   }
 }
 
-/// to = `from` extrapolated for a short time with its accelerations.
+}  // namespace
+
 void move(const Motion& from, double duration, Motion& to) {
   to.t = from.t + duration;
   to.q.resize(from.q.size());
@@ -40,40 +41,36 @@ void move(const Motion& from, double duration, Motion& to) {
   }
 }
 
-}  // namespace
-
-std::string Sticking::would_stick(std::size_t friction) const {
-  return switches_.friction(friction) +
+std::string Sticking::message(const Switches& switches, std::size_t friction) {
+  return switches.friction(friction) +
          " would stick here: the sliding velocity is zero, and friction exceeds the driving force both ways. "
          "A law that jumps there describes sliding only; smooth it, v / sqrt(v^2 + small^2) in place of the "
          "direction of v, or end the run here";
 }
 
-Sticking::Sticking(const Problem& problem, const Start& start, double t_start, double tolerance)
+Sticking::Sticking(const Problem& problem, const Start& start, double tolerance)
     : system_(&problem.system()),
       manifold_(problem, start.rows, start.scales.lengths()),
-      switches_(*system_, {t_start, start.q, start.v}, start.lambda),
+      switches_(*system_),
       time_(start.scales.time),
       // The square of this, of the scene's time, is what the time of sticking may be wrong by.
       soon_(std::sqrt(tolerance) * time_),
-      lambda_(start.lambda) {
-  manifold_.listen();
+      lambda_(start.lambda) {}
+
+void Sticking::find_slope(const Motion& at, Slope& side) {
+  side.resize(system_->friction_pattern().size());
+  system_->friction_slope(at.instant(), lambda_, side);
 }
 
-void Sticking::find_slope(const Motion& at, Side& side) {
-  side.slope.resize(system_->friction_pattern().size());
-  system_->friction_slope(at.instant(), lambda_, side.slope);
-}
-
-bool Sticking::accelerate(Motion& at, Side& side) {
+bool Sticking::accelerate(Motion& at, Slope& side) {
   at.a.resize(at.q.size());
   if (!manifold_.accelerate(at.instant(), at.a)) return false;
   manifold_.multipliers(lambda_);
-  switches_.find(at.instant(), lambda_, manifold_.heard(), side);
+  switches_.find(at.instant(), lambda_, side);
   return true;
 }
 
-Departure Sticking::leave(const Instant& at, std::span<const double> a, Side& side) {
+Departure Sticking::leave(const Instant& at, std::span<const double> a, Slope& side) {
   const auto copy = [](std::span<const double> x) { return std::vector<double>(x.begin(), x.end()); };
   Motion start{at.t, copy(at.q), copy(at.v), copy(a)}, later;
   if (!accelerate(start, side) || !switches_.rests(side)) return {};

@@ -19,6 +19,9 @@ struct Motion {
   [[nodiscard]] Instant instant() const { return {t, q, v}; }
 };
 
+/// to = `from` extrapolated for a short time with its accelerations.
+void move(const Motion& from, double duration, Motion& to);
+
 /// How a motion leaves a state.
 struct Departure {
   std::optional<std::size_t> held_by{};  ///< the friction that prevents sliding, if one does
@@ -35,15 +38,16 @@ struct Departure {
 /// reverses.
 class Sticking {
  public:
-  Sticking(const Problem& problem, const Start& start, double t_start, double tolerance);
+  Sticking(const Problem& problem, const Start& start, double tolerance);
 
   /// Of a state with the accelerations a; `side` is the one that the motion begins on.
-  [[nodiscard]] Departure leave(const Instant& at, std::span<const double> a, Side& side);
+  [[nodiscard]] Departure leave(const Instant& at, std::span<const double> a, Slope& side);
   /// Whether the friction that reverses between two states does so by a jump, and not steeply: whether it is
   /// as large next to the reversal as away from it.
   [[nodiscard]] bool jumps(const Motion& before, const Motion& behind, std::size_t friction);
   /// The message about a friction that would stick.
-  [[nodiscard]] std::string would_stick(std::size_t friction) const;
+  [[nodiscard]] std::string would_stick(std::size_t friction) const { return message(switches_, friction); }
+  [[nodiscard]] static std::string message(const Switches& switches, std::size_t friction);
 
   /// For a motion known only at its steps: called before the first of the run and after each.
   /// Throws StepFailure.
@@ -53,8 +57,8 @@ class Sticking {
   void require_leaving();
   void require_no_stop();
   void require_passable(std::size_t friction, double step);
-  void find_slope(const Motion& at, Side& side);
-  bool accelerate(Motion& at, Side& side);
+  void find_slope(const Motion& at, Slope& side);
+  bool accelerate(Motion& at, Slope& side);
   void require_sliding(const Motion& before, Motion& behind);
   void look_ahead(Motion from, double duration);
 
@@ -64,7 +68,7 @@ class Sticking {
   double time_, soon_;
   std::vector<double> lambda_;
   Motion last_, now_, trial_;
-  Side side_, near_, far_;  // work
+  Slope side_, near_, far_;  // work
   bool begun_ = false;
 };
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <dalembert/core/autodiff/branches.h>
 #include <dalembert/core/scene/system.h>
 #include <dalembert/solvers/base/hidden.h>
 
@@ -12,51 +11,39 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// On which side of each switching surface of the equations a state is.
-struct Side {
-  Branches::Outcomes branches;  ///< of the comparisons in each batch; empty if they are not known
-  std::vector<double> slope;    ///< dF_f/dlambda: Coulomb's is -mu times the direction of sliding
-};
+/// dF_f/dlambda at a state: Coulomb's is -mu times the direction of sliding. Empty if it is not known.
+using Slope = std::vector<double>;
 
-/// The switching surfaces of a scene: comparisons in its equations, and friction that reverses with the
-/// sliding.
+/// Friction laws that reverse with the sliding.
 ///
-/// Between two states one was crossed if a comparison changed its outcome, or if some friction's slope turned
-/// by more than a right angle: at zero sliding velocity a law changes its direction without comparing
-/// anything. Coulomb's constraints change where a run finds it, not here. (A direction that turns so far
-/// smoothly within a step does no harm; the step is tried shorter.)
+/// Between two states one did if its slope turned by more than a right angle: at zero sliding velocity a law
+/// changes its direction without comparing anything. (What compares is found by Comparisons; Coulomb's
+/// constraints change where a run finds it. A direction that turns so far smoothly within a step does no
+/// harm; the step is tried shorter.)
 class Switches {
  public:
-  /// Listens to the equations at a state: most scenes compare nothing and have no switches.
-  Switches(const System& system, const Instant& at, std::span<const double> lambda);
+  explicit Switches(const System& system);
 
-  [[nodiscard]] bool any() const { return any_; }
+  [[nodiscard]] bool any() const { return first_.size() > 1; }
   /// So that `find` allocates nothing.
-  void make_room(Side& side) const;
-  /// `of_constraints` is what they compared in the evaluation that found lambda, see Manifold::listen.
-  void find(const Instant& at, std::span<const double> lambda, const Branches::Outcomes& of_constraints,
-            Side& out);
-  [[nodiscard]] bool same(const Side& a, const Side& b) const;
-  /// Whether what changed from `a` to `b` is at `c` as it was at `a`.
-  [[nodiscard]] bool returns(const Side& a, const Side& b, const Side& c) const;
+  void make_room(Slope& slope) const;
+  void find(const Instant& at, std::span<const double> lambda, Slope& out) const;
+  [[nodiscard]] bool same(const Slope& a, const Slope& b) const { return !turned(a, b); }
+  /// Whether all that turned from `a` to `b` is at `c` as it was at `a`.
+  [[nodiscard]] bool returns(const Slope& a, const Slope& b, const Slope& c) const;
   /// The friction that turned from `a` to `b`, if one did.
-  [[nodiscard]] std::optional<std::size_t> turned(const Side& a, const Side& b) const;
+  [[nodiscard]] std::optional<std::size_t> turned(const Slope& a, const Slope& b) const;
   [[nodiscard]] std::string friction(std::size_t i) const { return system_->force_of_friction(first_[i]); }
   /// The length of a friction's slope.
-  [[nodiscard]] double steepness(const Side& a, std::size_t i) const { return std::sqrt(turn(a, a, i)); }
+  [[nodiscard]] double steepness(const Slope& a, std::size_t i) const { return std::sqrt(turn(a, a, i)); }
   /// Whether some friction has no slope: of Coulomb's, nothing slides.
-  [[nodiscard]] bool rests(const Side& a) const;
-  /// Labels of the others that differ.
-  [[nodiscard]] std::string others(const Side& a, const Side& b) const;
+  [[nodiscard]] bool rests(const Slope& a) const;
 
  private:
-  [[nodiscard]] double turn(const Side& a, const Side& b, std::size_t friction) const;
+  [[nodiscard]] double turn(const Slope& a, const Slope& b, std::size_t friction) const;
 
   const System* system_;
-  System::Linearisation work_;
-  std::size_t batches_ = 0;
   std::vector<std::size_t> first_;  // entry of the slope of each friction, and the end
-  bool any_ = false, of_forces_ = false;
 };
 
 }  // namespace dalembert

@@ -17,6 +17,8 @@ class TimeStepper {
 
   /// One accepted step, not beyond t_end; `wanted` is the next time of output. Throws StepFailure.
   virtual void step(double wanted) = 0;
+  /// Before the first step: that begins at a switch, where the equations may have no higher derivatives.
+  virtual void begins_at_switch() {}
   /// Where the last step ended.
   [[nodiscard]] virtual double time() const = 0;
   /// What the last step may have erred by.
@@ -25,6 +27,8 @@ class TimeStepper {
   [[nodiscard]] virtual double sine() const = 0;
   /// The state at a time inside the last step (or at the start, before the first). Throws EquationFault.
   virtual void interpolate(double t, std::span<double> q, std::span<double> v) = 0;
+  /// The same to what a look at the motion needs, without further evaluations of the equations.
+  virtual void sketch(double t, std::span<double> q, std::span<double> v) { interpolate(t, q, v); }
   /// Its degree as a polynomial in t, at most.
   [[nodiscard]] virtual int degree() const = 0;
   /// The multipliers of compliant rows at such a time. False if the positions determine them.

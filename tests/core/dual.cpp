@@ -237,9 +237,12 @@ TEST(Dual, SignedZerosAndTiesGoAsInStd) {
 TEST(Dual, EveryKinkAndJumpIsHeard) {
   using S = Dual<1, 1>;
   const auto heard = [](double x, auto f) {
-    Branches::Outcomes outcomes(1);
-    const Branches listen(outcomes);
+    Branches::Sides heard;
+    const Branches listen(&heard, nullptr);
+    Branches::begin_batch(0);
     (void)f(S::input(x, 0));
+    std::vector<std::pair<int, double>> outcomes;
+    for (const auto& one : heard[0]) outcomes.push_back({one.side, one.piece});
     return outcomes;
   };
   const auto tells = [&heard](double before, double behind, auto f) {

@@ -17,31 +17,48 @@ using testing::ThrowsMessage;
 
 constexpr double g = 9.81;
 
+/// The outcomes of the comparisons that f makes.
+template <class F>
+std::vector<int> sides(const F& f, const Branches::Sides* held = nullptr) {
+  Branches::Sides heard;
+  const Branches listening(&heard, held);
+  Branches::begin_batch(0);
+  f();
+  std::vector<int> all;
+  for (const auto& one : heard[0]) all.push_back(one.side);
+  return all;
+}
+
 TEST(Branches, TellTheSidesOfAKinkApartAndItsEdge) {
   using S = Dual<1, 1>;
-  const auto outcome = [](double x) {
-    Branches::Outcomes outcomes;
-    const Branches listening(outcomes);
-    Branches::begin_batch(0);
-    (void)abs(S::input(x, 0));
-    return outcomes;
-  };
+  const auto outcome = [](double x) { return sides([x] { (void)abs(S::input(x, 0)); }); };
   EXPECT_EQ(outcome(2.0), outcome(1.0));
   EXPECT_EQ(outcome(-2.0), outcome(-1.0));
   EXPECT_NE(outcome(-1.0), outcome(1.0));
   EXPECT_NE(outcome(0.0), outcome(1.0));
 }
 
-TEST(Branches, AreHeardOnlyWhileSomebodyListens) {
-  Branches::Outcomes outcomes;
+TEST(Branches, ThatAreHeldGoOnBeyondTheirEnd) {
+  using S = Dual<1, 1>;
+  Branches::Sides held;
   {
-    const Branches listening(outcomes);
-    EXPECT_FALSE((Dual<1, 1>(1.0) < 0.0));
-    EXPECT_EQ(listening.count(), 1);
+    const Branches listening(&held, nullptr);
+    Branches::begin_batch(0);
+    (void)abs(S::input(1.5, 0));
+    (void)floor(S::input(1.5, 0));
   }
-  const auto before = outcomes;
+  Branches::Sides heard;
+  const Branches holding(&heard, &held);
+  Branches::begin_batch(0);
+  EXPECT_EQ(abs(S::input(-2.0, 0)).value, -2.0);
+  EXPECT_EQ(floor(S::input(2.25, 0)).value, 1.0);
+  EXPECT_EQ(heard[0].front().difference, -2.0);  // from 0
+  EXPECT_EQ(heard[0].back().difference, -0.25);  // behind 2
+}
+
+TEST(Branches, AreHeardOnlyWhileSomebodyListens) {
+  EXPECT_EQ(sides([] { EXPECT_FALSE((Dual<1, 1>(1.0) < 0.0)); }).size(), 1U);
   EXPECT_TRUE((Dual<1, 1>(1.0) > 0.0));
-  EXPECT_EQ(outcomes, before);
 }
 
 Options explicitly(double t_end, double tolerance) {

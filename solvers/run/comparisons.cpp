@@ -1,0 +1,331 @@
+#include "dalembert/solvers/run/comparisons.h"
+
+#include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/base/numbers.h>
+#include <dalembert/solvers/base/root.h>
+#include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/linear/rows.h>
+#include <dalembert/solvers/run/interpolant.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace dalembert {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::infinity();
+/// A difference so many times that at the switch is no round-off of it.
+constexpr double clearly = 8.0;
+
+/// Comparisons of equal numbers.
+std::size_t undecided(const Branches::Sides& sides) {
+  std::size_t count = 0;
+  for (const auto& batch : sides)
+    count += static_cast<std::size_t>(std::ranges::count(batch, 0, &Branches::Comparison::side));
+  return count;
+}
+
+}  // namespace
+
+Comparisons::Comparisons(const Problem& problem, const Start& start, double t, double tolerance)
+    : system_(&problem.system()),
+      scales_(start.scales),
+      tolerance_(tolerance),
+      e_(system_->evaluation()),
+      lambda_(start.lambda.size()),
+      a_(start.q.size()),
+      from_(t) {
+  const auto make_manifold = [&] {
+    if (!manifold_) manifold_.emplace(problem, start.rows, start.scales.lengths());
+  };
+  if (system_->frictional()) make_manifold();
+  if (!hear({t, start.q, start.v}, nullptr, heard_)) heard_.clear();
+  any_ = std::ranges::any_of(heard_, [](const auto& batch) { return !batch.empty(); });
+  if (!any_) return;
+  make_manifold();
+  held_ = heard_;
+  choose_sides(start);
+  list_margins();
+}
+
+Comparisons::Comparisons(const Problem& problem, const Start& start, double t, double tolerance,
+                         double checked, Branches::Sides held)
+    : Comparisons(problem, start, t, tolerance) {
+  any_ = true;
+  chosen_ = false;
+  held_ = std::move(held);
+  from_ = checked;
+  list_margins();
+}
+
+/// Between two sides, at a corner of an equation, a motion goes to where the accelerations lead in an
+/// instant; what stays there is evaluated as it is.
+void Comparisons::choose_sides(const Start& start) {
+  std::size_t least = undecided(held_);
+  const Motion at{from_, start.q, start.v, start.a};
+  for (double ahead = constants.instant_after * scales_.time; least > 0 && ahead < 1e-3 * scales_.time;
+       ahead *= clearly) {
+    move(at, ahead, other_);
+    if (!hear(other_.instant(), nullptr, heard_) || undecided(heard_) >= least) continue;
+    least = undecided(heard_);
+    held_ = heard_;
+    chosen_ = true;
+  }
+}
+
+bool Comparisons::hear(const Instant& at, const Branches::Sides* held, Branches::Sides& out) {
+  const Branches listening(&out, held);
+  try {
+    if (!system_->frictional()) {
+      system_->evaluate(at, e_);
+      return true;
+    }
+    if (!manifold_->accelerate(at, a_)) return false;
+    manifold_->multipliers(lambda_);
+    system_->add_friction(at, lambda_, e_.force);
+    return true;
+  } catch (const EquationFault&) {
+    return false;
+  }
+}
+
+bool Comparisons::accelerate(Motion& at, const Branches::Sides& held) {
+  const Branches holding(nullptr, &held);
+  at.a.resize(at.q.size());
+  try {
+    return manifold_->accelerate(at.instant(), at.a);
+  } catch (const EquationFault&) {
+    return false;
+  }
+}
+
+void Comparisons::list_margins() {
+  margins_.clear();
+  at_from_.clear();
+  for (std::size_t b = 0; b < held_.size(); ++b)
+    for (std::size_t k = 0; k < held_[b].size(); ++k) margins_.push_back({b, k, held_[b][k].side});
+}
+
+/// How far what was heard last is from leaving its side: negative behind.
+double Comparisons::margin(const Margin& of) const {
+  if (of.batch >= heard_.size() || of.comparison >= heard_[of.batch].size()) return unknown;
+  const double difference = heard_[of.batch][of.comparison].difference;
+  if (std::isnan(difference)) return unknown;
+  return of.side == 0 ? (difference == 0.0 ? 1.0 : -1.0) : of.side * difference;
+}
+
+bool Comparisons::hear_step(double t, bool sketched) {
+  motion_.t = t;
+  motion_.q.resize(a_.size());
+  motion_.v.resize(a_.size());
+  if (sketched) {
+    stepper_->sketch(t, motion_.q, motion_.v);
+  } else {
+    stepper_->interpolate(t, motion_.q, motion_.v);
+  }
+  return hear(motion_.instant(), &held_, heard_);
+}
+
+std::vector<double> Comparisons::margins_at(double t, bool sketched) {
+  std::vector<double> all(margins_.size(), unknown);
+  if (!hear_step(t, sketched)) return all;
+  for (std::size_t k = 0; k < all.size(); ++k) all[k] = margin(margins_[k]);
+  return all;
+}
+
+double Comparisons::margin_at(std::size_t k, double t) {
+  return hear_step(t, false) ? margin(margins_[k]) : unknown;
+}
+
+/// Those that may have left their side in the step: they are behind at its end or middle, or closer to where
+/// they switch than they bend within the step.
+std::vector<std::size_t> Comparisons::suspects(double to) {
+  if (at_from_.empty()) at_from_ = margins_at(from_, false);
+  const auto at_middle = margins_at(0.5 * (from_ + to), true);
+  at_end_ = margins_at(to, false);
+  std::vector<std::size_t> all;
+  for (std::size_t k = 0; k < margins_.size(); ++k) {
+    const double least = std::min({at_from_[k], at_middle[k], at_end_[k]});
+    const double bend = std::abs(at_from_[k] - 2.0 * at_middle[k] + at_end_[k]);
+    if (std::ranges::find(passed_, margins_[k]) != passed_.end()) continue;
+    const bool constant = at_from_[k] == at_middle[k] && at_middle[k] == at_end_[k] && least > 0.0;
+    if (!constant && !(least > bend)) all.push_back(k);
+  }
+  return all;
+}
+
+/// Where a margin first becomes negative, if it does, among its interpolants.
+std::optional<Comparisons::Bracket> Comparisons::first_root(std::size_t k, double to) {
+  const FunctionOfTime f = [&](double t) { return margin_at(k, t); };
+  const int degree = stepper_->degree();
+  Interpolant whole = interpolate(f, from_, to, degree);
+  if (!std::ranges::all_of(whole.values, [](double x) { return std::isfinite(x); })) return std::nullopt;
+  if (whole.values.front() < 0.0) return Bracket{from_, 1.0, from_, whole.values.front(), k};
+  std::vector<double> checks;
+  for (const double t : check_times(from_, to, degree)) checks.push_back(f(t));
+  const double rounding = constants.roundings_at_contacts * epsilon * largest(whole.values);
+  constexpr std::size_t most_parts = 128;
+  auto parts = resolve(f, whole, checks, rounding, most_parts);
+  if (parts.empty()) parts.push_back(std::move(whole));  // faster than can be followed: as far as is seen
+  for (const Interpolant& p : parts) {
+    for (std::size_t j = 1; j < p.nodes.size(); ++j) {
+      const double a = p.nodes[j - 1], b = p.nodes[j], f_a = p.values[j - 1], f_b = p.values[j];
+      if (f_b < 0.0) return Bracket{a, f_a, b, f_b, k};
+      if (!(p.slope(j - 1) < 0.0 && p.slope(j) > 0.0)) continue;
+      const double t = p.turn(a, b, 1), f_t = f(t);
+      if (f_t < 0.0) return Bracket{a, f_a, t, f_t, k};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Comparisons::Root> Comparisons::first_switch(double to) {
+  std::optional<Root> first;
+  for (const std::size_t k : suspects(to)) {
+    const auto bracket = first_root(k, first ? first->t : to);
+    if (!bracket) continue;
+    const auto f = [&](double t) { return margin_at(k, t); };
+    const double exact = 4.0 * epsilon * std::max(std::abs(bracket->a), std::abs(bracket->b));
+    const double t = bracket->a < bracket->b
+                         ? root(f, bracket->a, bracket->f_a, bracket->b, bracket->f_b, exact)
+                         : bracket->b;
+    if (!first || t < first->t) first = Root{t, k};
+  }
+  return first;
+}
+
+/// The margin of a motion that goes on with its own accelerations.
+double Comparisons::margin_ahead(std::size_t k, const Motion& from, double ahead) {
+  move(from, ahead, other_);
+  return hear(other_.instant(), &held_, heard_) ? margin(margins_[k]) : -unknown;
+}
+
+Comparisons::Switch Comparisons::behind(const Root& root, double step) {
+  Switch one{};
+  one.margin = root.margin;
+  one.step = step;
+  one.distance = std::abs(margin_at(root.margin, root.t));
+  one.at = motion_;
+  if (!accelerate(one.at, held_)) throw linearly_dependent(root.t);
+  one.ahead = 16.0 * epsilon * std::max(std::abs(root.t), scales_.time);
+  while (one.ahead < 1e-3 * step) {
+    const double margin = margin_ahead(root.margin, one.at, one.ahead);
+    if (margin < 0.0 && (margins_[root.margin].side == 0 || -margin >= clearly * one.distance)) break;
+    one.ahead *= 2.0;
+  }
+  move(one.at, one.ahead, other_);
+  if (!hear(other_.instant(), nullptr, one.behind)) one.behind = held_;
+  return one;
+}
+
+/// Whether a constraint has a corner, or the accelerations of both sides differ, at the switch or behind it,
+/// by more than the tolerance of speeds in the scene's own time.
+bool Comparisons::matters(const Switch& one, double to) {
+  if (corner(one)) return true;
+  Motion end{to, one.at.q, one.at.v, {}};
+  stepper_->interpolate(to, end.q, end.v);
+  for (const Motion& at : {one.at, end}) {
+    Motion before = at, after = at;
+    if (!accelerate(before, held_) || !accelerate(after, one.behind)) return true;
+    for (std::size_t i = 0; i < at.v.size(); ++i) {
+      const double effect = scales_.time * std::abs(after.a[i] - before.a[i]);
+      if (!(effect <= scales_.velocity_error(i, at.v[i], tolerance_))) return true;
+    }
+  }
+  return false;
+}
+
+std::optional<Comparisons::Switch> Comparisons::leave(TimeStepper& stepper) {
+  const double from = from_, to = stepper.time();
+  if (!any_ || !(to > from)) return std::nullopt;
+  stepper_ = &stepper;
+  passed_.clear();
+  const Branches holding(nullptr, &held_);
+  while (const auto root = first_switch(to)) {
+    Switch one = behind(*root, to - from);
+    if (matters(one, to)) return one;
+    passed_.push_back(margins_[root->margin]);
+    held_ = std::move(one.behind);
+    from_ = std::min(to, root->t + one.ahead);
+    list_margins();
+  }
+  at_from_ = at_end_;
+  from_ = to;
+  return std::nullopt;
+}
+
+/// The row of a rigid constraint that jumps at a switch, or whose velocity does, if one does.
+std::optional<std::size_t> Comparisons::corner(const Switch& one) {
+  const auto lengths = scales_.lengths();
+  auto before = system_->evaluation();
+  const auto evaluate = [&](const Branches::Sides& held, System::Evaluation& e) {
+    const Branches holding(nullptr, &held);
+    system_->evaluate(one.at.instant(), e);
+  };
+  evaluate(held_, before);
+  evaluate(one.behind, e_);
+  const double most = constants.most_correction * tolerance_;
+  for (std::size_t r = 0; r < system_->rows(); ++r) {
+    if (!system_->in_force(r) || system_->law(r).compliant()) continue;
+    const double gradient = gradient_length(*system_, e_.w, lengths, r);
+    const bool holonomic = r < system_->holonomic_rows();
+    const double jump = holonomic ? std::abs(e_.g[r] - before.g[r]) : 0.0;
+    const double of_velocity = std::abs(e_.psi[r] - before.psi[r]);
+    if (of_velocity > most * scales_.speed() * gradient || jump > most * scales_.length * gradient) return r;
+  }
+  return std::nullopt;
+}
+
+void Comparisons::require_no_corner(const Switch& one) {
+  const auto row = corner(one);
+  if (!row) return;
+  throw StepFailure{
+      system_->row_label(*row) +
+          " changes its gradient by a jump here: the velocity before does not satisfy it behind. "
+          "That is an impact, which the equations do not describe; end the run here, or round it "
+          "off",
+      one.at.t};
+}
+
+/// The friction that a switch reverses, if one does.
+std::optional<std::string> Comparisons::would_stick(const Switch& one) {
+  const Switches switches(*system_);
+  if (!switches.any()) return std::nullopt;
+  const auto slope_on = [&](const Branches::Sides& held) {
+    Slope slope;
+    Motion at = one.at;
+    if (!accelerate(at, held)) return slope;
+    manifold_->multipliers(lambda_);
+    const Branches holding(nullptr, &held);
+    switches.find(at.instant(), lambda_, slope);
+    return slope;
+  };
+  const auto friction = switches.turned(slope_on(held_), slope_on(one.behind));
+  if (!friction) return std::nullopt;
+  return Sticking::message(switches, *friction);
+}
+
+void Comparisons::require_leaving(const Switch& one, std::span<const double> a) {
+  Motion at = one.at;
+  at.a.assign(a.begin(), a.end());
+  for (double ahead = 4.0 * one.ahead; ahead < 1e-3 * one.step; ahead *= clearly) {
+    const double margin = margin_ahead(one.margin, at, ahead);
+    if (margins_[one.margin].side != 0 && std::abs(margin) < clearly * one.distance) continue;
+    if (margin < 0.0) return;
+    chatters(one);
+  }
+}
+
+void Comparisons::chatters(const Switch& one) {
+  if (const auto message = would_stick(one)) throw StepFailure{*message, one.at.t};
+  throw StepFailure{system_->label_of_batch(margins_[one.margin].batch) +
+                        " switches here, and on both sides the motion is driven back to where it does: it "
+                        "would chatter. Smooth the switch, or end the run here",
+                    one.at.t};
+}
+
+}  // namespace dalembert

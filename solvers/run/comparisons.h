@@ -1,0 +1,111 @@
+#pragma once
+
+#include <dalembert/core/autodiff/branches.h>
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/manifold/manifold.h>
+#include <dalembert/solvers/manifold/start.h>
+#include <dalembert/solvers/run/sticking.h>
+#include <dalembert/solvers/run/time_stepper.h>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// The comparisons in a scene's equations (see Branches): the sides that steps are taken on, and where the
+/// motion leaves them.
+///
+/// While sides are held the equations are smooth, so a step and its polynomial know nothing of a switch
+/// within it, and are right up to there. The difference a - b of each comparison is a function over the step:
+/// it is looked at like an event's, and what lies behind its first root is not part of the motion. There the
+/// run begins anew, on the sides behind. Where the accelerations of both sides differ by less than the step
+/// can tell, as at a jump of a higher derivative, the step goes on.
+class Comparisons {
+ public:
+  /// For steps that begin with `start` at time t; on the sides where it is, or where it moves to from those
+  /// it is between.
+  Comparisons(const Problem& problem, const Start& start, double t, double tolerance);
+  /// On these sides, which are known to hold up to `checked`.
+  Comparisons(const Problem& problem, const Start& start, double t, double tolerance, double checked,
+              Branches::Sides held);
+
+  /// The sides that steps are taken on; null if nothing is compared.
+  [[nodiscard]] const Branches::Sides* held() const { return any_ ? &held_ : nullptr; }
+  /// Whether the start is between two sides, so that its accelerations may be those of another one.
+  [[nodiscard]] bool chosen() const { return chosen_; }
+
+  /// A switch that a step must not go beyond.
+  struct Switch {
+    Motion at;               ///< with the accelerations before it
+    std::size_t margin;      ///< that was left
+    double distance;         ///< of it from 0
+    double ahead;            ///< the time after which it is clearly behind
+    double step;             ///< that it was found in
+    Branches::Sides behind;  ///< the sides there
+  };
+  /// The first one in the step that has just been taken.
+  [[nodiscard]] std::optional<Switch> leave(TimeStepper& stepper);
+
+  /// Throws StepFailure where a rigid constraint or its velocity jumps at a switch.
+  void require_no_corner(const Switch& one);
+  /// Throws StepFailure where the motion on the other side, with the accelerations a, leads back at once
+  /// (Filippov): then neither side goes on.
+  void require_leaving(const Switch& one, std::span<const double> a);
+  [[noreturn]] void chatters(const Switch& one);
+
+ private:
+  /// A comparison, whose difference may leave its side.
+  struct Margin {
+    std::size_t batch, comparison;
+    int side;
+
+    bool operator==(const Margin& other) const {
+      return batch == other.batch && comparison == other.comparison;
+    }
+  };
+  struct Root {
+    double t;
+    std::size_t margin;
+  };
+  struct Bracket {
+    double a, f_a, b, f_b;
+    std::size_t margin;
+  };
+  void choose_sides(const Start& start);
+  [[nodiscard]] bool hear(const Instant& at, const Branches::Sides* held, Branches::Sides& out);
+  [[nodiscard]] bool accelerate(Motion& at, const Branches::Sides& held);
+  void list_margins();
+  [[nodiscard]] double margin(const Margin& of) const;
+  [[nodiscard]] bool hear_step(double t, bool sketched);
+  [[nodiscard]] std::vector<double> margins_at(double t, bool sketched);
+  [[nodiscard]] double margin_at(std::size_t k, double t);
+  [[nodiscard]] double margin_ahead(std::size_t k, const Motion& from, double ahead);
+
+  [[nodiscard]] std::vector<std::size_t> suspects(double to);
+  [[nodiscard]] std::optional<Bracket> first_root(std::size_t k, double to);
+  [[nodiscard]] std::optional<Root> first_switch(double to);
+  [[nodiscard]] Switch behind(const Root& root, double step);
+  [[nodiscard]] std::optional<std::size_t> corner(const Switch& one);
+  [[nodiscard]] bool matters(const Switch& one, double to);
+  [[nodiscard]] std::optional<std::string> would_stick(const Switch& one);
+
+  const System* system_;
+  Scales scales_;
+  double tolerance_;
+  std::optional<Manifold> manifold_;  // if anything is compared, or read from it
+  System::Evaluation e_;
+  std::vector<double> lambda_, a_;
+  bool any_ = false, chosen_ = false;
+  Branches::Sides held_, heard_;
+  std::vector<Margin> margins_;
+  std::vector<Margin> passed_;      // in the step that is looked at, without effect
+  TimeStepper* stepper_ = nullptr;  // of the step that is looked at
+  double from_;                     // up to where the sides are known to hold
+  std::vector<double> at_from_;     // the margins there, if they are known,
+  std::vector<double> at_end_;      // and where the step ends
+  Motion motion_, other_;           // work
+};
+
+}  // namespace dalembert

@@ -1,0 +1,170 @@
+#include "dalembert/solvers/run/interpolant.h"
+
+#include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/base/numbers.h>
+#include <dalembert/solvers/run/chebyshev.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace dalembert {
+
+namespace {
+
+/// Halvings after which a part is as short as the flat top of a smooth function is wide, the root of
+/// round-off.
+constexpr double shortest_part = 1.5e-8;
+/// Of a step: times next to each other.
+constexpr double next_to_each_other = 1e-9;
+
+double weight_of(std::size_t j, std::size_t nodes) {
+  return (j % 2 == 0 ? 1.0 : -1.0) * (j == 0 || j + 1 == nodes ? 0.5 : 1.0);
+}
+
+}  // namespace
+
+double Interpolant::operator()(double t) const {
+  double sum = 0.0, weights = 0.0;
+  for (std::size_t j = 0; j < nodes.size(); ++j) {
+    if (t == nodes[j]) return values[j];
+    const double w = weight_of(j, nodes.size()) / (t - nodes[j]);
+    sum += w * values[j];
+    weights += w;
+  }
+  return sum / weights;
+}
+
+double Interpolant::slope(std::size_t node) const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    if (k != node) sum += weight_of(k, nodes.size()) * (values[k] - values[node]) / (nodes[node] - nodes[k]);
+  return sum / weight_of(node, nodes.size());
+}
+
+double Interpolant::turn(double a, double b, int side) const {
+  constexpr double section = 0.6180339887498949;
+  const auto height = [&](double t) { return side * (*this)(t); };
+  double low = b - section * (b - a), high = a + section * (b - a);
+  double f_low = height(low), f_high = height(high);
+  for (int i = 0; i < 40; ++i) {  // to 1e-8 of the interval, where an extremum is flat to round-off
+    if (f_low < f_high) {
+      b = std::exchange(high, low);
+      f_high = f_low;
+      low = b - section * (b - a);
+      f_low = height(low);
+    } else {
+      a = std::exchange(low, high);
+      f_low = f_high;
+      high = a + section * (b - a);
+      f_high = height(high);
+    }
+  }
+  return 0.5 * (a + b);
+}
+
+Interpolant interpolate(const FunctionOfTime& f, double from, double to, int degree) {
+  Interpolant p;
+  for (int j = 0; j <= degree; ++j) {
+    p.nodes.push_back(chebyshev_node(from, to, j, degree));
+    p.values.push_back(f(p.nodes.back()));
+  }
+  return p;
+}
+
+std::vector<double> check_times(double from, double to, int degree) {
+  std::vector<double> times;
+  for (const int j : {degree / 3, (2 * degree) / 3}) {
+    const double angle = (j + 0.5) * std::numbers::pi / degree;
+    times.push_back(0.5 * (from + to) - 0.5 * (to - from) * std::cos(angle));
+  }
+  return times;
+}
+
+namespace {
+
+struct Part {
+  Interpolant p;
+  bool resolved;
+};
+
+/// How much an interpolant and its function disagree.
+double disagreement_of(const Interpolant& p, const std::vector<double>& at_checks) {
+  const auto times = check_times(p.nodes.front(), p.nodes.back(), p.degree());
+  double most = 0.0;
+  for (std::size_t i = 0; i < times.size(); ++i) most = std::max(most, std::abs(p(times[i]) - at_checks[i]));
+  return most;
+}
+
+bool agrees(const Interpolant& p, const std::vector<double>& at_checks, double round_off) {
+  const double error = disagreement_of(p, at_checks);
+  double low = p.values[0], high = p.values[0], least = std::abs(p.values[0]);
+  for (const auto* part : {&p.values, &at_checks}) {
+    for (const double value : *part) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+      least = std::min(least, std::abs(value));
+    }
+  }
+  if (error <= std::max(constants.unresolved_by_interpolant * (high - low), round_off)) return true;
+  return low * high > 0.0 && constants.beside_a_kink * error < least;
+}
+
+}  // namespace
+
+namespace {
+
+/// Whether a function differs between times next to each other by what its interpolant misses.
+bool is_noise(const FunctionOfTime& f, const Interpolant& p, const std::vector<double>& at_checks) {
+  const double from = p.nodes.front(), to = p.nodes.back(), missed = disagreement_of(p, at_checks);
+  const auto times = check_times(from, to, p.degree());
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double t = times[i],
+                 apart = std::max(next_to_each_other * (to - from), 4.0 * epsilon * std::abs(t));
+    for (const double beside : {t - apart, t + apart})
+      if (std::abs(f(beside) - at_checks[i]) > 0.1 * missed) return true;
+  }
+  return false;
+}
+
+/// Both halves of a part in its place.
+void halve(const FunctionOfTime& f, const Interpolant& p, double round_off, std::vector<Part>& out) {
+  const double a = p.nodes.front(), b = p.nodes.back();
+  for (const auto& [from, to] : {std::pair(a, 0.5 * (a + b)), std::pair(0.5 * (a + b), b)}) {
+    Part half{interpolate(f, from, to, p.degree()), false};
+    std::vector<double> checks;
+    for (const double time : check_times(from, to, p.degree())) checks.push_back(f(time));
+    half.resolved = agrees(half.p, checks, round_off);
+    out.push_back(std::move(half));
+  }
+}
+
+}  // namespace
+
+std::vector<Interpolant> resolve(const FunctionOfTime& f, Interpolant first,
+                                 const std::vector<double>& at_checks, double round_off,
+                                 std::size_t most_parts) {
+  if (agrees(first, at_checks, round_off) || is_noise(f, first, at_checks)) return {std::move(first)};
+  const double length = first.nodes.back() - first.nodes.front();
+  std::vector<Part> parts{{std::move(first), false}};
+  for (bool all = false; !all;) {
+    all = true;
+    std::vector<Part> next;
+    for (Part& part : parts) {
+      const double a = part.p.nodes.front(), b = part.p.nodes.back();
+      const bool shortest = b - a <= std::max(shortest_part * length, 64.0 * epsilon * std::abs(b));
+      all = all && (part.resolved || shortest);
+      if (part.resolved || shortest)
+        next.push_back(std::move(part));
+      else
+        halve(f, part.p, round_off, next);
+    }
+    if (next.size() > most_parts) return {};
+    parts = std::move(next);
+  }
+  std::vector<Interpolant> all;
+  for (Part& part : parts) all.push_back(std::move(part.p));
+  return all;
+}
+
+}  // namespace dalembert

@@ -1,0 +1,158 @@
+#include <dalembert/constraints/on_curve.h>
+#include <dalembert/constraints/unilateral.h>
+#include <dalembert/core/forces/forces.h>
+#include <dalembert/core/points/points.h>
+#include <dalembert/core/scene/scene.h>
+#include <dalembert/solvers/simulation.h>
+#include <dalembert/tests/both_steppers.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+/// Events whose functions vary faster than the motion, and those at the end of a run.
+namespace dalembert::fast_events_test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+class FastEvents : public testing::TestWithParam<std::tuple<Stepper, double>> {
+ protected:
+  [[nodiscard]] static double tolerance() { return std::get<1>(GetParam()); }
+  [[nodiscard]] static Options options(double t_end) {
+    return {.t_end = t_end, .samples = 2, .tolerance = tolerance(), .stepper = std::get<0>(GetParam())};
+  }
+};
+INSTANTIATE_TEST_SUITE_P(InBothSteppers, FastEvents,
+                         testing::Combine(both_steppers, testing::Values(1e-4, 1e-6, 1e-8, 1e-10, 1e-12)),
+                         [](const auto& its) {
+                           return std::string(name(std::get<0>(its.param))) + "_1e" +
+                                  std::to_string(
+                                      static_cast<int>(-std::round(std::log10(std::get<1>(its.param)))));
+                         });
+
+/// Free fall at 1 m/s along x.
+struct Fall {
+  Scene<2> scene{"fall"};
+  Particle<2> body;
+  Fall() : body(scene.add_particle({.mass = 1.0, .velocity = {1.0, 0.0}})) {
+    scene.add(UniformGravity<2>{{0.0, -9.81}});
+  }
+};
+
+TEST_P(FastEvents, OfTimeAreAllFound) {
+  for (const double rate : {30.0, 300.0}) {
+    const auto run =
+        simulate(Fall{}.scene, options(2.0), {{.name = "zero", .function = [rate](const auto& now) {
+                                                 return std::sin(rate * now.time() + 1e-3);
+                                               }}});
+    const auto zeros = static_cast<std::size_t>((2.0 * rate + 1e-3) / std::numbers::pi);
+    ASSERT_EQ(run.events().size(), zeros);
+    for (std::size_t k = 0; k < zeros; ++k) {
+      EXPECT_NEAR(run.events()[k].time, (static_cast<double>(k + 1) * std::numbers::pi - 1e-3) / rate, 1e-12);
+    }
+  }
+}
+
+TEST_P(FastEvents, OfTheStateAreAllFound) {
+  const Fall fall;
+  const auto run = simulate(fall.scene, options(2.0), {{.name = "zero", .function = [&](const auto& now) {
+                                                          return std::cos(40.0 * now.position(fall.body).x());
+                                                        }}});
+  const auto zeros = static_cast<std::size_t>(80.0 / std::numbers::pi + 0.5);
+  ASSERT_EQ(run.events().size(), zeros);
+  for (std::size_t k = 0; k < zeros; ++k)
+    EXPECT_NEAR(run.events()[k].time, (static_cast<double>(k) + 0.5) * std::numbers::pi / 40.0,
+                100.0 * tolerance());
+}
+
+TEST_P(FastEvents, OfTwoCloseRootsAreBoth) {
+  for (const double apart : {1e-1, 1e-2, 1e-3}) {
+    const auto run = simulate(Fall{}.scene, options(2.0), {{.name = "zero", .function = [=](const auto& now) {
+                                                              const double t = now.time();
+                                                              return (t - 1.234) * (t - 1.234 - apart) *
+                                                                     (1.0 + 0.3 * std::sin(20.0 * t));
+                                                            }}});
+    ASSERT_EQ(run.events().size(), 2U) << apart;
+    EXPECT_NEAR(run.events()[0].time, 1.234, 1e-10);
+    EXPECT_NEAR(run.events()[1].time, 1.234 + apart, 1e-10);
+  }
+}
+
+TEST_P(FastEvents, ThatOnlyTouchZeroAreNone) {
+  const auto run = simulate(
+      Fall{}.scene, options(2.0),
+      {{.name = "touches", .function = [](const auto& now) { return std::pow(now.time() - 0.7321, 2); }},
+       {.name = "cosine", .function = [](const auto& now) { return 1.0 - std::cos(25.0 * now.time()); }}});
+  EXPECT_TRUE(run.events().empty());
+}
+
+TEST_P(FastEvents, FasterThanCanBeFollowedAreRefusedByNameUnlessStepsAreShort) {
+  const std::vector<Event<2>> buzz{
+      {.name = "buzz", .function = [](const auto& now) { return std::sin(3e5 * now.time() + 1e-3); }}};
+  auto o = options(0.01);
+  if (tolerance() > 1e-5) {
+    auto far = o;
+    far.t_end = 2.0;
+    EXPECT_THAT([&] { (void)simulate(Fall{}.scene, far, buzz); },
+                ThrowsMessage<IntegrationFailure>(AllOf(HasSubstr("\"buzz\""), HasSubstr("max_step"))));
+  }
+  o.max_step = 1e-4;
+  const auto run = simulate(Fall{}.scene, o, buzz);
+  EXPECT_EQ(run.events().size(), 954U);  // (3000 + 1e-3)/pi
+}
+
+TEST_P(FastEvents, ThatJumpOrHaveCornersAreFound) {
+  const Fall fall;
+  const auto run = simulate(
+      fall.scene, options(2.0),
+      {{.name = "jump", .function = [](const auto& now) { return now.time() < 0.77 ? -1.0 : 3.0; }},
+       {.name = "corner", .function = [](const auto& now) { return std::abs(now.time() - 1.3) - 1e-3; }}});
+  ASSERT_EQ(run.events().size(), 3U);
+  EXPECT_NEAR(run.events()[0].time, 0.77, 1e-14);
+  EXPECT_NEAR(run.events()[1].time, 1.299, 1e-12);
+  EXPECT_NEAR(run.events()[2].time, 1.301, 1e-12);
+}
+
+TEST_P(FastEvents, AtTheEndOfARunAreListedAndCarriedOut) {
+  Fall fall;
+  const auto changed = std::make_shared<int>(0);
+  const std::vector<Event<2>> events{
+      {.name = "mark", .function = [](const auto& now) { return now.time() - 2.0; }},
+      {.name = "change",
+       .function = [](const auto& now) { return 0.1 * (now.time() - 2.0); },
+       .change =
+           [=](Scene<2>& scene) {
+             ++*changed;
+             scene.replace(fall.body,
+                           ParticleState<2>{.mass = 3.0, .position = {2.0, -19.62}, .velocity = {0.0, 0.0}});
+           }}};
+  const auto run = simulate(fall.scene, options(2.0), events);
+  ASSERT_EQ(run.events().size(), 2U);
+  EXPECT_EQ(run.events()[0].event, 0U);
+  EXPECT_EQ(run.events()[1].event, 1U);
+  EXPECT_EQ(run.events()[1].time, 2.0);
+  EXPECT_EQ(*changed, 1);
+  EXPECT_EQ(run.sample_after(1).velocity(fall.body).norm(), 0.0);
+}
+
+// Before a change, at it, and as close behind it as round-off tells: each once.
+TEST_P(FastEvents, BesideAChangeAreListedOnce) {
+  for (const double behind : {-1e-9, -1e-14, 0.0, 1e-14, 1e-12, 1e-11, 1e-9}) {
+    const std::vector<Event<2>> events{
+        {.name = "change",
+         .function = [](const auto& now) { return now.time() - 1.0; },
+         .change = [](Scene<2>&) {}},
+        {.name = "beside", .function = [=](const auto& now) { return 0.1 * (now.time() - 1.0 - behind); }}};
+    const auto run = simulate(Fall{}.scene, options(2.0), events);
+    EXPECT_EQ(run.events().size(), 2U) << behind;
+  }
+}
+
+}  // namespace
+}  // namespace dalembert::fast_events_test
