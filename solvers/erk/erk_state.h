@@ -137,10 +137,10 @@ struct ErkStepper::State {
   std::array<Angle, stages> angles{};  // at the stages of an attempt, since other rows took over,
   Angle least{};                       // and the least of them
   long rows_of_angles = 0;
-  bool only_close = false;             // the constraints, not dependent, where the angle falls now
-  double next_passage = none_yet;      // the distance from which it is worth another attempt
-  double best_passage = none_yet;      // error over the tolerance, of
-  Node best_passed;                    // a passage that was not taken yet
+  bool only_close = false;         // the constraints, not dependent, where the angle falls now
+  double next_passage = none_yet;  // the distance from which it is worth another attempt
+  double best_passage = none_yet;  // error over the tolerance, of
+  Node best_passed;                // a passage that was not taken yet
   int singular_positions = 0;
   std::string fault;  // of the last attempt that failed
 
