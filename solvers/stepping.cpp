@@ -68,9 +68,12 @@ Options Stepping::options_from(double t, Stepper by) const {
   options.t_start = t;
   options.stepper = by;
   if (by != options_.stepper) {
-    // Close to a singular position a step of the explicit stepper is to err by no more than one of the other.
-    options.tolerance =
-        std::max(tolerance_of_a_step(options_.stepper, options_.tolerance), smallest_tolerance);
+    // Close to a singular position a step of the explicit stepper is to err by no more than one of the other,
+    // as far as round-off allows that.
+    const bool lost = lost_to_round_off(sine_at_handover_);
+    const double of_a_step =
+        lost ? options_.tolerance : tolerance_of_a_step(options_.stepper, options_.tolerance);
+    options.tolerance = std::max(of_a_step, smallest_tolerance);
   }
   return options;
 }
@@ -207,8 +210,8 @@ void Stepping::watch_sine() {
 }
 
 void Stepping::hand_over(double sine) {
-  restart(Stepper::erk);
   sine_at_handover_ = sine;
+  restart(Stepper::erk);
 }
 
 void Stepping::watch_sliding() {
