@@ -117,9 +117,11 @@ double Corrector::range_defect(const Node& node, Index shape) const {
   Eigen::VectorXd left(n + m);
   for (Index i = 0; i < n; ++i)
     left[i] = node.stiffness.duals(i, shape) / here.system->masses()[static_cast<std::size_t>(i)];
-  const Eigen::MatrixXd rows = A.bottomLeftCorner(m, n).transpose();
-  left.tail(m) =
-      dense::least_squares(rows, -A.topLeftCorner(n, n).transpose() * left.head(n), rank_threshold);
+  if (m > 0) {
+    const Eigen::MatrixXd rows = A.bottomLeftCorner(m, n).transpose(),
+                          across = -A.topLeftCorner(n, n).transpose() * left.head(n);
+    left.tail(m) = dense::least_squares(rows, across, rank_threshold);
+  }
   const Eigen::VectorXd slope = A.col(n + m);
   // Difference quotients keep round-off of the forces that act where the mode moves.
   const Eigen::Map<const Eigen::VectorXd> acting(s.acting.data(), n);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -48,8 +49,9 @@ std::array<double, N> weights(const std::array<double, N>& nodes, double x) {
 /// Two vibrations of an undamped scene that meet: half of their distance squared; < 0 before, where both are
 /// on the imaginary axis, > 0 after, off it to either side. (It passes 0 with a slope, and is known to
 /// round-off where either eigenvalue is known to its square root.)
-double of_meeting(const std::vector<Vibration>& all, std::size_t rank, double frequency) {
+double of_meeting(const std::vector<Vibration>& all, std::size_t rank, std::complex<double> last) {
   if (rank < all.size() && all[rank].grows()) return all[rank].s.real() * all[rank].s.real();
+  const double frequency = last.imag();
   double first = std::numeric_limits<double>::infinity(), second = first;  // distances from the frequency
   for (const Vibration& v : all) {
     if (v.grows()) continue;
@@ -60,7 +62,7 @@ double of_meeting(const std::vector<Vibration>& all, std::size_t rank, double fr
       second = off;
   }
   return std::isfinite(second) ? -0.25 * (first - second) * (first - second)
-                               : -std::numeric_limits<double>::max();
+                               : -last.real() * last.real();  // as far from 0: the step is halved
 }
 
 }  // namespace
@@ -223,8 +225,8 @@ std::optional<SingularPoints::Flutter> SingularPoints::locate_flutter(const Node
   const auto excess = [&](const Node& node) {
     const bool there = rank < node.vibrations.size();
     if (there && node.vibrations[rank].grows()) last = node.vibrations[rank];
-    if (!damped) return of_meeting(node.vibrations, rank, last.s.imag());
-    return there ? node.vibrations[rank].s.real() : -std::numeric_limits<double>::max();
+    if (!damped) return of_meeting(node.vibrations, rank, last.s);
+    return there ? node.vibrations[rank].s.real() : -last.s.real();
   };
   const auto on_way = [&](double way) {
     auto next = on_chord(steady, grown, way);
