@@ -12,8 +12,7 @@ namespace dalembert {
 
 namespace {
 
-/// Halvings after which a part is as short as the flat top of a smooth function is wide, the root of
-/// round-off.
+/// Of a step, the width of the flat top of a smooth function: the root of round-off.
 constexpr double shortest_part = 1.5e-8;
 /// Of a step: times next to each other.
 constexpr double next_to_each_other = 1e-9;

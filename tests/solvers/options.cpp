@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace dalembert::options_test {
@@ -63,6 +64,8 @@ TEST(Options, TheToleranceMustBeOneThatDoublePrecisionCanDeliver) {
 
 TEST(Options, StepsMustBeAllowed) {
   expect_refused({.t_end = 1.0, .max_steps = 0}, "max_steps", "must be > 0");
+  expect_refused({.t_end = 1.0, .max_step = -0.1}, "max_step", "0 for none");
+  expect_refused({.t_end = 1.0, .max_step = std::nan("")}, "max_step", "0 for none");
 }
 
 TEST(Options, TimesMustIncreaseWithinTheRun) {
