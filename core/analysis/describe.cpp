@@ -47,7 +47,7 @@ std::string freedom_by_rank(const System& system, double t, std::span<const doub
   std::ostringstream out;
   out << "at t = " << t << ": " << independent.size() - compliant << " of " << system.rows() - compliant
       << " constraint equations independent, " << n + compliant - independent.size()
-      << " degrees of freedom of velocity\n";
+      << " degrees of freedom of velocity, " << n + compliant - independent.holonomic << " of position\n";
   return out.str();
 }
 
