@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace dalembert {
 
@@ -111,12 +112,14 @@ template <int N>
   constexpr double far = 1e100;
   const auto outcomes = [&](double place) {
     q[k] = place;
-    Branches::Outcomes heard(1);
-    const Branches listening(heard);
+    Branches::Sides heard(1);
+    const Branches listening(&heard, nullptr);
     const LagrangeTerms<N> terms = lagrangian.terms(t, q, v);
     const bool finite = std::isfinite(terms.L) && terms.L_q.allFinite() && terms.L_v.allFinite() &&
                         terms.L_vv.allFinite() && terms.L_vq.allFinite();
-    return std::pair(heard[0], finite && terms.L_q[k] == 0.0);
+    std::vector<std::pair<int, double>> sides;
+    for (const Branches::Comparison& one : heard[0]) sides.emplace_back(one.side, one.piece);
+    return std::pair(sides, finite && terms.L_q[k] == 0.0);
   };
   try {
     const auto [nowhere, free] = outcomes(std::numeric_limits<double>::quiet_NaN());
