@@ -46,6 +46,7 @@ template <class C>
 [[nodiscard]] Compliant<C> compliant(C rigid, double compliance) {
   static_assert(HolonomicConstraint<C>,
                 "compliant takes a holonomic constraint, whose points have the same dimension");
+  static_assert(!HasCompliance<C> && !OneSided<C>, "a compliant constraint is two-sided, and compliant once");
   return {std::move(rigid), compliance};
 }
 

@@ -34,6 +34,12 @@ struct EnergyAndForce {
 #ifdef MISTAKE_curve_of_dynamic_size  // a constraint's equation returns a number or a plain column
   scene.add(OnCurve{bead, [](auto r) { return Eigen::VectorX<typename decltype(r)::Scalar>(r); }});
 #endif
+#ifdef MISTAKE_compliant_contact  // a compliant constraint is two-sided, and compliant once
+  scene.add(compliant(unilateral(Distance{Fixed<2>{}, bead, 1.0}), 0.1));
+#endif
+#ifdef MISTAKE_compliant_twice  // a compliant constraint is two-sided, and compliant once
+  scene.add(compliant(compliant(Distance{Fixed<2>{}, bead, 1.0}, 0.1), 0.1));
+#endif
 #ifdef MISTAKE_dimensions  // all points of a constraint or force must have the dimension of the scene
   scene.add(Distance{Fixed<3>{}, bead, 1.0});
 #endif
