@@ -22,8 +22,8 @@ namespace dalembert {
 /// Where no motion satisfies the law (Painleve) the run stops and says so; so it does at an impact, whose
 /// frictional impulse the law does not determine. Of several that stick on the same slip the motion does not
 /// determine the shares (`is_unique`): they are those whose largest part of its bound is least, and together
-/// they slide; with mu_static > mu, where the shares would decide which does, the run stops. A slip that other
-/// constraints prescribe slides. Equilibria and small motions are not for it.
+/// they slide; with mu_static > mu, where the shares would decide which does, the run stops. A slip that
+/// other constraints prescribe slides. Equilibria and small motions are not for it.
 template <class Slip>
 struct Coulomb {
   static constexpr std::string_view kind = "Coulomb";
