@@ -20,8 +20,10 @@ namespace dalembert {
 /// case holds the run finds, and lists when it changes (Happened::sticks, Happened::slides).
 ///
 /// Where no motion satisfies the law (Painleve) the run stops and says so; so it does at an impact, whose
-/// frictional impulse the law does not determine, and where several on the same slip reach their bounds with
-/// shares that the motion does not determine. Equilibria and small motions are not for it.
+/// frictional impulse the law does not determine. Of several that stick on the same slip the motion does not
+/// determine the shares (`is_unique`): they are those whose largest part of its bound is least, and together
+/// they slide; with mu_static > mu, where the shares would decide which does, the run stops. A slip that
+/// other constraints prescribe slides. Equilibria and small motions are not for it.
 template <class Slip>
 struct Coulomb {
   static constexpr std::string_view kind = "Coulomb";

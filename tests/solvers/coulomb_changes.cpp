@@ -25,6 +25,11 @@ class CoulombChanges : public testing::TestWithParam<std::tuple<Stepper, double>
   /// A run of a few seconds errs by some tens of its tolerance, and so do the times at which it gets
   /// anywhere.
   [[nodiscard]] static double bound() { return 200.0 * tolerance(); }
+  /// Leaving rest by a force that grows, u = c t^2/2 turns at a rate 1/u: of the explicit stepper's steps the
+  /// integral of that takes the inverse root of the slowest u that is followed, 1000 tolerances.
+  [[nodiscard]] static double most_steps() {
+    return 500.0 + (std::get<0>(GetParam()) == Stepper::erk ? 5.0 / std::sqrt(1000.0 * tolerance()) : 0.0);
+  }
   [[nodiscard]] static Options options(double t_end) {
     return {.t_end = t_end, .samples = 11, .tolerance = tolerance(), .stepper = std::get<0>(GetParam())};
   }
@@ -193,9 +198,10 @@ TEST_P(CoulombChanges, OfThreeFeetHoldsUntilAllOfThemSlide) {
   EXPECT_FALSE(run.is_unique(its.rough[0], 5));
   EXPECT_LE(run.multiplier(its.rough[0], 5).norm(), Stool::mu * g);
   const double left = 1.2 - goes;
-  EXPECT_NEAR(run.velocity(its.feet[1], 10).x(), k / 6.0 * left * left, bound());
+  const double of_steps = tolerance() * static_cast<double>(run.statistics().steps);  // each errs by so much
+  EXPECT_NEAR(run.velocity(its.feet[1], 10).x(), k / 6.0 * left * left, bound() + of_steps);
   EXPECT_NEAR(run.velocity(its.feet[1], 10).y(), 0.0, bound());
-  EXPECT_LT(run.statistics().steps, 500);
+  EXPECT_LT(static_cast<double>(run.statistics().steps), most_steps());
 }
 
 TEST_P(CoulombChanges, OfThreeFeetTurnsThemAboutOneThatKeepsStill) {
@@ -216,7 +222,7 @@ TEST_P(CoulombChanges, OfThreeFeetTurnsThemAboutOneThatKeepsStill) {
                  sigma = run.constraint_force(its.rough[foot], its.feet[foot], 10);
     EXPECT_NEAR((sigma + Stool::mu * g * v.normalized()).norm(), 0.0, std::sqrt(tolerance()) * g);
   }
-  EXPECT_LT(run.statistics().steps, 1500);
+  EXPECT_LT(static_cast<double>(run.statistics().steps), most_steps());
 }
 
 TEST_P(CoulombChanges, OfTwoFeetIsThatOfBoth) {
