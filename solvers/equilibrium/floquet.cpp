@@ -24,7 +24,7 @@ using Eigen::MatrixXd;
 constexpr double tolerance = 1e-12, known = 1e-11;
 /// A deviation after a period that is more than the error of the steps.
 constexpr double returned = 1e-6;
-constexpr int most_halvings = 14;
+constexpr int most_step_halvings = 14;
 /// Instants at which a period is checked; the fractions of it at which they are belong to no period of its
 /// own.
 constexpr int checks = 48;
@@ -207,7 +207,7 @@ class Monodromy {
       taken_ += 2;
       return both;
     }
-    if (halvings == most_halvings)
+    if (halvings == most_step_halvings)
       throw NoEquilibrium("Floquet multipliers of scene \"" + motion_->layout->scene +
                           "\" do not converge: its motion is not smooth at t = " +
                           std::to_string(middle * period_) + ", or the period too long");

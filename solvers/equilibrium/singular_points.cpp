@@ -22,7 +22,7 @@ constexpr double exact = 1e-14;
 /// Covectors of orthonormal shapes give their cosines: two shapes of which each is more than this of the
 /// other are the same, as sqrt(1 - 0.8^2) < 0.8 is left for all others.
 constexpr double same_shape = 0.8;
-constexpr int most_halvings = 10;
+constexpr int most_divisions = 10;
 
 /// The place in b of what is most alike to both ends of a pair.
 Index place_of(const Node& at, const Node& a, const Node& b, std::pair<Index, Index> pair) {
@@ -135,7 +135,7 @@ void SingularPoints::zeros(const Node* before, const Node& a, const Node& b, int
   Followed followed = follow(a, b);
   const bool first = before == nullptr && depth == 0;  // nothing tells where eigenvalues head for
   const bool clear = !first && !followed.matters(a, b) && !may_have_turned(before, a, b, followed);
-  if (!clear && depth < most_halvings && (b.x - a.x).norm() > exact) {
+  if (!clear && depth < most_divisions && (b.x - a.x).norm() > exact) {
     if (const auto middle = on_chord(a, b, 0.5)) {
       zeros(before, a, *middle, depth + 1, found);
       zeros(&a, *middle, b, depth + 1, found);
