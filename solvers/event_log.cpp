@@ -208,6 +208,7 @@ Transitions::Change EventLog::change_scene(const FlatSample& at, Stepping& stepp
   const auto impulses = take_over(always, stepping.start().scales, at.time, next.q, v, stepping.tolerance());
   Transitions::Change change{next.v, v, std::vector<double>(at.lambda.size())};
   if (transitions_ != nullptr) change = transitions_->restate(next.system, {at.time, next.q, v}, impulses);
+  change.v_before = next.v;  // what the user gives is what the impulses change
   system_ = transitions_ != nullptr ? transitions_->system() : next.system;
   for (std::size_t r = 0; r < impulses.size(); ++r) change.impulses[r] += impulses[r];
   change.what.insert(change.what.begin(), *change_);

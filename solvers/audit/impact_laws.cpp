@@ -44,9 +44,12 @@ void ImpactLaws::check_momentum(const System& acting, const Jump& jump, Findings
       terms[columns[k]] += std::abs(after_.w[k] * jump.impulses[r]);
     }
   }
-  for (std::size_t i = 0; i < masses.size(); ++i)
+  const bool stuck = std::ranges::find(jump.what, Happened::sticks, &Occurrence::what) != jump.what.end();
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    const double taken = stuck ? masses[i] * limits_.rest_in_space(i) : 0.0;
     findings.weigh(Law::impulse, {Subject::Kind::coordinate, i}, jump.time, std::abs(residual[i]),
-                   limits_.relative(terms[i]));
+                   limits_.relative(terms[i]) + taken);
+  }
 }
 
 /// An impulse of the accuracy of momenta is none.
@@ -62,7 +65,7 @@ void ImpactLaws::check_carriers(const Jump& jump, Findings& findings) const {
         wrong = std::max(-c.holds.contact->sign() * jump.impulses[r], 0.0);
       findings.weigh(Law::impulse_carrier, {Subject::Kind::row, r}, jump.time, wrong, limit);
       if (!c.holds.contact || std::abs(jump.impulses[r]) <= limit) continue;
-      double near = 0.0;
+      double near = limits_.by_time(jump.time, before_.psi[r]);
       for (const std::size_t k : stated_->row(r))
         near += std::abs(after_.w[k]) *
                 limits_.position(stated_->w_columns()[k], jump.q[stated_->w_columns()[k]]);
@@ -82,8 +85,10 @@ double ImpactLaws::speed_limit(const System& acting, std::size_t r, const Jump& 
 }
 
 void ImpactLaws::check_restitution(const Jump& jump, Findings& findings) const {
-  const auto rested = [](const Occurrence& one) { return one.what == Happened::rested; };
-  if (std::ranges::any_of(jump.what, rested)) return;
+  const auto several = [](const Occurrence& one) {
+    return one.what == Happened::rested || one.what == Happened::event;
+  };
+  if (std::ranges::any_of(jump.what, several)) return;
   const double none = limits_.relative(largest(jump.impulses));
   for (const Layout::Constraint& c : stated_->layout()->constraints) {
     const std::size_t r = c.own_rows().front();

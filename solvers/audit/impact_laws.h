@@ -23,8 +23,9 @@ struct Jump {
 ///
 ///   M (v+ - v-) = W^T P,   U+ + e U- >= 0,   P (U+ + e U-) = 0,   P . (psi- + psi+)/2 <= 0.
 ///
-/// What comes to rest after infinitely many impacts has made the last of them at once: of it the first alone
-/// and the last hold.
+/// What comes to rest after infinitely many impacts has made the last of them at once, and a user's change is
+/// projected before contacts answer: there nothing is said of U. Friction that takes hold of two slip
+/// velocities takes what is left of them without an impulse.
 class ImpactLaws {
  public:
   explicit ImpactLaws(std::shared_ptr<const System> stated, const Claim& claim);

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <dalembert/core/scene/system.h>
+#include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/base/numbers.h>
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -36,6 +39,13 @@ struct Limits {
   [[nodiscard]] double velocity(std::size_t i, double v) const {
     return accuracy * (unit(i) / time + std::abs(v)) + round_off * std::abs(v);
   }
+  /// A speed at which two slip velocities count as rest, where friction takes hold of them at once: twice
+  /// that of the run, whose length may have grown since it looked.
+  [[nodiscard]] double rest_in_space(std::size_t i) const {
+    return 2.0 * std::min(constants.rest_in_space * accuracy, std::sqrt(accuracy)) * unit(i) / time;
+  }
+  /// How far a gap that changes at this rate may be off by the rounding of a time.
+  [[nodiscard]] double by_time(double t, double rate) const { return round_off * std::abs(t * rate); }
   /// Of what is the sum of terms of these magnitudes.
   [[nodiscard]] double relative(double terms) const { return (accuracy + round_off) * terms; }
 

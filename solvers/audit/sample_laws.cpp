@@ -214,8 +214,9 @@ void SampleLaws::check_contacts(const FlatSample& sample, Findings& findings) co
     findings.weigh(Law::no_pull, row(c.row), sample.time, std::max(-c.sign * lambda, 0.0),
                    2.0 * limits_.relative(largest_force_));
     const double depth = -c.sign * g_[c.row];
-    double limit = limits_.accuracy * limits_.length;
-    if (depth > limit) limit = gradient(sample, c.row);
+    const double rounding = limits_.by_time(sample.time, u_[c.row]);
+    double limit = limits_.accuracy * limits_.length + rounding;
+    if (depth > limit) limit = gradient(sample, c.row) + rounding;
     findings.weigh(Law::no_penetration, row(c.row), sample.time, std::max(depth, 0.0), limit);
   }
 }

@@ -42,6 +42,16 @@ void WorkBalance::step(double time, std::span<const double> v) {
   changes_ += last_;
 }
 
+/// What is left of (1) at rest, and in springs.
+double WorkBalance::second_order() const {
+  double energy = elastic_ * limits_.length * limits_.length;
+  for (std::size_t i = 0; i < v_.size(); ++i) {
+    const double speed = limits_.unit(i) / limits_.time;
+    energy += 0.5 * stated_->masses()[i] * speed * speed;
+  }
+  return limits_.accuracy * limits_.accuracy * energy;
+}
+
 /// At these positions, at a time between the last two samples: not half-way, where drives may have periods.
 bool WorkBalance::potentials_depend_on_time(const FlatSample& sample) const {
   if (stated_->stiffness_pattern().size() == stated_->stiffness_of_constraints())
@@ -55,9 +65,7 @@ void WorkBalance::check(const FlatSample& sample, const Claim& claim, Findings& 
   watches_ = watches_ && !potentials_depend_on_time(sample);
   if (!watches_) return;
   limits_.set(claim);
-  const double unit = limits_.accuracy * limits_.length,
-               limit =
-                   limits_.accuracy * (changes_ + last_) + unit * unit * elastic_ + limits_.round_off * size_;
+  const double limit = limits_.accuracy * (changes_ + last_) + second_order() + limits_.round_off * size_;
   const double gain = sample.energy - energy_;
   findings.weigh(Law::work, {}, sample.time, falls_ ? std::max(gain, 0.0) : std::abs(gain), limit);
 }
@@ -65,9 +73,9 @@ void WorkBalance::check(const FlatSample& sample, const Claim& claim, Findings& 
 void WorkBalance::check(const FlatSample& sample, double work, double error, const Claim& claim,
                         Findings& findings) {
   limits_.set(claim);
-  const double T = stated_->kinetic_energy(sample.v), unit = limits_.accuracy * limits_.length;
-  const double limit = limits_.accuracy * (changes_ - changes_before_ + 2.0 * last_) +
-                       unit * unit * elastic_ + error + limits_.round_off * (T + kinetic_ + size_);
+  const double T = stated_->kinetic_energy(sample.v);
+  const double limit = limits_.accuracy * (changes_ - changes_before_ + 2.0 * last_) + second_order() +
+                       error + limits_.round_off * (T + kinetic_ + size_);
   findings.weigh(Law::work, {}, sample.time, std::abs(T - kinetic_ - work), limit);
 }
 

@@ -42,6 +42,7 @@ class WorkBalance {
   [[nodiscard]] bool watches() const { return watches_; }
 
  private:
+  [[nodiscard]] double second_order() const;
   [[nodiscard]] bool potentials_depend_on_time(const FlatSample& sample) const;
 
   std::shared_ptr<const System> stated_;
