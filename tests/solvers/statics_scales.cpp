@@ -71,7 +71,8 @@ TEST(Equilibrium, OfAParticleIsFoundAlongItsSoftDirection) {
         const auto across = c * r.y() - s * r.x();
         return 0.5 * stiff * across * across;
       }));
-      const Vec<2> at = equilibrium(scene).sample().position(p);
+      const auto found = equilibrium(scene);
+      const Vec<2> at = found.sample().position(p);
       // Round-off of the stiff force, some 1e-16 of stiff times 0.3, over the soft spring.
       const double known = 1e-12 + 1e2 * 1e-16 * stiff / 1e-6 * (angle == 0.0 ? 0.0 : 1e-6);
       EXPECT_NEAR(c * at.x() + s * at.y(), 0.0, std::max(known, 1e-7)) << stiff << ' ' << angle;
@@ -97,7 +98,8 @@ TEST(Equilibrium, IsTheOneDownhill) {
   Scene<2> scene;
   const auto x = scene.add_rotor({.inertia = 1.0, .angle = 1.2});
   scene.add(potential(points(x), [](auto phi) { return cos(phi[0]) - 0.2 * phi[0]; }));
-  EXPECT_NEAR(equilibrium(scene).sample().angle(x), std::acos(-1.0) + std::asin(0.2), rounding);
+  const auto found = equilibrium(scene);
+  EXPECT_NEAR(found.sample().angle(x), std::acos(-1.0) + std::asin(0.2), rounding);
 }
 
 TEST(Equilibrium, SaysWhoseVelocitiesItLeavesOut) {
