@@ -46,9 +46,9 @@ void ImpactLaws::check_momentum(const System& acting, const Jump& jump, Findings
   }
   const bool stuck = std::ranges::find(jump.what, Happened::sticks, &Occurrence::what) != jump.what.end();
   for (std::size_t i = 0; i < masses.size(); ++i) {
-    const double taken = stuck ? masses[i] * limits_.rest_in_space(i) : 0.0;
+    const double taken = limits_.rest_at_contacts(i) + (stuck ? limits_.rest_in_space(i) : 0.0);
     findings.weigh(Law::impulse, {Subject::Kind::coordinate, i}, jump.time, std::abs(residual[i]),
-                   limits_.relative(terms[i]) + taken);
+                   limits_.relative(terms[i]) + masses[i] * taken);
   }
 }
 

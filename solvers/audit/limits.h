@@ -24,7 +24,7 @@ struct Claim {
 /// stated in, carried to its residual by its own derivatives,
 ///
 ///   |g| <= sum_j |W_j| (accuracy unit_j + r |q_j|),     |psi| <= sum_j |W_j| (accuracy (unit_j/T + |v_j|) +
-///   r |v_j|),   (1) |M a - F - W^T lambda| <= (accuracy + r) (|M a| + |F| + sum |W lambda|) (2)
+///   r |v_j|),   (1) |M a - F - W^T lambda| <= (accuracy + r) (|M a| + |F| + sum |W lambda| + M unit/T^2) (2)
 ///
 /// and r, the round-off of the terms, is `roundings` epsilon: a sum of n terms errs by n epsilon of their
 /// magnitudes, and a matrix of n rows is factored with that times n at most.
@@ -44,6 +44,11 @@ struct Limits {
   [[nodiscard]] double rest_in_space(std::size_t i) const {
     return 2.0 * std::min(constants.rest_in_space * accuracy, std::sqrt(accuracy)) * unit(i) / time;
   }
+  /// A speed at which what touches counts as at rest, as users round what they state: of all contacts of one
+  /// coordinate.
+  [[nodiscard]] double rest_at_contacts(std::size_t i) const {
+    return 1e-8 * static_cast<double>(contacts) * unit(i) / time;
+  }
   /// How far a gap that changes at this rate may be off by the rounding of a time.
   [[nodiscard]] double by_time(double t, double rate) const { return round_off * std::abs(t * rate); }
   /// Of what is the sum of terms of these magnitudes.
@@ -51,6 +56,7 @@ struct Limits {
 
   double length, time, accuracy, round_off;
   std::vector<char> angle;
+  std::size_t contacts = 0;  ///< the most that act on one coordinate
 };
 
 }  // namespace dalembert

@@ -64,9 +64,15 @@ void SampleLaws::evaluate(const FlatSample& sample) {
   for (const double force : sample.forces)
     if (std::abs(force) > largest_force_) largest_force_ = std::abs(force);
   for (std::size_t i = 0; i < sample.a.size(); ++i) {
-    const double force = acting_->masses()[i] * std::abs(sample.a[i]);
+    const double force = std::max(acting_->masses()[i] * std::abs(sample.a[i]), inertia(i));
     if (force > largest_force_) largest_force_ = force;
   }
+}
+
+/// The force that moves a coordinate by its unit in the scene's time: by a part of it forces err where
+/// nothing exerts any.
+double SampleLaws::inertia(std::size_t i) const {
+  return acting_->masses()[i] * limits_.unit(i) / (limits_.time * limits_.time);
 }
 
 /// Where a multiplier that is read is not determined, nor are the forces that read it.
@@ -99,7 +105,7 @@ void SampleLaws::check_newton(const FlatSample& sample, Findings& findings) {
   const auto masses = acting_->masses();
   for (std::size_t i = 0; i < residual_.size(); ++i) {
     residual_[i] = masses[i] * sample.a[i] - e_.force[i];
-    terms_[i] = std::abs(masses[i] * sample.a[i]) + std::abs(e_.force[i]);
+    terms_[i] = std::abs(masses[i] * sample.a[i]) + std::abs(e_.force[i]) + inertia(i);
   }
   const auto columns = acting_->w_columns();
   for (std::size_t r = 0; r < acting_->rows(); ++r) {

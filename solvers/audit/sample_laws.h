@@ -36,6 +36,7 @@ class SampleLaws {
   void find_what_acts(const FlatSample& sample);
   void evaluate(const FlatSample& sample);
   void add_forces_that_read(const FlatSample& sample);
+  [[nodiscard]] double inertia(std::size_t i) const;
   void check_newton(const FlatSample& sample, Findings& findings);
   void check_rows(const FlatSample& sample, Findings& findings) const;
   void check_row(const FlatSample& sample, std::size_t r, Findings& findings) const;
