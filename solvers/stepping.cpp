@@ -134,6 +134,13 @@ void Stepping::keep_step(double from) {
   if (kept_) own_steps().add(*stretch_->stepper, from, steps_);
 }
 
+/// What fails behind a switch, as what throws from a time on, is not reached by the step that ends there.
+void Stepping::find_switch(double from) try {
+  switch_ = stretch_->comparisons.leave(*stretch_->stepper);
+} catch (const EquationFault& fault) {
+  throw StepFailure{fault.what(), from};
+}
+
 void Stepping::step(double wanted) {
   // Before a step, so that all output within the last has been read from the stepper that took it.
   if (switch_) pass_switch();
@@ -145,7 +152,7 @@ void Stepping::step(double wanted) {
     const Branches holding = stretch_->hold();
     stretch_->stepper->step(wanted);
     error_.add(stretch_->stepper->error(), time() - from);
-    switch_ = stretch_->comparisons.leave(*stretch_->stepper);
+    find_switch(from);
     keep_step(from);
   } catch (const StepFailure&) {
     // Newton's iteration may fail anywhere; where the constraints are close to dependent the explicit

@@ -99,6 +99,7 @@ class Stepping {
   void hand_over(double sine);
   void watch_sliding();
   void restart(Stepper by);
+  void find_switch(double from);
   void put_on_springs(double t, State& now);
   void pass_switch();
   void take_way(Scales& scales) const;

@@ -79,7 +79,8 @@ double ImpactLaws::speed_limit(const System& acting, std::size_t r, const Jump& 
   for (const std::size_t k : acting.row(r)) {
     const std::size_t i = acting.w_columns()[k];
     limit += std::abs(after_.w[k]) *
-             limits_.velocity(i, std::max(std::abs(jump.v_before[i]), std::abs(jump.v_after[i])));
+             (limits_.velocity(i, std::max(std::abs(jump.v_before[i]), std::abs(jump.v_after[i]))) +
+              limits_.rest_at_contacts(i));
   }
   return limit;
 }

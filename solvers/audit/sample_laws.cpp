@@ -131,6 +131,14 @@ double SampleLaws::position_limit(std::span<const double> w, const System& of, s
   return limit;
 }
 
+/// Two slip velocities that are slower have the direction that they leave rest in, or come to it.
+double SampleLaws::slow_slip(std::size_t r) const {
+  double slow = 0.0;
+  for (const std::size_t k : acting_->row(r))
+    slow += std::abs(e_.w[k]) * limits_.rest_in_space(acting_->w_columns()[k]);
+  return slow;
+}
+
 double SampleLaws::velocity_limit(std::size_t r, const FlatSample& sample) const {
   double limit = 0.0;
   for (const std::size_t k : acting_->row(r))
@@ -236,7 +244,7 @@ void SampleLaws::check_friction(const FlatSample& sample, Findings& findings) co
     for (std::size_t k = rough.row; k < rough.row + rough.rows; ++k) {
       sigma += sample.lambda[k] * sample.lambda[k];
       u += u_[k] * u_[k];
-      rest = std::max(rest, velocity_limit(k, sample));
+      rest = std::max(rest, velocity_limit(k, sample) + (rough.rows > 1 ? slow_slip(k) : 0.0));
     }
     sigma = std::sqrt(sigma);
     u = std::sqrt(u);

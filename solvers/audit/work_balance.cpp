@@ -1,5 +1,7 @@
 #include "dalembert/solvers/audit/work_balance.h"
 
+#include <dalembert/core/errors.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -15,7 +17,11 @@ WorkBalance::WorkBalance(std::shared_ptr<const System> stated, const Claim& clai
       limits_(*stated_, claim),
       watches_(conservative(*stated_)),
       falls_(!stated_->rough().empty()),
-      v_(stated_->coordinates()) {
+      v_(stated_->coordinates()),
+      at_rest_(stated_->coordinates()),
+      g_(stated_->rows()),
+      u_(stated_->rows()),
+      e_(stated_->evaluation()) {
   for (std::size_t r = 0; r < stated_->rows(); ++r)
     if (stated_->law(r).compliant()) elastic_ += 0.5 / stated_->law(r).compliance;
 }
@@ -61,8 +67,21 @@ bool WorkBalance::potentials_depend_on_time(const FlatSample& sample) const {
   return stated_->potential_energy({between, sample.q, sample.v}) != V;
 }
 
+/// Velocity constraints, and slips, that are not 0 at rest, as of a belt, do work.
+bool WorkBalance::constraints_drive(const FlatSample& sample) {
+  if (stated_->rows() == stated_->holonomic_rows()) return false;
+  try {
+    stated_->gaps({sample.time, sample.q, at_rest_}, g_, u_);
+    stated_->evaluate({sample.time, sample.q, at_rest_}, e_);
+  } catch (const EquationFault&) {
+    return true;  // what cannot be told is not watched
+  }
+  const auto moves = [](double u) { return u != 0.0; };
+  return std::ranges::any_of(u_, moves) || std::ranges::any_of(e_.psi, moves);
+}
+
 void WorkBalance::check(const FlatSample& sample, const Claim& claim, Findings& findings) {
-  watches_ = watches_ && !potentials_depend_on_time(sample);
+  watches_ = watches_ && !potentials_depend_on_time(sample) && !constraints_drive(sample);
   if (!watches_) return;
   limits_.set(claim);
   const double limit = limits_.accuracy * (changes_ + last_) + second_order() + limits_.round_off * size_;

@@ -43,6 +43,7 @@ class WorkBalance {
 
  private:
   [[nodiscard]] double second_order() const;
+  [[nodiscard]] bool constraints_drive(const FlatSample& sample);
   [[nodiscard]] bool potentials_depend_on_time(const FlatSample& sample) const;
 
   std::shared_ptr<const System> stated_;
@@ -52,9 +53,11 @@ class WorkBalance {
   double checked_ = 0.0;                         // the last time,
   double kinetic_ = 0.0, changes_before_ = 0.0;  // and what was then
   std::vector<double> v_;                        // at the last step
-  double changes_ = 0.0, last_ = 0.0;            // (1) without `accuracy`, summed over steps, and of the last
-  double elastic_ = 0.0;                         // of a deflection by a unit
-  double size_ = 0.0;                            // the largest energy of a sample
+  std::vector<double> at_rest_, g_, u_;          // work
+  System::Evaluation e_;
+  double changes_ = 0.0, last_ = 0.0;  // (1) without `accuracy`, summed over steps, and of the last
+  double elastic_ = 0.0;               // of a deflection by a unit
+  double size_ = 0.0;                  // the largest energy of a sample
 };
 
 }  // namespace dalembert
