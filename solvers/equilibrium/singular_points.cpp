@@ -168,6 +168,12 @@ std::optional<SingularPoints::Zero> SingularPoints::locate(const Node& a, const 
   if (!near) near = b;
   if (auto better = interpolated(a, b, *near, pair)) near = std::move(better);
   const Index place = place_of(*near, a, b, pair);
+  // Where points on the way are of another branch an eigenvalue jumps, and is 0 nowhere.
+  constexpr double jump = 0.1;
+  const double size =
+      std::max(std::abs(a.stiffness.values[pair.first]), std::abs(b.stiffness.values[pair.second]));
+  if (near->stiffness.values.size() > 0 && std::abs(near->stiffness.values[place]) > jump * size)
+    return std::nullopt;
   return Zero{std::move(*near), place};
 }
 
