@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 namespace dalembert {
@@ -220,23 +221,55 @@ bool Balance::step(const State& s, std::span<const double> shift, std::vector<do
   return std::ranges::all_of(x, [](double value) { return std::isfinite(value); });
 }
 
+/// The part of a step downhill that ends in the valley it leads into: where the forces have turned against
+/// it, if they lead on again farther away. It is looked for at distances that grow; a short step leaps over
+/// nothing.
+double Balance::part_in_the_valley(const State& s, const std::vector<double>& x) const {
+  constexpr double short_step = 0.1, growth = 1.25;
+  double length = 0.0;
+  for (std::size_t i = 0; i < s.q.size(); ++i) length = std::max(length, std::abs(x[i]) / scales_.unit(i));
+  if (!(power(s, x) > 0.0)) return 1.0;
+  double turned = 1.0;
+  for (double part = short_step / length; part < growth; part *= growth) {
+    try {
+      const double there = power(moved(s, x, std::min(part, 1.0)), x);
+      if (there < 0.0) turned = std::min(turned, part);
+      if (there > 0.0 && turned < 1.0) return turned;
+    } catch (const EquationFault&) {
+      break;  // it is shortened for that later
+    }
+  }
+  return 1.0;
+}
+
+/// The power of the forces in a state along a step.
+double Balance::power(const State& s, const std::vector<double>& x) {
+  return std::inner_product(s.force.begin(), s.force.end(), x.begin(), 0.0);
+}
+
+/// The state a part of a step away. Throws EquationFault.
+Balance::State Balance::moved(const State& s, const std::vector<double>& x, double part) const {
+  const std::size_t n = s.q.size();
+  State there = s;
+  for (std::size_t i = 0; i < n; ++i) there.q[i] += part * x[i];
+  for (std::size_t r = 0; r < there.lambda.size(); ++r) there.lambda[r] += part * x[n + r];
+  evaluate(there);
+  return there;
+}
+
 /// Line search: as far along a step as the residual falls enough, relative to the forces where the step
 /// begins: where a single force acts on a particle the residual relative to its own would always be 1.
 bool Balance::improve(State& s, const std::vector<double>& x) const {
-  const std::size_t n = s.q.size();
-  double fraction = 1.0;
+  double fraction = part_in_the_valley(s, x);
   for (int halving = 0; halving <= most_halvings; ++halving, fraction *= 0.5) {
-    State next = s;
-    for (std::size_t i = 0; i < n; ++i) next.q[i] += fraction * x[i];
-    for (std::size_t r = 0; r < next.lambda.size(); ++r) next.lambda[r] += fraction * x[n + r];
     try {
-      evaluate(next);
+      State next = moved(s, x, fraction);
+      if (!(size(next, s.acting) < (1.0 - constants.sufficient_decrease * fraction) * s.size)) continue;
+      s = std::move(next);
+      return true;
     } catch (const EquationFault&) {
       continue;
     }
-    if (!(size(next, s.acting) < (1.0 - constants.sufficient_decrease * fraction) * s.size)) continue;
-    s = std::move(next);
-    return true;
   }
   return false;
 }
@@ -245,22 +278,14 @@ bool Balance::improve(State& s, const std::vector<double>& x) const {
 /// theorem it is, where a full step leaves less than a quarter of the residual; and a linear equation tells
 /// nothing farther away than the scene is large.
 bool Balance::leaps_uphill(const State& s, const std::vector<double>& x) const {
-  double power = 0.0, length = 0.0;
-  State there = s;
-  for (std::size_t i = 0; i < s.q.size(); ++i) {
-    power += s.force[i] * x[i];
-    length = std::max(length, std::abs(x[i]) / scales_.unit(i));
-    there.q[i] += x[i];
-  }
-  if (power >= 0.0 || s.round_off) return false;
-  if (length > 1.0) return true;
-  for (std::size_t r = 0; r < s.lambda.size(); ++r) there.lambda[r] += x[s.q.size() + r];
+  if (power(s, x) >= 0.0 || s.round_off) return false;
+  for (std::size_t i = 0; i < s.q.size(); ++i)
+    if (std::abs(x[i]) > scales_.unit(i)) return true;
   try {
-    evaluate(there);
+    return size(moved(s, x, 1.0), s.acting) > 0.25 * s.size;
   } catch (const EquationFault&) {
     return true;
   }
-  return size(there, s.acting) > 0.25 * s.size;
 }
 
 void Balance::newton(State& s, std::span<const double> shift) const {
@@ -270,16 +295,21 @@ void Balance::newton(State& s, std::span<const double> shift) const {
 }
 
 /// Where that leaves more than round-off something may be softer than the shift: the stiffness is measured
-/// anew there, and the least shift taken.
+/// anew there, and the least shift taken. So it is where the stiffness has fallen to 0 on the way, and what
+/// was round-off beside that of the guess no longer is.
 bool Balance::solve(State& s) const {
   newton(s, shift_);
-  if (s.round_off) return true;
   Balance here = *this;
   here.measure_stiffness(s);
-  here.evaluate(s);
-  here.newton(s, here.least_shift_);
-  evaluate(s);
-  return settled(s, balanced);
+  State closer = s;
+  here.evaluate(closer);
+  if (s.round_off && here.settled(closer, balanced)) return true;
+  here.newton(closer, here.least_shift_);
+  bool better = here.settled(closer, balanced);
+  evaluate(closer);
+  better = better || (!s.round_off && settled(closer, balanced));
+  if (better) s = std::move(closer);
+  return better || s.round_off;
 }
 
 /// The largest part of Newton's correction, in units of the coordinates; infinite where it is the shift and
@@ -353,12 +383,10 @@ void Balance::descend(State& s) const {
   for (int i = 0; i < most_descents; ++i, part *= 4.0) {
     std::ranges::transform(stiffest_, shift.begin(), [part](double k) { return part * k; });
     if (!step(s, shift, x)) continue;
-    double power = 0.0, length = 0.0;
-    for (std::size_t k = 0; k < s.q.size(); ++k) {
-      power += s.force[k] * x[k];
+    double length = 0.0;
+    for (std::size_t k = 0; k < s.q.size(); ++k)
       length = std::max(length, std::abs(x[k]) * scales_.length / scales_.unit(k));
-    }
-    if (!(power > 0.0) || length > longest) continue;
+    if (!(power(s, x) > 0.0) || length > longest) continue;
     State next = s;
     for (std::size_t k = 0; k < s.q.size(); ++k) next.q[k] += x[k];
     try {

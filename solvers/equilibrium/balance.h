@@ -72,6 +72,9 @@ class Balance {
   /// The residual of a state relative to the forces in another.
   [[nodiscard]] static double size(const State& s, std::span<const double> acting);
   [[nodiscard]] bool step(const State& s, std::span<const double> shift, std::vector<double>& x) const;
+  [[nodiscard]] static double power(const State& s, const std::vector<double>& x);
+  [[nodiscard]] State moved(const State& s, const std::vector<double>& x, double part) const;
+  [[nodiscard]] double part_in_the_valley(const State& s, const std::vector<double>& x) const;
   [[nodiscard]] bool improve(State& s, const std::vector<double>& x) const;
   [[nodiscard]] bool leaps_uphill(const State& s, const std::vector<double>& x) const;
   [[nodiscard]] double correction(const State& s) const;

@@ -67,8 +67,9 @@ namespace detail {
 /// that is wanted.
 ///
 /// Newton's iteration on (1) for q and lambda, with the curvature of the constraints, -sum lambda g_qq, while
-/// it reduces the residual; against the forces, to a state that is not stable, only from so near that it
-/// converges. From where it does not, the scene descends in steps of
+/// it reduces the residual; along the forces no farther than into the valley they lead to; against them, to a
+/// state that is not stable, only from so near that it converges. From where it does not, the scene descends
+/// in steps of
 ///
 ///   (K + s M) dq = W^T dlambda + residual,     W dq = 0 (2)
 ///

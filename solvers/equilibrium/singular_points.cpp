@@ -27,8 +27,9 @@ constexpr int most_divisions = 10;
 /// The place in b of what is most alike to both ends of a pair.
 Index place_of(const Node& at, const Node& a, const Node& b, std::pair<Index, Index> pair) {
   const Eigen::MatrixXd& shapes = at.stiffness.shapes;
-  const VectorXd alike = (a.stiffness.duals.col(pair.first).transpose() * shapes).cwiseAbs() +
-                         (b.stiffness.duals.col(pair.second).transpose() * shapes).cwiseAbs();
+  const VectorXd to_a = shapes.transpose() * a.stiffness.duals.col(pair.first),
+                 to_b = shapes.transpose() * b.stiffness.duals.col(pair.second),
+                 alike = to_a.cwiseAbs() + to_b.cwiseAbs();
   Index place = 0;
   if (alike.size() > 0) (void)alike.maxCoeff(&place);
   return place;
@@ -46,11 +47,13 @@ std::array<double, N> weights(const std::array<double, N>& nodes, double x) {
   return w;
 }
 
-/// Two vibrations of an undamped scene that meet: half of their distance squared; < 0 before, where both are
-/// on the imaginary axis, > 0 after, off it to either side. (It passes 0 with a slope, and is known to
-/// round-off where either eigenvalue is known to its square root.)
-double of_meeting(const std::vector<Vibration>& all, std::size_t rank, std::complex<double> last) {
-  if (rank < all.size() && all[rank].grows()) return all[rank].s.real() * all[rank].s.real();
+/// Two vibrations of an undamped scene that meet: half of their distance squared, and their frequency; < 0
+/// before, where both are on the imaginary axis, > 0 after, off it to either side. (It passes 0 with a slope,
+/// and is known to round-off where either eigenvalue is known to its square root.)
+std::pair<double, double> meeting(const std::vector<Vibration>& all, std::size_t rank,
+                                  std::complex<double> last) {
+  if (rank < all.size() && all[rank].grows())
+    return {all[rank].s.real() * all[rank].s.real(), all[rank].s.imag()};
   const double frequency = last.imag();
   double first = std::numeric_limits<double>::infinity(), second = first;  // distances from the frequency
   for (const Vibration& v : all) {
@@ -61,8 +64,8 @@ double of_meeting(const std::vector<Vibration>& all, std::size_t rank, std::comp
     else if (std::abs(off) < std::abs(second))
       second = off;
   }
-  return std::isfinite(second) ? -0.25 * (first - second) * (first - second)
-                               : -last.real() * last.real();  // as far from 0: the step is halved
+  if (!std::isfinite(second)) return {-last.real() * last.real(), frequency};  // the step is halved
+  return {-0.25 * (first - second) * (first - second), frequency + 0.5 * (first + second)};
 }
 
 }  // namespace
@@ -101,16 +104,18 @@ SingularPoints::Followed SingularPoints::follow(const Node& a, const Node& b) {
 }
 
 /// Whether something that is not known again may have passed 0: shapes of one frequency are not told from
-/// each other, but they are from those on the other side of 0.
+/// each other, but they are from those on the other side of 0. Where two meet and become complex, or the
+/// other way round, others beside them may have passed.
 bool SingularPoints::Followed::matters(const Node& a, const Node& b) const {
   constexpr double alike_at_all = 0.5;  // a shape among two others is at least sqrt(1/2) of one
+  const auto below_a = [&](Index i) { return a.stiffness.values[i] < 0.0; };
+  const auto below_b = [&](Index j) { return b.stiffness.values[j] < 0.0; };
   for (const Index i : of_a) {
-    for (const Index j : of_b) {
-      const bool passed = (a.stiffness.values[i] < 0.0) != (b.stiffness.values[j] < 0.0);
-      if (passed && alike(i, j) > alike_at_all) return true;
-    }
+    for (const Index j : of_b)
+      if (below_a(i) != below_b(j) && alike(i, j) > alike_at_all) return true;
   }
-  return false;
+  const auto below = std::ranges::count_if(of_a, below_a) + std::ranges::count_if(of_b, below_b);
+  return of_a.size() != of_b.size() && below > 0 && below < std::ssize(of_a) + std::ssize(of_b);
 }
 
 void SingularPoints::Followed::pair_the_rest() {
@@ -163,6 +168,12 @@ std::optional<SingularPoints::Zero> SingularPoints::locate(const Node& a, const 
   if (!near) near = b;
   if (auto better = interpolated(a, b, *near, pair)) near = std::move(better);
   const Index place = place_of(*near, a, b, pair);
+  // Where points on the way are of another branch an eigenvalue jumps, and is 0 nowhere.
+  constexpr double jump = 0.1;
+  const double size =
+      std::max(std::abs(a.stiffness.values[pair.first]), std::abs(b.stiffness.values[pair.second]));
+  if (near->stiffness.values.size() > 0 && std::abs(near->stiffness.values[place]) > jump * size)
+    return std::nullopt;
   return Zero{std::move(*near), place};
 }
 
@@ -206,7 +217,7 @@ std::optional<Node> SingularPoints::interpolated(const Node& a, const Node& b, c
 }
 
 void SingularPoints::flutters(const Node& a, const Node& b, Found& found) const {
-  const auto [fewer, more] = std::minmax(a.growing(), b.growing());
+  const auto [fewer, more] = std::minmax({a.growing(), b.growing()});
   for (auto rank = fewer; rank < more; ++rank)
     if (auto flutter = locate_flutter(a, b, static_cast<std::size_t>(rank)))
       found.flutters.push_back(std::move(*flutter));
@@ -222,10 +233,16 @@ std::optional<SingularPoints::Flutter> SingularPoints::locate_flutter(const Node
   const bool damped =
       rank < steady.vibrations.size() && steady.vibrations[rank].s.real() < -steady.vibrations[rank].error;
   std::optional<Node> near = grown;
+  double frequency = last.s.imag();
   const auto excess = [&](const Node& node) {
     const bool there = rank < node.vibrations.size();
     if (there && node.vibrations[rank].grows()) last = node.vibrations[rank];
-    if (!damped) return of_meeting(node.vibrations, rank, last.s);
+    if (!damped) {
+      const auto [off, of_both] = meeting(node.vibrations, rank, last.s);
+      frequency = of_both;
+      return off;
+    }
+    frequency = there ? node.vibrations[rank].s.imag() : last.s.imag();
     return there ? node.vibrations[rank].s.real() : -last.s.real();
   };
   const auto on_way = [&](double way) {
@@ -236,8 +253,9 @@ std::optional<SingularPoints::Flutter> SingularPoints::locate_flutter(const Node
   };
   (void)root(on_way, 0.0, excess(steady), 1.0, excess(grown), exact);
   // What turns into steady growth and not into a vibration that is just kept up is no flutter's limit.
-  if (std::abs(last.s.real()) > std::sqrt(rank_threshold) * std::abs(last.s.imag())) return std::nullopt;
-  return Flutter{std::move(*near), last.s.imag()};
+  const double left = std::abs(excess(*near)), growth = damped ? left : std::sqrt(left);
+  if (!(growth <= std::sqrt(rank_threshold) * frequency)) return std::nullopt;
+  return Flutter{std::move(*near), frequency};
 }
 
 }  // namespace dalembert

@@ -333,6 +333,31 @@ Decomposed decomposed(const Tangent& t) {
   return {std::move(values), std::move(right), std::move(left)};
 }
 
+/// A real eigenvalue of K, in the coordinates of the scene.
+struct RealShape {
+  double value;
+  Vector shape, dual;
+};
+
+/// Those of one part; returns the smallest real part of all.
+double append_real(const Tangent& t, std::vector<RealShape>& found) {
+  double least = std::numeric_limits<double>::infinity();
+  if (t.K.rows() == 0) return least;
+  const Decomposed K = decomposed(t);
+  const double zero = round_off_of_a_sum * K.values.cwiseAbs().maxCoeff();
+  const auto all = static_cast<Index>(t.all);
+  for (Index k = 0; k < K.values.size(); ++k) {
+    const double value = std::abs(K.values[k]) <= zero ? 0.0 : K.values[k].real();
+    least = std::min(least, value);
+    if (K.values[k].imag() != 0.0) continue;
+    RealShape one{value, Vector::Zero(all), Vector::Zero(all)};
+    one.shape(t.coordinates) = t.shapes * K.right.col(k).real();
+    one.dual(t.coordinates) = t.metric * K.left.row(k).transpose().real();
+    found.push_back(std::move(one));
+  }
+  return least;
+}
+
 }  // namespace
 
 Modes dense_modes(const System& system, const LinearTerms& terms) {
@@ -355,34 +380,14 @@ std::vector<Vibration> vibrations(const System& system, const LinearTerms& terms
 }
 
 TangentStiffness tangent_stiffness(const System& system, const LinearTerms& terms) {
-  struct Real {
-    double value;
-    Vector shape, dual;
-  };
-  std::vector<Real> real;
+  std::vector<RealShape> real;
   double least = std::numeric_limits<double>::infinity();
-  for (const Tangent& t : tangents(system, terms)) {
-    if (t.K.rows() == 0) continue;
-    const Decomposed K = decomposed(t);
-    const double zero = round_off_of_a_sum * K.values.cwiseAbs().maxCoeff();
-    for (Index k = 0; k < K.values.size(); ++k) {
-      const double value = std::abs(K.values[k]) <= zero ? 0.0 : K.values[k].real();
-      least = std::min(least, value);
-      if (K.values[k].imag() != 0.0) continue;
-      Real one{value, Vector::Zero(static_cast<Index>(t.all)), Vector::Zero(static_cast<Index>(t.all))};
-      const Vector u = t.shapes * K.right.col(k).real(), dual = t.metric * K.left.row(k).transpose().real();
-      for (std::size_t i = 0; i < t.coordinates.size(); ++i) {
-        one.shape[static_cast<Index>(t.coordinates[i])] = u[static_cast<Index>(i)];
-        one.dual[static_cast<Index>(t.coordinates[i])] = dual[static_cast<Index>(i)];
-      }
-      real.push_back(std::move(one));
-    }
-  }
-  std::ranges::stable_sort(real, {}, &Real::value);
+  for (const Tangent& t : tangents(system, terms)) least = std::min(least, append_real(t, real));
+  std::ranges::stable_sort(real, {}, &RealShape::value);
   const auto n = static_cast<Index>(system.coordinates()), count = static_cast<Index>(real.size());
   TangentStiffness found{Vector(count), Matrix(n, count), Matrix(n, count), least};
   for (Index k = 0; k < count; ++k) {
-    const Real& one = real[static_cast<std::size_t>(k)];
+    const RealShape& one = real[static_cast<std::size_t>(k)];
     found.values[k] = one.value;
     found.shapes.col(k) = one.shape;
     found.duals.col(k) = one.dual;

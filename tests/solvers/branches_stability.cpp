@@ -162,9 +162,9 @@ Diagram<Equilibrium<2>> follow_truss(double h, const BranchOptions& options) {
 }
 
 TEST(Branches, OfASteepTrussForkSidewaysWhereTheySayWhateverTheStep) {
-  // k_xx = 2 k (1 - l0/l + l0 b^2/l^3) = 0 with l^2 = b^2 + y^2: l^3 - l0 l^2 + l0 b^2 = 0, l < l0; the load
-  // there is 2 k y (l0/l - 1).
-  for (const double h : {3.0, 2.0}) {
+  // k_xx = 2 k (1 - l0/l + l0 b^2/l^3) = 0 with l^2 = b^2 + y^2: l^3 - l0 l^2 + l0 b^2 = 0, l < l0, which has
+  // a solution where l0^2 >= 27/4; the load there is 2 k y (l0/l - 1).
+  for (const double h : {3.0, 2.6}) {
     const double l0 = std::sqrt(1.0 + h * h);
     double l = l0;
     for (int i = 0; i < 60; ++i) l -= (l * l * l - l0 * l * l + l0) / (3.0 * l * l - 2.0 * l0 * l);
