@@ -130,11 +130,10 @@ bool Comparisons::hear_step(double t, bool sketched) {
   return hear(motion_.instant(), &held_, heard_);
 }
 
-std::vector<double> Comparisons::margins_at(double t, bool sketched) {
-  std::vector<double> all(margins_.size(), unknown);
-  if (!hear_step(t, sketched)) return all;
+void Comparisons::find_margins(double t, bool sketched, std::vector<double>& all) {
+  all.assign(margins_.size(), unknown);
+  if (!hear_step(t, sketched)) return;
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = margin(margins_[k]);
-  return all;
 }
 
 double Comparisons::margin_at(std::size_t k, double t) {
@@ -143,19 +142,19 @@ double Comparisons::margin_at(std::size_t k, double t) {
 
 /// Those that may have left their side in the step: they are behind at its end or middle, or closer to where
 /// they switch than they bend within the step.
-std::vector<std::size_t> Comparisons::suspects(double to) {
-  if (at_from_.empty()) at_from_ = margins_at(from_, false);
-  const auto at_middle = margins_at(0.5 * (from_ + to), true);
-  at_end_ = margins_at(to, false);
-  std::vector<std::size_t> all;
+const std::vector<std::size_t>& Comparisons::suspects(double to) {
+  if (at_from_.empty()) find_margins(from_, false, at_from_);
+  find_margins(0.5 * (from_ + to), true, at_middle_);
+  find_margins(to, false, at_end_);
+  suspects_.clear();
   for (std::size_t k = 0; k < margins_.size(); ++k) {
-    const double least = std::min({at_from_[k], at_middle[k], at_end_[k]});
-    const double bend = std::abs(at_from_[k] - 2.0 * at_middle[k] + at_end_[k]);
+    const double least = std::min({at_from_[k], at_middle_[k], at_end_[k]});
+    const double bend = std::abs(at_from_[k] - 2.0 * at_middle_[k] + at_end_[k]);
     if (std::ranges::find(passed_, margins_[k]) != passed_.end()) continue;
-    const bool constant = at_from_[k] == at_middle[k] && at_middle[k] == at_end_[k] && least > 0.0;
-    if (!constant && !(least > bend)) all.push_back(k);
+    const bool constant = at_from_[k] == at_middle_[k] && at_middle_[k] == at_end_[k] && least > 0.0;
+    if (!constant && !(least > bend)) suspects_.push_back(k);
   }
-  return all;
+  return suspects_;
 }
 
 /// Where a margin first becomes negative, if it does, among its interpolants.
@@ -253,7 +252,7 @@ std::optional<Comparisons::Switch> Comparisons::leave(TimeStepper& stepper) {
     from_ = std::min(to, root->t + one.ahead);
     list_margins();
   }
-  at_from_ = at_end_;
+  std::swap(at_from_, at_end_);
   from_ = to;
   return std::nullopt;
 }

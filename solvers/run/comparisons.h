@@ -79,11 +79,11 @@ class Comparisons {
   void list_margins();
   [[nodiscard]] double margin(const Margin& of) const;
   [[nodiscard]] bool hear_step(double t, bool sketched);
-  [[nodiscard]] std::vector<double> margins_at(double t, bool sketched);
+  void find_margins(double t, bool sketched, std::vector<double>& all);
   [[nodiscard]] double margin_at(std::size_t k, double t);
   [[nodiscard]] double margin_ahead(std::size_t k, const Motion& from, double ahead);
 
-  [[nodiscard]] std::vector<std::size_t> suspects(double to);
+  [[nodiscard]] const std::vector<std::size_t>& suspects(double to);
   [[nodiscard]] std::optional<Bracket> first_root(std::size_t k, double to);
   [[nodiscard]] std::optional<Root> first_switch(double to);
   [[nodiscard]] Switch behind(const Root& root, double step);
@@ -104,8 +104,10 @@ class Comparisons {
   TimeStepper* stepper_ = nullptr;  // of the step that is looked at
   double from_;                     // up to where the sides are known to hold
   std::vector<double> at_from_;     // the margins there, if they are known,
-  std::vector<double> at_end_;      // and where the step ends
-  Motion motion_, other_;           // work
+  std::vector<double> at_middle_;   // in the middle of the step,
+  std::vector<double> at_end_;      // and where it ends
+  std::vector<std::size_t> suspects_;
+  Motion motion_, other_;  // work
 };
 
 }  // namespace dalembert
