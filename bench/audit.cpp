@@ -54,7 +54,7 @@ void add_model(const models::Model<D>& model, const AuditTable& options, Rows& r
       const Options run{
           .t_end = model.t_end, .tolerance = tolerance, .stepper = stepper, .audit = Audited::report};
       const Outcome outcome = outcome_of(model.name, [&] {
-        const Audit found = simulate(scene, run).audit();
+        const Audit found = simulate(scene, run).statistics().audit;
         rows.add(model.name, stepper, shortest_power(tolerance), found, cost(scene, run, options.repeats));
       });
       if (!outcome.ok()) tell(model.name, outcome);

@@ -69,6 +69,8 @@ inline const std::array named_constants = {
     CONSTANT(rest_in_space),
     CONSTANT(most_at_one_time),
     CONSTANT(brief_changes),
+    CONSTANT(unresolved_by_interpolant),
+    CONSTANT(beside_a_kink),
 };
 #undef CONSTANT
 static_assert(sizeof(Constants) == std::tuple_size_v<decltype(named_constants)> * sizeof(double),
