@@ -3,8 +3,8 @@
 /// The whole library. Points, forces, a scene:
 #include <dalembert/core/points/points.h>
 /// its results and analysis;
-#include <dalembert/core/analysis/virtual_work.h>
 #include <dalembert/core/analysis/integrability.h>
+#include <dalembert/core/analysis/virtual_work.h>
 #include <dalembert/core/forces/fields.h>
 #include <dalembert/core/forces/forces.h>
 #include <dalembert/core/forces/friction.h>

@@ -172,7 +172,8 @@ void add_extremes(CLI::App& app, int& failures) {
 void add_audit(CLI::App& app, int& failures) {
   const auto options = std::make_shared<bench::AuditTable>();
   CLI::App* command = app.add_subcommand(
-      "audit", "Every law of mechanics that a result must obey against its limit, in all models and extremes");
+      "audit",
+      "Every law of mechanics that a result must obey against its limit, in all models and extremes");
   command->add_option("--tolerance", options->tolerances, "Between 1e-13 and 0.1")
       ->delimiter(',')
       ->capture_default_str();
