@@ -75,7 +75,7 @@ struct FrictionFromLaw {
 /// Sample::multiplier has: positive pushes towards g > 0. Where it may have either, as on a wire, the
 /// law takes abs(lambda), whose kink a run finds and goes on from. Time may stand in front; for
 /// several points return std::tuple{f_a, f_b}. The force is an applied one, F in M q'' = F + W^T lambda: it
-/// is no part of the constraint's force, and its power is listed by `audit`.
+/// is no part of the constraint's force, and its power is listed by `virtual_work`.
 ///
 /// The law is called with multipliers near those of the motion: with those of the motion without friction at
 /// first, later with the last ones, and with the iterates of Newton's method, which may lie on the other side

@@ -50,7 +50,7 @@ struct Options {
   Audited audit = Audited::error;
   /// Keep a Ledger: energies, work and momenta at every sample. The work is integrated over every step, and
   /// its balance audited: of scenes with drives, friction or forces without a potential the only way to know.
-  /// Costs about as much as the run itself.
+  /// A run then takes several times as long.
   bool ledger = false;
   long max_steps = 10'000'000;  ///< give up after so many steps
   /// No step is longer; 0: as long as the tolerance allows. For events whose functions vary much faster than
