@@ -35,8 +35,8 @@ inline constexpr double rank_threshold = 1e-9;
 /// `rows_in_mass_metric`. `threshold` is the distance below which a row counts as in the span of others. A
 /// compliant row has its elongation besides: it depends on no other.
 ///
-/// Everything that needs the rank of the constraints uses this: the start, description, audit, projection and
-/// both steppers.
+/// Everything that needs the rank of the constraints uses this: the start, description, virtual work,
+/// projection and both steppers.
 [[nodiscard]] ActiveRows independent_rows(const System& system, std::span<const double> w,
                                           double threshold = rank_threshold);
 
