@@ -43,7 +43,7 @@ TEST_P(Painleve, ARodThatSlidesToTheSingularityOfItsNormalForceStopsThereByName)
     const auto until = failure.trajectory<2>();
     for (std::size_t i = 1; i < until.size(); ++i) EXPECT_LT(until.energy(i), until.energy(i - 1));
     // The angle at which the denominator vanishes is not passed: its sign is that of the run's last sample.
-    const double phi = angle(until.sample(until.size() - 1), rod);
+    const double phi = dalembert::angle(until.sample(until.size() - 1), rod);
     EXPECT_GT(1.0 + 3.0 * std::cos(phi) * (std::cos(phi) - mu * std::sin(phi)), 0.0);
   }
 }
