@@ -54,6 +54,9 @@ struct Limits {
   /// Of what is the sum of terms of these magnitudes.
   [[nodiscard]] double relative(double terms) const { return (accuracy + round_off) * terms; }
 
+  /// Gradients closer than this count as dependent: forces shared among them may differ by as much.
+  static constexpr double dependent = 1e-9;
+
   double length, time, accuracy, round_off;
   std::vector<char> angle;
   std::size_t contacts = 0;  ///< the most that act on one coordinate

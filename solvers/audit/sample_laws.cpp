@@ -60,6 +60,8 @@ void SampleLaws::evaluate(const FlatSample& sample) {
   acting_->evaluate(at, e_);
   acting_->bias(at, gamma_);
   if (acting_->frictional()) add_forces_that_read(sample);
+  const bool redundant = std::ranges::find(sample.unique, char{0}) != sample.unique.end();
+  dependence_ = redundant ? Limits::dependent : 0.0;
   largest_force_ = 0.0;
   for (const double force : sample.forces)
     if (std::abs(force) > largest_force_) largest_force_ = std::abs(force);
@@ -119,7 +121,7 @@ void SampleLaws::check_newton(const FlatSample& sample, Findings& findings) {
   }
   for (std::size_t i = 0; i < residual_.size(); ++i) {
     findings.weigh(Law::newton, {Subject::Kind::coordinate, i}, sample.time, std::abs(residual_[i]),
-                   limits_.relative(terms_[i]));
+                   limits_.relative(terms_[i]) + dependence_ * terms_[i]);
   }
 }
 
@@ -177,7 +179,8 @@ void SampleLaws::check_row(const FlatSample& sample, std::size_t r, Findings& fi
     residual += e_.w[k] * sample.a[i];
     terms += std::abs(e_.w[k]) * terms_[i] / acting_->masses()[i];
   }
-  findings.weigh(Law::acceleration, row(r), sample.time, std::abs(residual), limits_.relative(terms));
+  findings.weigh(Law::acceleration, row(r), sample.time, std::abs(residual),
+                 limits_.relative(terms) + dependence_ * terms);
 }
 
 void SampleLaws::check_point_forces(const FlatSample& sample, Findings& findings) const {

@@ -61,6 +61,7 @@ class SampleLaws {
   std::vector<Contact> contacts_;
   std::vector<Rough> rough_;
   double largest_force_ = 0.0;
+  double dependence_ = 0.0;  // Limits::dependent where rows repeat each other
 };
 
 }  // namespace dalembert

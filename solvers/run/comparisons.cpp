@@ -108,6 +108,10 @@ void Comparisons::list_margins() {
   at_from_.clear();
   for (std::size_t b = 0; b < held_.size(); ++b)
     for (std::size_t k = 0; k < held_[b].size(); ++k) margins_.push_back({b, k, held_[b][k].side});
+  for (std::vector<double>* all : {&at_from_, &at_middle_, &at_end_}) all->reserve(margins_.size());
+  suspects_.reserve(margins_.size());
+  passed_.reserve(margins_.size());
+  for (std::vector<double>* all : {&motion_.q, &motion_.v}) all->resize(a_.size());
 }
 
 /// How far what was heard last is from leaving its side: negative behind.
@@ -217,7 +221,11 @@ Comparisons::Switch Comparisons::behind(const Root& root, double step) {
     one.ahead *= 2.0;
   }
   move(one.at, one.ahead, other_);
-  if (!hear(other_.instant(), nullptr, one.behind)) one.behind = held_;
+  if (!hear(other_.instant(), nullptr, one.behind)) {
+    const Branches anywhere(nullptr, nullptr);
+    system_->evaluate(other_.instant(), e_);  // throws what fails there
+    one.behind = held_;
+  }
   return one;
 }
 
