@@ -80,13 +80,18 @@ bool WorkBalance::constraints_drive(const FlatSample& sample) {
   return std::ranges::any_of(u_, moves) || std::ranges::any_of(e_.psi, moves);
 }
 
-/// What touches is at its surface to the accuracy of positions, with the forces that press it.
-double WorkBalance::work_of_gaps(const FlatSample& sample) {
-  if (stated_->contacts().empty()) return 0.0;
+/// What forces do where a position errs by the accuracy or a rounding, or is moved by what rounding leaves of
+/// forces in balance: by r |F|/m for the time since the last sample.
+double WorkBalance::work_of_errors(const FlatSample& sample) {
   stated_->without(stated_->conditional()).evaluate({sample.time, sample.q, sample.v}, e_);
+  const double time = sample.time - checked_;
   double sum = 0.0;
-  for (std::size_t i = 0; i < e_.force.size(); ++i) sum += std::abs(e_.force[i]) * limits_.unit(i);
-  return limits_.accuracy * sum;
+  for (std::size_t i = 0; i < e_.force.size(); ++i) {
+    const double force = std::abs(e_.force[i]);
+    sum += force * (limits_.position(i, sample.q[i]) +
+                    limits_.round_off * force / stated_->masses()[i] * time * time);
+  }
+  return sum;
 }
 
 void WorkBalance::check(const FlatSample& sample, const Claim& claim, Findings& findings) {
@@ -95,7 +100,7 @@ void WorkBalance::check(const FlatSample& sample, const Claim& claim, Findings& 
   limits_.set(claim);
   const double gain = sample.energy - energy_, size = falls_ ? std::max(gain, 0.0) : std::abs(gain);
   double limit = limits_.accuracy * (changes_ + last_) + second_order() + limits_.round_off * size_;
-  if (size > limit) limit += work_of_gaps(sample);
+  if (size > limit) limit += work_of_errors(sample);
   findings.weigh(Law::work, {}, sample.time, size, limit);
 }
 

@@ -43,7 +43,7 @@ class WorkBalance {
 
  private:
   [[nodiscard]] double second_order() const;
-  [[nodiscard]] double work_of_gaps(const FlatSample& sample);
+  [[nodiscard]] double work_of_errors(const FlatSample& sample);
   [[nodiscard]] bool constraints_drive(const FlatSample& sample);
   [[nodiscard]] bool potentials_depend_on_time(const FlatSample& sample) const;
 
