@@ -172,7 +172,7 @@ void Sticking::require_sliding(const Motion& before, Motion& behind) {
   const auto friction = switches_.turned(side_, far_);
   Motion after = behind;
   if (!friction || !jumps(before, after, *friction) || !accelerate(after, far_)) return;
-  const double t = std::min(trial_.t, now_.t);  // the run has gone no farther
+  const double t = trial_.t;
   move(after, 8.0 * (after.t - before.t), trial_);
   find_slope(trial_, near_);
   if (!switches_.turned(side_, near_)) throw StepFailure{would_stick(*friction), t};
