@@ -93,6 +93,11 @@ class Comparison {
     const double accuracy = std::max(x_.statistics().accuracy, y_.statistics().accuracy);
     return accuracy * (measure_.forces ? error_of_run : std::max(error_of_run, 3.0 * steps_));
   }
+  /// What an error of velocity displaces by, in this time.
+  [[nodiscard]] double drift(std::size_t i) const {
+    const double accuracy = std::max(x_.statistics().accuracy, y_.statistics().accuracy);
+    return accuracy * (time(i) - time(0)) / unit_.time;
+  }
   [[nodiscard]] const Units& unit() const { return unit_; }
 
  private:
@@ -136,7 +141,8 @@ std::string fault_of_comparison(const Run<D>& one, const Run<D>& two, const Run<
                                 const Measure& measure, std::string& detail) {
   const Comparison<D> runs(one, two, measure);
   const double error = runs.error(), rate = error / runs.unit().time;
-  std::vector<Distances> allowed(runs.size(), {error, error, error});
+  std::vector<Distances> allowed;
+  for (std::size_t i = 0; i < runs.size(); ++i) allowed.push_back({error + runs.drift(i), error, error});
   const std::string fault = difference(runs, allowed, measure, detail);
   if (fault.empty()) return fault;
   for (int axis = 0; axis < D; ++axis) {
@@ -162,11 +168,20 @@ std::string fault_of_comparison(const Run<D>& one, const Run<D>& two, const Run<
   return difference(runs, allowed, measure, detail);
 }
 
+template <int D>
+std::string fault_of_twin(const Run<D>& one, const Run<D>& two, const Measure& measure, std::string& detail) {
+  const std::string fault = fault_of_comparison(one, two, two, measure, detail);
+  return fault.empty() ? fault : fault_of_comparison(one, two, one, measure, detail);
+}
+
 template Ending<2> run_of(const Draft<2>&);
 template Ending<3> run_of(const Draft<3>&);
 template std::string fault_of_comparison(const Run<2>&, const Run<2>&, const Run<2>&, const Measure&,
                                          std::string&);
 template std::string fault_of_comparison(const Run<3>&, const Run<3>&, const Run<3>&, const Measure&,
                                          std::string&);
+
+template std::string fault_of_twin(const Run<2>&, const Run<2>&, const Measure&, std::string&);
+template std::string fault_of_twin(const Run<3>&, const Run<3>&, const Measure&, std::string&);
 
 }  // namespace dalembert::fuzz

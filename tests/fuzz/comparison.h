@@ -49,6 +49,11 @@ template <int D>
 [[nodiscard]] std::string fault_of_comparison(const Run<D>& one, const Run<D>& two, const Run<D>& own,
                                               const Measure& measure, std::string& detail);
 
+/// The same for two whole runs: errors may grow as those of either.
+template <int D>
+[[nodiscard]] std::string fault_of_twin(const Run<D>& one, const Run<D>& two, const Measure& measure,
+                                        std::string& detail);
+
 /// Runs a scene of the family `products` in all its ways. Throws what its run throws.
 template <int D>
 [[nodiscard]] std::string fault_of_product(Draft<D>& draft, std::string& detail);

@@ -23,7 +23,7 @@ std::string against(const Draft<D>& draft, const Ending<D>& one, const Plan& pla
   const Ending<D> two = run_of(twin);
   if (!two.why.empty() || !two.run) return {};
   const Run<D> other{twin, two};
-  return fault_of_comparison<D>({draft, one}, other, other, measure, detail);
+  return fault_of_twin<D>({draft, one}, other, measure, detail);
 }
 
 /// From its middle on.

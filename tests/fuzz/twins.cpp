@@ -18,8 +18,7 @@ std::string fault_of_twins(const Draft<D>& draft, std::string& detail) {
   // Forces of kinked scenes jump at an instant that no two runs have in common.
   const Measure measure{.of = "twins", .forces = redundant};
   const Run<D> of_twin{twin, two};
-  if (one.run && fault.empty())
-    fault = fault_of_comparison<D>({draft, one}, of_twin, of_twin, measure, detail);
+  if (one.run && fault.empty()) fault = fault_of_twin<D>({draft, one}, of_twin, measure, detail);
   if (fault.empty() && one.failure) std::rethrow_exception(one.failure);
   return fault;
 }
