@@ -1,6 +1,7 @@
 #include "dalembert/solvers/ida/newton_matrix.h"
 
 #include <dalembert/solvers/linear/rows.h>
+#include <dalembert/solvers/manifold/friction.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +24,13 @@ std::vector<std::size_t> those_at(const std::vector<std::size_t>& places, const 
   for (const std::size_t k : places) rows.push_back(all.rows[k]);
   return rows;
 }
+
+/// The part of a correction that may be wrong. Near Painleve's point Newton's iteration multiplies it by 1/D,
+/// D being what friction leaves of the determinant. From here to 0 a run up to that point takes as many
+/// steps.
+constexpr double settled = 1e-6;
+/// There each repetition leaves the part h/(time to that point); longer steps fail anyway.
+constexpr int most_repetitions = 10;
 
 bool any(const std::vector<char>& flags) { return std::ranges::find(flags, 1) != flags.end(); }
 
@@ -140,7 +148,21 @@ bool NewtonMatrix::factorise(const Instant& at, const System::Evaluation& e, std
     std::ranges::transform(all, stiff_, all.begin(), [](char a, char b) { return a | b; });
     include(all);
   }
-  return !k1_in_use_ || factorise_stiff(c);
+  if (!k1_in_use_) return true;
+  if (!factorise_stiff(c)) return false;
+  require_acceleration(c, at.t);
+  return true;
+}
+
+/// That friction does not turn the sign of the determinant, see FrictionSolver.
+void NewtonMatrix::require_acceleration(double c, double t) {
+  if (!system_->frictional() || k1_->matrix.sign_of_determinant() > 0) return;
+  std::vector<double> slope(linear_.friction.size(), 0.0);
+  slope.swap(linear_.friction);
+  const bool turned = factorise_stiff(c) && k1_->matrix.sign_of_determinant() > 0;
+  slope.swap(linear_.friction);
+  if (turned) refuse_friction(*system_, linear_.friction, t);
+  static_cast<void>(factorise_stiff(c));
 }
 
 bool NewtonMatrix::factorise_stiff(double c) {
@@ -257,12 +279,37 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
   for (std::size_t j = 0; j < with_mu_.size(); ++j) dmu_[with_mu_[j]] = -x2_[n + j];  // the matrix has -G^T
 }
 
-/// How often to eliminate again with the dmu of the last time.
+void NewtonMatrix::eliminate_again(double c, std::span<const double> b) {
+  for (std::size_t i = 0; i < p_.size(); ++i) p_[i] = x2_[i] - c * x1_[i];
+  eliminate(c, b);
+}
+
+/// Eliminates again until the dlambda that friction reads are settled. They depend on dmu linearly, so what
+/// the next time would change is to the last change as the changes of dmu are.
+void NewtonMatrix::settle_friction(double c, std::span<const double> b) {
+  const auto read = [&](Friction& f) { f.dmu = dmu_[f.active], f.dlambda = dlambda(f.active, c); };
+  double last = 0.0;
+  for (Friction& f : friction_) last = std::max(last, std::abs(dmu_[f.active]));
+  for (int more = most_repetitions; more > 0; --more) {
+    std::ranges::for_each(friction_, read);
+    eliminate_again(c, b);
+    double of_mu = 0.0, of_lambda = 0.0, size = 0.0;
+    for (const Friction& f : friction_) {
+      of_mu = std::max(of_mu, std::abs(dmu_[f.active] - f.dmu));
+      of_lambda = std::max(of_lambda, std::abs(dlambda(f.active, c) - f.dlambda));
+      size = std::max(size, std::abs(dlambda(f.active, c)));
+    }
+    if (of_lambda * of_mu <= settled * size * last) return;
+    last = of_mu;
+  }
+}
+
+/// How often to eliminate again with the dmu of the last time, where no friction asks for more.
 int NewtonMatrix::repetitions() const {
   if (!k1_in_use_) return 0;
   if (system_->compliant()) return 2;
   const bool nonholonomic = rows_.holonomic < rows_.size();
-  const bool dmu_matters = nonholonomic || !linear_.damping.empty() || !friction_.empty();
+  const bool dmu_matters = nonholonomic || !linear_.damping.empty();
   return rows_.holonomic > 0 && dmu_matters ? 1 : 0;
 }
 
@@ -277,10 +324,8 @@ void NewtonMatrix::solve(double c, std::span<double> b) {
     yields_[r] = c * c * system_->law(row).compliance > inverse_effective_mass(*system_, w_, row);
   }
   eliminate(c, b);
-  for (int more = repetitions(); more > 0; --more) {
-    for (std::size_t i = 0; i < n; ++i) p_[i] = x2_[i] - c * x1_[i];
-    eliminate(c, b);
-  }
+  for (int more = repetitions(); more > 0; --more) eliminate_again(c, b);
+  if (!friction_.empty()) settle_friction(c, b);
 
   std::copy_n(x1_.begin(), n, b.begin());
   std::copy_n(x2_.begin(), n, b.begin() + static_cast<std::ptrdiff_t>(n));

@@ -55,7 +55,9 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// dmu found, stands on the right of (5).
 ///
 /// Where forces read multipliers, W^T in (2) and (5) is W^T + F_lambda, and -c F_lambda dmu joins the right
-/// of (5).
+/// of (5). What neglecting dmu leaves is multiplied without bound near Painleve's point, where W M^-1 (W^T +
+/// F_lambda) is singular: there (5) to (7) are solved until dlambda is settled. Friction that changes the
+/// sign of the determinant has passed that point; such a state has no acceleration, see FrictionSolver.
 ///
 /// Where forces are soft against the inertia in a step, |H|/c^2 + |D|/c small against M, H and D
 /// are left out. Of the forces' own stiffness |H| T/c must be small as well, with the scene's time T: IDA
@@ -70,7 +72,7 @@ class NewtonMatrix {
   NewtonMatrix(const Problem& problem, const ActiveRows& rows, double time);
 
   /// Factors at a state, with the equations there; `lambda` has one number per row of the system.
-  /// False if singular. Throws EquationFault.
+  /// False if singular. Throws EquationFault, also where friction leaves no acceleration.
   [[nodiscard]] bool factorise(const Instant& at, const System::Evaluation& e, std::span<const double> lambda,
                                double c);
   /// In place: b = (b1, b2, b3, b4) becomes (dq, dv, dlambda, dmu). `c` may have changed since.
@@ -113,6 +115,9 @@ class NewtonMatrix {
   void leave_out_soft_forces();
   void include(const std::vector<char>& islands);
   [[nodiscard]] bool factorise_stiff(double c);
+  void require_acceleration(double c, double t);
+  void eliminate_again(double c, std::span<const double> b);
+  void settle_friction(double c, std::span<const double> b);
   [[nodiscard]] int repetitions() const;
   void solve_by_k2();
   void eliminate(double c, std::span<const double> b);
@@ -120,6 +125,7 @@ class NewtonMatrix {
   /// An entry of F_lambda in a holonomic row.
   struct Friction {
     std::size_t entry, coordinate, active;
+    double dmu = 0.0, dlambda = 0.0;  // of the last elimination
   };
 
   Problem problem_;

@@ -24,6 +24,20 @@ constexpr double same = 1e-13;
 
 }  // namespace
 
+void refuse_friction(const System& system, std::span<const double> slope, double t) {
+  std::size_t steepest = 0;
+  for (std::size_t k = 0; k < slope.size(); ++k)
+    if (std::abs(slope[k]) > std::abs(slope[steepest])) steepest = k;
+  std::ostringstream what;
+  what.precision(10);
+  what << system.force_of_friction(steepest) << " changes the multiplier of "
+       << system.row_label(system.friction_pattern()[steepest].column)
+       << " that it reads so strongly that there is no acceleration, or no unique one (Painleve's paradox; "
+          "t = "
+       << t << "); make the friction smaller, or end the run before";
+  throw EquationFault(what.str());
+}
+
 FrictionSolver::FrictionSolver(const Problem& problem, const ActiveRows& rows)
     : system_(&problem.system()),
       rows_(rows),
@@ -106,7 +120,7 @@ bool FrictionSolver::solve(const Instant& at, std::span<const double> w, std::sp
     if (!begin(w, s)) return false;
     outcome = iterate(at, w, s, x);
   }
-  if (outcome == Outcome::none) refuse(at.t);
+  if (outcome == Outcome::none) refuse_friction(*system_, slope_, at.t);
   begun_ = outcome == Outcome::solved;
   return begun_;
 }
@@ -167,22 +181,7 @@ void FrictionSolver::require_determined(const Instant& at, std::span<const char>
 }
 
 void FrictionSolver::require_regular(bool regular, double t) {
-  if (!regular) refuse(t);
-}
-
-/// Names the force with the largest slope: where several act, the likeliest.
-void FrictionSolver::refuse(double t) const {
-  std::size_t steepest = 0;
-  for (std::size_t k = 0; k < slope_.size(); ++k)
-    if (std::abs(slope_[k]) > std::abs(slope_[steepest])) steepest = k;
-  std::ostringstream what;
-  what.precision(10);
-  what << system_->force_of_friction(steepest) << " changes the multiplier of "
-       << system_->row_label(system_->friction_pattern()[steepest].column)
-       << " that it reads so strongly that there is no acceleration, or no unique one (Painleve's paradox; "
-          "t = "
-       << t << "); make the friction smaller, or end the run before";
-  throw EquationFault(what.str());
+  if (!regular) refuse_friction(*system_, slope_, t);
 }
 
 }  // namespace dalembert

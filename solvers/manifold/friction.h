@@ -9,6 +9,10 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
+/// Throws EquationFault: no acceleration exists, or no unique one. Of several forces it names the one with
+/// the largest slope, the likeliest.
+[[noreturn]] void refuse_friction(const System& system, std::span<const double> slope, double t);
+
 /// Accelerations and multipliers where forces F_f read multipliers,
 ///
 ///   [ M  -W^T ] [ v'     ]   [ F + F_f(lambda) ]
@@ -61,7 +65,6 @@ class FrictionSolver {
   void spread(std::span<const double> x);
   [[nodiscard]] bool mirrored_slope(const Instant& at);
   void require_regular(bool regular, double t);
-  [[noreturn]] void refuse(double t) const;
 
   const System* system_;
   ActiveRows rows_;
