@@ -39,10 +39,10 @@ void ErkStepper::State::measure_noise() {
   } catch (const EquationFault&) {
     return;  // a rounding away from where the equations end
   }
-  if (switches.any()) {  // behind a switch the accelerations are others
+  if (switches.any()) {  // behind a switch the accelerations are others, and so are those without a direction
     manifold.multipliers(multipliers);
     switches.find({to.t, noise_q, noise_v}, multipliers, stage_side);
-    if (!switches.same(to.side, stage_side)) return;
+    if (switches.rests(stage_side) || !switches.same(to.side, stage_side)) return;
   }
   for (std::size_t i = 0; i < n; ++i)
     noise[i] = std::max(constants.forgetting * noise[i], std::abs(a[i] - to.va[n + i]));
