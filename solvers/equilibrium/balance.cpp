@@ -275,14 +275,14 @@ bool Balance::improve(State& s, const std::vector<double>& x) const {
 }
 
 /// Whether a step climbs against the forces without being near what it climbs to: by Newton and Kantorovich's
-/// theorem it is, where a full step leaves less than a quarter of the residual; and a linear equation tells
-/// nothing farther away than the scene is large.
+/// theorem it is, where a full step leaves less than a quarter of the residual; of a step longer than the
+/// scene, whose end says less of what lies between, less by the square of its lengths.
 bool Balance::leaps_uphill(const State& s, const std::vector<double>& x) const {
   if (power(s, x) >= 0.0 || s.round_off) return false;
-  for (std::size_t i = 0; i < s.q.size(); ++i)
-    if (std::abs(x[i]) > scales_.unit(i)) return true;
+  double lengths = 1.0;
+  for (std::size_t i = 0; i < s.q.size(); ++i) lengths = std::max(lengths, std::abs(x[i]) / scales_.unit(i));
   try {
-    return size(moved(s, x, 1.0), s.acting) > 0.25 * s.size;
+    return size(moved(s, x, 1.0), s.acting) * lengths * lengths > 0.25 * s.size;
   } catch (const EquationFault&) {
     return true;
   }
