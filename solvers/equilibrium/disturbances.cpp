@@ -77,6 +77,7 @@ FreeDisturbances::FreeDisturbances(const Disturbances& all) {
   rows.bottomRightCorner(m, n) = all.W;
   basis = orthogonal_complement(rows.transpose(), of_full_rank);
   across = MatrixXd::Zero(2 * n, 2 * n - holonomic - m);
+  if (across.cols() == 0) return;  // nothing can move
   across.topLeftCorner(n, n - holonomic) = orthogonal_complement(all.G.transpose(), of_full_rank);
   across.bottomRightCorner(n, n - m) = orthogonal_complement(all.W.transpose(), of_full_rank);
   MatrixXd x_rate(2 * n, basis.cols());
