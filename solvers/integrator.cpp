@@ -192,7 +192,10 @@ struct DALEMBERT_HIDDEN Integrator::State {
   [[nodiscard]] Statistics statistics() const {
     Statistics s = stepping.statistics();
     s.run_time = stopwatch.read();
-    if (auditor) s.audit = auditor->read();
+    if (auditor) {
+      s.audit = auditor->read();
+      s.accuracy = std::max(s.accuracy, auditor->accuracy());
+    }
     return s;
   }
 

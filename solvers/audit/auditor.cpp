@@ -2,6 +2,7 @@
 
 #include <dalembert/solvers/base/step_failure.h>
 
+#include <algorithm>
 #include <sstream>
 #include <utility>
 
@@ -57,6 +58,7 @@ void Auditor::sample(const FlatSample& sample) {
     if (work) balance_.check(sample, work->sum, work->error, claim, found);
   });
   balance_.accept(sample);
+  shown_ = std::max(shown_, balance_.shown());
   if (ledger_) kinetic_ = stated_->kinetic_energy(sample.v);
 }
 

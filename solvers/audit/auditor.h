@@ -41,6 +41,8 @@ class Auditor {
     if (ledger_) ledger_->keep(sample);
   }
   [[nodiscard]] Audit read() const { return all_.read(*stated_); }
+  /// The accuracy that the balance of work shows, where that is not the one claimed; else 0.
+  [[nodiscard]] double accuracy() const { return shown_; }
   [[nodiscard]] const Ledger* ledger() const { return ledger_ ? &ledger_->ledger() : nullptr; }
 
  private:
@@ -56,6 +58,7 @@ class Auditor {
   WorkBalance balance_;
   std::optional<LedgerKeeper> ledger_;
   double kinetic_ = 0.0;  // of the last sample
+  double shown_ = 0.0;
   bool begun_ = false;
   Findings all_;
 };

@@ -6,6 +6,14 @@
 
 namespace dalembert {
 
+namespace {
+
+bool happened(const Jump& jump, Happened what) {
+  return std::ranges::find(jump.what, what, &Occurrence::what) != jump.what.end();
+}
+
+}  // namespace
+
 ImpactLaws::ImpactLaws(std::shared_ptr<const System> stated, const Claim& claim)
     : stated_(std::move(stated)),
       limits_(*stated_, claim),
@@ -44,7 +52,7 @@ void ImpactLaws::check_momentum(const System& acting, const Jump& jump, Findings
       terms[columns[k]] += std::abs(after_.w[k] * jump.impulses[r]);
     }
   }
-  const bool stuck = std::ranges::find(jump.what, Happened::sticks, &Occurrence::what) != jump.what.end();
+  const bool stuck = happened(jump, Happened::sticks);
   for (std::size_t i = 0; i < masses.size(); ++i) {
     const double taken = limits_.rest_at_contacts(i) + (stuck ? limits_.rest_in_space(i) : 0.0);
     findings.weigh(Law::impulse, {Subject::Kind::coordinate, i}, jump.time, std::abs(residual[i]),
@@ -52,16 +60,18 @@ void ImpactLaws::check_momentum(const System& acting, const Jump& jump, Findings
   }
 }
 
-/// An impulse of the accuracy of momenta is none.
+/// An impulse of the accuracy of momenta is none. Where impacts accumulate, what brings their remainder to
+/// rest also makes up for the impulses of other forces until then: it has no sign.
 void ImpactLaws::check_carriers(const Jump& jump, Findings& findings) const {
   const double most = largest(jump.impulses), limit = limits_.relative(most);
   if (most == 0.0) return;
+  const bool accumulated = happened(jump, Happened::rested);
   for (const Layout::Constraint& c : stated_->layout()->constraints) {
     for (const std::size_t r : c.own_rows()) {
       double wrong = 0.0;
       if (!stated_->in_force(r) || stated_->law(r).compliant() || c.holds.roughness)
         wrong = std::abs(jump.impulses[r]);
-      else if (c.holds.contact)
+      else if (c.holds.contact && !accumulated)
         wrong = std::max(-c.holds.contact->sign() * jump.impulses[r], 0.0);
       findings.weigh(Law::impulse_carrier, {Subject::Kind::row, r}, jump.time, wrong, limit);
       if (!c.holds.contact || std::abs(jump.impulses[r]) <= limit) continue;
@@ -86,10 +96,7 @@ double ImpactLaws::speed_limit(const System& acting, std::size_t r, const Jump& 
 }
 
 void ImpactLaws::check_restitution(const Jump& jump, Findings& findings) const {
-  const auto several = [](const Occurrence& one) {
-    return one.what == Happened::rested || one.what == Happened::event;
-  };
-  if (std::ranges::any_of(jump.what, several)) return;
+  if (happened(jump, Happened::rested) || happened(jump, Happened::event)) return;  // several impacts in one
   const double none = limits_.relative(largest(jump.impulses));
   for (const Layout::Constraint& c : stated_->layout()->constraints) {
     const std::size_t r = c.own_rows().front();

@@ -8,6 +8,13 @@
 
 namespace dalembert {
 
+namespace {
+
+/// Of errors of steps, by the motion and by what estimates them.
+constexpr double growth = 10.0;
+
+}  // namespace
+
 bool conservative(const System& system) {
   return !system.rheonomic() && !system.frictional() && system.damping_pattern().empty();
 }
@@ -99,18 +106,23 @@ void WorkBalance::check(const FlatSample& sample, const Claim& claim, Findings& 
   if (!watches_) return;
   limits_.set(claim);
   const double gain = sample.energy - energy_, size = falls_ ? std::max(gain, 0.0) : std::abs(gain);
-  double limit = limits_.accuracy * (changes_ + last_) + second_order() + limits_.round_off * size_;
-  if (size > limit) limit += work_of_errors(sample);
-  findings.weigh(Law::work, {}, sample.time, size, limit);
+  double other = second_order() + limits_.round_off * size_;
+  if (size > limits_.accuracy * (changes_ + last_) + other) other += work_of_errors(sample);
+  weigh(sample.time, size, changes_ + last_, other, findings);
+}
+
+void WorkBalance::weigh(double time, double size, double changes, double other, Findings& findings) {
+  if (size > limits_.accuracy * changes + other) shown_ = std::max(shown_, (size - other) / changes);
+  findings.weigh(Law::work, {}, time, size, growth * limits_.accuracy * changes + other);
 }
 
 void WorkBalance::check(const FlatSample& sample, double work, double error, const Claim& claim,
                         Findings& findings) {
   limits_.set(claim);
   const double T = stated_->kinetic_energy(sample.v);
-  const double limit = limits_.accuracy * (changes_ - changes_before_ + 2.0 * last_) + second_order() +
-                       error + limits_.round_off * (T + kinetic_ + size_);
-  findings.weigh(Law::work, {}, sample.time, std::abs(T - kinetic_ - work), limit);
+  const double other = second_order() + error + limits_.round_off * (T + kinetic_ + size_);
+  weigh(sample.time, std::abs(T - kinetic_ - work), changes_ - changes_before_ + 2.0 * last_, other,
+        findings);
 }
 
 void WorkBalance::accept(const FlatSample& sample) {
