@@ -15,9 +15,6 @@ namespace {
 /// How closely the reversal of a friction is located, as a fraction of the way between the states given.
 constexpr double next_to = 1e-9;
 
-/// In a step that resolves them accelerations are of the size that they have at its ends.
-constexpr double most_change = 10.0;
-
 /// to = the point at `part` of the way from a to b.
 void between(const Motion& a, const Motion& b, double part, Motion& to) {
   to.t = a.t + part * (b.t - a.t);
@@ -124,37 +121,12 @@ void Sticking::require_no_stop() {
   const double step = now_.t - last_.t;
   find_slope(last_, side_);
   find_slope(now_, near_);
-  if (const auto friction = switches_.turned(side_, near_)) {
-    require_passable(*friction, step);
-    return look_ahead(last_, step);
-  }
+  if (switches_.turned(side_, near_)) return look_ahead(last_, step);
   now_.a.resize(now_.v.size());
   for (std::size_t i = 0; i < now_.v.size(); ++i) now_.a[i] = (now_.v[i] - last_.v[i]) / step;
   move(now_, step, trial_);
   find_slope(trial_, far_);
   if (switches_.turned(near_, far_)) look_ahead(now_, std::min(step, soon_));
-}
-
-/// That the sliding came to rest where it turned, and did not jump: near a state without acceleration the
-/// step changes velocities by more than the accelerations at both its ends explain. Throws.
-void Sticking::require_passable(std::size_t friction, double step) {
-  const auto size = [this](const std::vector<double>& x, const std::vector<double>* from) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      const double part = from == nullptr ? x[i] : x[i] - (*from)[i];
-      sum += system_->masses()[i] * part * part;
-    }
-    return std::sqrt(sum);
-  };
-  trial_ = last_;
-  if (!accelerate(trial_, near_) || !accelerate(now_, far_)) return;
-  const double most = std::max(size(trial_.a, nullptr), size(now_.a, nullptr));
-  if (size(now_.v, &last_.v) <= most_change * step * most) return;
-  throw StepFailure{
-      switches_.friction(friction) +
-          " changes the multiplier that it reads so strongly that there is no acceleration, or no "
-          "unique one (Painleve's paradox); make the friction smaller, or end the run before",
-      last_.t};
 }
 
 /// Whether the sliding velocity vanishes so soon.

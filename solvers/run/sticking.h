@@ -56,7 +56,6 @@ class Sticking {
  private:
   void require_leaving();
   void require_no_stop();
-  void require_passable(std::size_t friction, double step);
   void find_slope(const Motion& at, Slope& side);
   bool accelerate(Motion& at, Slope& side);
   void require_sliding(const Motion& before, Motion& behind);
