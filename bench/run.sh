@@ -7,14 +7,14 @@ case ${1:-} in
   '')
     work_precision=(--repeat 5) scaling=(--size 10,100,1000,10000) ratios=() leave_out=() extremes=() audit=()
     sensitivity=() chart=()
-    kernels=(--benchmark_min_time=0.2)
+    kernels=(--benchmark_min_time=0.2) products=20000
     ;;
   --quick)
     work_precision=(--repeat 1) scaling=(--size 10,100)
     ratios=(--scene plane-pendulum,cone,double-pendulum --repeat 1) leave_out=(--size 10 --repeat 1)
     extremes=(--quick) audit=(--quick --repeat 1 --tolerance 1e-6)
     sensitivity=(--constant safety,share_of_a_step) chart=(--points 20)
-    kernels=(--benchmark_min_time=0.001)
+    kernels=(--benchmark_min_time=0.001) products=20
     ;;
   *) echo "usage: bench/run.sh [--quick]" >&2 && exit 2 ;;
 esac
@@ -57,6 +57,9 @@ $bench leave-out --stepper ida,erk --csv $report/leave-out.csv "${leave_out[@]}"
 kernels_bench=build/release/bench/dalembert-kernels # not built where Google Benchmark is not found
 [[ ! -x $kernels_bench ]] ||
   $kernels_bench --benchmark_out=$report/kernels.json --benchmark_out_format=json "${kernels[@]}"
+
+cmake --build --preset release --target dalembert-fuzz
+build/release/tests/dalembert-fuzz --family products --scenes $products --pairs $report/pairs.csv || status=$?
 
 echo "Report in $report/:" $report/*
 exit $status
