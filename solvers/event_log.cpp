@@ -202,7 +202,7 @@ Transitions::Change EventLog::change_scene(const FlatSample& at, Stepping& stepp
   if (next.system->rows() != at.lambda.size() || next.system->coordinates() != at.q.size() ||
       next.system->layout()->forces.size() != stepping.system().layout()->forces.size())
     refuse("its change adds to the scene; add everything before the run, and release or impose it there");
-  if (auditor_ != nullptr) auditor_->restate(next.system);
+  if (auditor_ != nullptr) auditor_->restate(at.time, next.system);
   const Problem always(next.system->without(next.system->conditional()));
   std::vector<double> v = next.v;
   const auto impulses = take_over(always, stepping.start().scales, at.time, next.q, v, stepping.tolerance());

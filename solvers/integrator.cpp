@@ -178,7 +178,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
     const std::string suspect = stepping.unbounded_multiplier();
     auto kept = std::make_shared<Record>(record);
     kept->statistics = statistics();
-    kept->dense = stepping.dense(std::min(time, reached()));
+    kept->dense = dense(std::min(time, reached()));
     keep_ledger(*kept);
     if (log) log->write(*kept);
     std::ostringstream what;
@@ -197,6 +197,11 @@ struct DALEMBERT_HIDDEN Integrator::State {
       s.accuracy = std::max(s.accuracy, auditor->accuracy());
     }
     return s;
+  }
+
+  [[nodiscard]] std::shared_ptr<const DenseOutput> dense(double end) {
+    auto steps = stepping.dense(end);
+    return auditor ? auditor->watch(std::move(steps)) : steps;
   }
 
   void keep_ledger(Record& of) const {
@@ -298,7 +303,7 @@ std::shared_ptr<const Record> Integrator::run() {
   // The samples are handed over, not copied: they may be most of the memory.
   auto record = std::make_shared<Record>(std::exchange(s.record, s.empty_record()));
   record->statistics = s.statistics();
-  record->dense = s.stepping.dense(s.reached());
+  record->dense = s.dense(s.reached());
   s.keep_ledger(*record);
   if (s.log) s.log->write(*record);
   return record;

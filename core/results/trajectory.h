@@ -126,7 +126,7 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   ///   run.at({1.234}).position(bob, 0);
   ///
   /// Throws InvalidArgument without that option, and outside the run; EquationFault where an equation goes
-  /// wrong or nothing can be read.
+  /// wrong or nothing can be read, and where a law is broken (see Options::audit).
   [[nodiscard]] Trajectory at(std::span<const double> times) const;
   [[nodiscard]] Trajectory at(std::initializer_list<double> times) const {
     return at(std::span(times.begin(), times.size()));

@@ -3,7 +3,6 @@
 #include <dalembert/solvers/base/step_failure.h>
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
 namespace dalembert {
@@ -14,7 +13,8 @@ Auditor::Auditor(std::shared_ptr<const System> stated, const Options& options, C
       claims_(std::move(claims)),
       samples_(stated_, claims_(false)),
       impacts_(stated_, claims_(false)),
-      balance_(stated_, claims_(false)) {
+      balance_(stated_, claims_(false)),
+      history_{{options.t_start, stated_}} {
   if (!options.ledger) return;
   ledger_.emplace(stated_);
   ledger_->begin(options.t_start);
@@ -29,14 +29,7 @@ void Auditor::judge(const Check& check) {
   all_.count();
   check(claims_(true), all_);
   if (!all_.violated() || audited_ != Audited::error) return;
-  const Findings::Case& worst = all_.violation();
-  std::ostringstream what;
-  what << "the result breaks a law of mechanics, " << name(all_.violated_law()) << ": "
-       << worst.subject.label(*stated_) << " by " << worst.size << " where " << worst.limit
-       << " is allowed; try a tighter tolerance or the other stepper, or let the option audit = "
-          "Audited::report "
-          "show what follows";
-  throw StepFailure{what.str(), worst.time};
+  throw StepFailure{all_.message(*stated_), all_.violation().time};
 }
 
 void Auditor::begin(const FlatSample& sample) {
@@ -81,12 +74,18 @@ void Auditor::jump(const Jump& jump, const FlatSample& after) {
   begin(after);
 }
 
-void Auditor::restate(std::shared_ptr<const System> stated) {
+void Auditor::restate(double time, std::shared_ptr<const System> stated) {
   stated_ = std::move(stated);
+  history_.push_back({time, stated_});
   samples_ = SampleLaws(stated_, claims_(false));
   impacts_ = ImpactLaws(stated_, claims_(false));
   balance_ = WorkBalance(stated_, claims_(false));
   if (ledger_) ledger_->restate(stated_);
+}
+
+std::shared_ptr<const DenseOutput> Auditor::watch(std::shared_ptr<const DenseOutput> run) const {
+  if (run == nullptr || audited_ != Audited::error) return run;
+  return std::make_shared<AuditedDense>(std::move(run), history_, claims_(true));
 }
 
 }  // namespace dalembert

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/solvers/audit/audited_dense.h>
 #include <dalembert/solvers/audit/impact_laws.h>
 #include <dalembert/solvers/audit/ledger_keeper.h>
 #include <dalembert/solvers/audit/sample_laws.h>
@@ -9,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace DALEMBERT_HIDDEN dalembert {
 
@@ -33,13 +35,15 @@ class Auditor {
   void follow(double time, const LedgerKeeper::Read& read);
   /// A change of a constraint or of the scene, from the last sample to `after`.
   void jump(const Jump& jump, const FlatSample& after);
-  /// The scene states this from here on.
-  void restate(std::shared_ptr<const System> stated);
+  /// The scene states this from a time on.
+  void restate(double time, std::shared_ptr<const System> stated);
 
   /// A sample is handed out.
   void keep(const FlatSample& sample) {
     if (ledger_) ledger_->keep(sample);
   }
+  /// Dense output that obeys the laws where it is read, if the options ask for that.
+  [[nodiscard]] std::shared_ptr<const DenseOutput> watch(std::shared_ptr<const DenseOutput> run) const;
   [[nodiscard]] Audit read() const { return all_.read(*stated_); }
   /// The accuracy that the balance of work shows, where that is not the one claimed; else 0.
   [[nodiscard]] double accuracy() const { return shown_; }
@@ -60,6 +64,7 @@ class Auditor {
   double kinetic_ = 0.0;  // of the last sample
   double shown_ = 0.0;
   bool begun_ = false;
+  std::vector<Stated> history_;
   Findings all_;
 };
 

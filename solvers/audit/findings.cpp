@@ -1,5 +1,6 @@
 #include "dalembert/solvers/audit/findings.h"
 
+#include <sstream>
 #include <utility>
 
 namespace dalembert {
@@ -29,6 +30,15 @@ Audit Findings::read(const System& system) const {
       audit.worst.push_back({static_cast<Law>(k), one.subject.label(system), one.time, one.size, one.limit});
   }
   return audit;
+}
+
+std::string Findings::message(const System& system) const {
+  std::ostringstream what;
+  what << "the result breaks a law of mechanics, " << name(law_) << ": " << violation_.subject.label(system)
+       << " by " << violation_.size << " where " << violation_.limit
+       << " is allowed; try a tighter tolerance or the other stepper, or let the option audit = "
+          "Audited::report show what follows";
+  return what.str();
 }
 
 }  // namespace dalembert

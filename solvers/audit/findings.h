@@ -34,7 +34,6 @@ class Findings {
   }
   /// Whether there has been any since then, and the worst of those that count.
   [[nodiscard]] bool violated() const { return violated_; }
-  [[nodiscard]] Law violated_law() const { return law_; }
   [[nodiscard]] const Case& violation() const { return violation_; }
 
   /// What is NaN is not determined, and no case.
@@ -49,6 +48,8 @@ class Findings {
     if (size > limit) add_violation(law, worst);
   }
   [[nodiscard]] Audit read(const System& system) const;
+  /// What to say of that violation.
+  [[nodiscard]] std::string message(const System& system) const;
 
  private:
   void add_violation(Law law, const Case& one);

@@ -1,4 +1,5 @@
 #include <dalembert/dalembert.h>
+#include <dalembert/solvers/audit/audited_dense.h>
 #include <dalembert/solvers/audit/auditor.h>
 
 #include <gmock/gmock.h>
@@ -369,6 +370,61 @@ TEST(Audit, IsReadFromARunUnlessItIsOff) {
   EXPECT_FALSE(run.audit().worst.empty());
   const auto unlooked = simulate(right.scene, {.t_end = 0.5, .samples = 6, .audit = Audited::off});
   EXPECT_TRUE(unlooked.audit().worst.empty());
+}
+
+/// Dense output whose rods are longer after 0.3.
+class Stretched final : public DenseOutput {
+ public:
+  explicit Stretched(Trajectory<2> run) : run_(std::move(run)) {}
+  void read(std::span<const double> times, Record& out) const override {
+    const auto read = run_.at(times);
+    for (std::size_t i = 0; i < read.size(); ++i) {
+      Numbers now(read.sample(i).flat());
+      if (now.time > 0.3)
+        for (double& q : now.q) q *= 1.0 + fault;
+      out.append(now.flat());
+    }
+  }
+
+ private:
+  Trajectory<2> run_;
+};
+
+TEST(Audit, FindsWhatDenseOutputGetsWrong) {
+  const TwoRods rods;
+  const auto run = simulate(rods.scene, {.t_end = 0.5, .samples = 2, .tolerance = tolerance, .dense = true});
+  const auto system = std::make_shared<const System>(rods.scene.system());
+  const AuditedDense audited(std::make_shared<Stretched>(run), {{0.0, system}}, claim);
+  Record out;
+  out.layout = system->layout();
+  audited.read(std::vector{0.1, 0.2}, out);
+  EXPECT_EQ(out.times.size(), 2U);
+  try {
+    audited.read(std::vector{0.25, 0.4}, out);
+    FAIL() << "nobody noticed";
+  } catch (const EquationFault& found) {
+    EXPECT_THAT(found.what(), testing::HasSubstr(name(Law::position)));
+    EXPECT_THAT(found.what(), testing::HasSubstr("rod"));
+  }
+}
+
+TEST(Audit, ReadsDenseOutputByWhatTheSceneStatedThen) {
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    Scene<2> scene("fall");
+    const auto gravity = scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto ball = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}}, "ball");
+    const Event<2> weaker{"weaker", [](const auto& now) { return now.time() - 0.25; }, Crossing::rising,
+                          false,
+                          [=](Scene<2>& s) {
+                            s.replace(gravity, UniformGravity<2>{{0.0, -0.1 * g}});
+                          }};
+    const Options options{
+        .t_end = 0.5, .samples = 2, .tolerance = tolerance, .stepper = stepper, .length = 1.0, .dense = true};
+    const auto read = simulate(scene, options, {weaker}).at({0.1, 0.25, 0.4});
+    EXPECT_NEAR(read.acceleration(ball, 0).y(), -g, 1e-13 * g);
+    EXPECT_NEAR(read.acceleration(ball, 1).y(), -g, 1e-13 * g);
+    EXPECT_NEAR(read.acceleration(ball, 2).y(), -0.1 * g, 1e-13 * g);
+  }
 }
 
 /// A potential that says V = x to who asks for its gradient, and V = 0 to who asks for its value.
