@@ -10,7 +10,7 @@ namespace dalembert {
 
 namespace {
 
-/// Of errors of steps, by the motion and by what estimates them.
+/// Of what estimates add up to, over what errors may; and once more in a single step.
 constexpr double growth = 10.0;
 
 }  // namespace
@@ -37,7 +37,7 @@ void WorkBalance::begin(double time, double energy, std::span<const double> v) {
   time_ = checked_ = time;
   energy_ = energy;
   kinetic_ = stated_->kinetic_energy(v);
-  changes_ = changes_before_ = last_ = 0.0;
+  changes_ = changes_before_ = last_ = worst_ = 0.0;
   size_ = std::abs(energy);
   std::ranges::copy(v, v_.begin());
 }
@@ -53,6 +53,7 @@ void WorkBalance::step(double time, std::span<const double> v) {
     v_[i] = v[i];
   }
   changes_ += last_;
+  worst_ = std::max(worst_, last_);
 }
 
 /// What is left of (1) at rest, and in springs.
@@ -113,7 +114,8 @@ void WorkBalance::check(const FlatSample& sample, const Claim& claim, Findings& 
 
 void WorkBalance::weigh(double time, double size, double changes, double other, Findings& findings) {
   if (size > limits_.accuracy * changes + other) shown_ = std::max(shown_, (size - other) / changes);
-  findings.weigh(Law::work, {}, time, size, growth * limits_.accuracy * changes + other);
+  const double grown = growth * (changes + growth * worst_);
+  findings.weigh(Law::work, {}, time, size, limits_.accuracy * grown + other);
 }
 
 void WorkBalance::check(const FlatSample& sample, double work, double error, const Claim& claim,

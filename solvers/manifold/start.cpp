@@ -5,6 +5,7 @@
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/manifold/first_scales.h>
 #include <dalembert/solvers/manifold/manifold.h>
+#include <dalembert/solvers/manifold/singular_start.h>
 
 #include <algorithm>
 #include <cmath>
@@ -148,6 +149,17 @@ void start_velocities(const System& system, const Start& start, const System::Ev
   }
 }
 
+void require_regular(const Problem& problem, const Start& start, double t) {
+  const auto row = singular_row(problem, start, t);
+  if (!row) return;
+  throw InconsistentStart(
+      problem.system().row_label(*row) +
+      " depends on the other constraints at the start, but not beside it: that is a singular position, where "
+      "the "
+      "motion has several branches, and its accelerations and forces of constraint are not determined; start "
+      "beside it");
+}
+
 }  // namespace
 
 Start consistent_start(const Problem& problem, std::span<const double> q, std::span<const double> v,
@@ -190,6 +202,7 @@ Start consistent_start(const Problem& problem, std::span<const double> q, std::s
     }
     require_satisfied(system, violation, rounding_of_the_user * speed_of(system, manifold.equations(), start),
                       t, "speed");
+    require_regular(problem, start, t);
     require_consistent_accelerations(system, manifold, start, v, t);
     start.scales.time = time_scale(system, manifold.equations(), start, duration);
   } catch (const EquationFault& fault) {

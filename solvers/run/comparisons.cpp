@@ -207,6 +207,19 @@ double Comparisons::margin_ahead(std::size_t k, const Motion& from, double ahead
   return hear(other_.instant(), &held_, heard_) ? margin(margins_[k]) : -unknown;
 }
 
+/// What roundings of the coordinates, up and down by turns, make of a margin.
+double Comparisons::rounding(std::size_t k, const Motion& at) {
+  const double here = margin_ahead(k, at, 0.0);
+  double most = 0.0;
+  for (const std::size_t turns : {1, 2, 3}) {
+    move(at, 0.0, other_);
+    for (std::size_t i = 0; i < at.q.size(); ++i)
+      other_.q[i] *= i / turns % 2 == 0 ? 1.0 + epsilon : 1.0 - epsilon;
+    if (hear(other_.instant(), &held_, heard_)) most = std::max(most, std::abs(margin(margins_[k]) - here));
+  }
+  return most;
+}
+
 Comparisons::Switch Comparisons::behind(const Root& root, double step) {
   Switch one{};
   one.margin = root.margin;
@@ -214,6 +227,7 @@ Comparisons::Switch Comparisons::behind(const Root& root, double step) {
   one.distance = std::abs(margin_at(root.margin, root.t));
   one.at = motion_;
   if (!accelerate(one.at, held_)) throw linearly_dependent(root.t);
+  one.distance = std::max(one.distance, rounding(root.margin, one.at));
   one.ahead = 16.0 * epsilon * std::max(std::abs(root.t), scales_.time);
   while (one.ahead < 1e-3 * step) {
     const double margin = margin_ahead(root.margin, one.at, one.ahead);

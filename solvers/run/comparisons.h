@@ -40,7 +40,7 @@ class Comparisons {
   struct Switch {
     Motion at;               ///< with the accelerations before it
     std::size_t margin;      ///< that was left
-    double distance;         ///< of it from 0
+    double distance;         ///< of it from 0, or what round-off makes of it
     double ahead;            ///< the time after which it is clearly behind
     double step;             ///< that it was found in
     Branches::Sides behind;  ///< the sides there
@@ -82,6 +82,7 @@ class Comparisons {
   void find_margins(double t, bool sketched, std::vector<double>& all);
   [[nodiscard]] double margin_at(std::size_t k, double t);
   [[nodiscard]] double margin_ahead(std::size_t k, const Motion& from, double ahead);
+  [[nodiscard]] double rounding(std::size_t k, const Motion& at);
 
   [[nodiscard]] const std::vector<std::size_t>& suspects(double to);
   [[nodiscard]] std::optional<Bracket> first_root(std::size_t k, double to);

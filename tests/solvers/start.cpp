@@ -195,5 +195,45 @@ TEST(Start, OfAFrameThatIsDrivenFollowsItsDrive) {
   EXPECT_LE((run.position(node[3], 1) - r[3] - moved).norm(), 100.0 * epsilon);
 }
 
+/// A four-bar linkage with equal opposite sides of 1 and 2, stretched out: a parallelogram and its opposite
+/// branch meet there, with (t - u)(3 t + u) = 0 for the rates t, u of the two cranks.
+Scene<2> stretched_out(double t, double u) {
+  Scene<2> scene("stretched out");
+  scene.add(UniformGravity<2>{{0.0, -1.0}});
+  const auto a = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}, .velocity = {0.0, t}}, "a");
+  const auto b = scene.add_particle({.mass = 1.0, .position = {3.0, 0.0}, .velocity = {0.0, u}}, "b");
+  scene.add(Distance{Fixed<2>{{0.0, 0.0}}, a, 1.0}, "crank");
+  scene.add(Distance{a, b, 2.0}, "coupler");
+  scene.add(Distance{Fixed<2>{{2.0, 0.0}}, b, 1.0}, "rocker");
+  return scene;
+}
+
+TEST(Start, AtASingularPositionIsAnErrorThatSaysSo) {
+  for (const auto& [t, u] :
+       std::array<std::array<double, 2>, 4>{{{1.0, 1.0}, {1.0, -3.0}, {1.0, -1.0}, {0.0, 0.0}}})
+    for (const Stepper stepper : {Stepper::ida, Stepper::erk})
+      EXPECT_THAT([&] { (void)simulate(stretched_out(t, u), {.t_end = 1.0, .stepper = stepper}); },
+                  ThrowsMessage<InconsistentStart>(AllOf(
+                      HasSubstr("singular position"), HasSubstr("Distance"), HasSubstr("start beside it"))))
+          << t << ' ' << u;
+}
+
+TEST(Start, WithRedundantConstraintsIsNoSingularPosition) {
+  // A parallelogram with a third crank, and a rod twice: they depend on the others wherever it is.
+  Scene<2> scene("three cranks");
+  scene.add(UniformGravity<2>{{0.0, -1.0}});
+  const auto joint = [&](double x) {
+    return scene.add_particle({.mass = 1.0, .position = {x + 0.6, 0.8}, .velocity = {0.8, -0.6}});
+  };
+  const auto a = joint(0.0), b = joint(2.0), c = joint(5.0);
+  for (const double x : {0.0, 2.0, 5.0})
+    scene.add(Distance{Fixed<2>{{x, 0.0}}, x == 0.0 ? a : x == 2.0 ? b : c, 1.0});
+  scene.add(Distance{a, b, 2.0});
+  scene.add(Distance{b, c, 3.0});
+  scene.add(Distance{a, c, 5.0});
+  scene.add(Distance{a, b, 2.0});
+  EXPECT_EQ(simulate(scene, {.t_end = 1.0}).statistics().degrees_of_freedom, 1);
+}
+
 }  // namespace
 }  // namespace dalembert::start_test
