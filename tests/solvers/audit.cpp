@@ -335,10 +335,14 @@ TEST(AuditOfWork, FindsEnergyThatChangesBetweenSamples) {
   const auto system = std::make_shared<const System>(scene.scene.system());
   Falsified<2> later(scene.scene);
   const FlatSample start = later.run.sample(0).flat();
-  for (const double gain : {0.0, 1e-3, -1e-3}) {
+  for (const double gain : {0.0, 1e-2, -1e-2}) {  // of 20
     WorkBalance balance(system, claim);
     balance.begin(start.time, start.energy, start.v);
-    for (int i = 1; i <= 100; ++i) balance.step(0.005 * i, later.now.v);  // as many as an explicit run has
+    for (int i = 1; i <= 100; ++i) {  // as many as an explicit run has
+      std::vector<double> v = later.now.v;
+      for (double& each : v) each *= 0.01 * i;
+      balance.step(0.005 * i, v);
+    }
     Numbers now = later.now;
     now.energy += gain;
     Findings findings;
