@@ -423,7 +423,7 @@ TEST(Audit, ReadsDenseOutputByWhatTheSceneStatedThen) {
                             s.replace(gravity, UniformGravity<2>{{0.0, -0.1 * g}});
                           }};
     const Options options{
-        .t_end = 0.5, .samples = 2, .tolerance = tolerance, .stepper = stepper, .length = 1.0, .dense = true};
+        .t_end = 0.5, .samples = 2, .tolerance = tolerance, .stepper = stepper, .dense = true, .length = 1.0};
     const auto read = simulate(scene, options, {weaker}).at({0.1, 0.25, 0.4});
     EXPECT_NEAR(read.acceleration(ball, 0).y(), -g, 1e-13 * g);
     EXPECT_NEAR(read.acceleration(ball, 1).y(), -g, 1e-13 * g);
