@@ -2,6 +2,7 @@
 
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/linear/rows.h>
+#include <dalembert/solvers/manifold/first_scales.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,42 +24,73 @@ void add_row(const System& system, std::span<const double> entries, std::size_t 
   for (const std::size_t k : system.row(row)) force[system.w_columns()[k]] += factor * entries[k];
 }
 
+/// The dependences of rows on the active ones along a motion.
+class Dependences {
+ public:
+  Dependences(const Problem& problem, const Start& start, std::span<const double> along, double t)
+      : system_(problem.system()),
+        active_(start.rows.rows.begin(),
+                start.rows.rows.begin() + static_cast<std::ptrdiff_t>(start.rows.holonomic)),
+        e_(system_.evaluation()),
+        change_(system_.linearisation()),
+        rate_(start.scales.largest(along)),
+        matrix_(problem.pattern(active_)),
+        others_(system_.coordinates()) {
+    const Instant at{t, start.q, along};
+    system_.evaluate(at, e_);
+    system_.linearise_constraints(at, std::vector<double>(system_.rows()), change_);
+    regular_ = matrix_.factorise({.w = e_.w});
+  }
+
+  /// Whether a row depends on them here, but not where the motion leads.
+  [[nodiscard]] bool ends(std::size_t r) {
+    if (!regular_ || std::ranges::find(active_, r) != active_.end()) return false;
+    std::vector<double> x(matrix_.size());
+    add_row(system_, e_.w, r, 1.0, x);
+    const double turning = rate_ * norm(system_, x);
+    matrix_.solve(x);  // u: 1 for the row, and the multipliers found for the others
+    std::ranges::fill(others_, 0.0);
+    for (std::size_t j = 0; j < active_.size(); ++j)
+      add_row(system_, change_.psi_q, active_[j], x[others_.size() + j], others_);
+    std::ranges::fill(x, 0.0);
+    add_row(system_, change_.psi_q, r, 1.0, x);
+    const double scale = std::max({turning, norm(system_, x), norm(system_, others_)});
+    for (std::size_t i = 0; i < others_.size(); ++i) x[i] += others_[i];
+    matrix_.solve(x);
+    double left = 0.0;
+    for (std::size_t i = 0; i < others_.size(); ++i) left += system_.masses()[i] * x[i] * x[i];
+    // Positions are known to rank_threshold at best, and so is the residue of a sum that is 0.
+    return std::sqrt(left) > std::sqrt(rank_threshold) * scale;
+  }
+
+ private:
+  const System& system_;
+  std::vector<std::size_t> active_;
+  System::Evaluation e_;
+  System::Linearisation change_;  // psi_q: dW/dt
+  double rate_;
+  SaddleMatrix matrix_;
+  std::vector<double> others_;
+  bool regular_ = false;
+};
+
+bool begins_to_move(const System& system, const Start& start, double t) {
+  auto e = system.evaluation();
+  system.evaluate({t, start.q, start.v}, e);
+  const double forced = start.scales.largest(forced_acceleration(system, e));
+  return start.scales.largest(start.a) > rank_threshold * forced;
+}
+
 }  // namespace
 
 std::optional<std::size_t> singular_row(const Problem& problem, const Start& start, double t) {
   const System& system = problem.system();
   if (start.rows.size() == system.rows_in_force()) return std::nullopt;
-  const std::vector<std::size_t> active(
-      start.rows.rows.begin(), start.rows.rows.begin() + static_cast<std::ptrdiff_t>(start.rows.holonomic));
-  const auto& along = largest(start.v) > 0.0 ? start.v : start.a;
-  auto e = system.evaluation();
-  auto change = system.linearisation();
-  system.evaluate({t, start.q, along}, e);
-  system.linearise_constraints({t, start.q, along}, std::vector<double>(system.rows()), change);
-  SaddleMatrix matrix(problem.pattern(active));
-  if (!matrix.factorise({.w = e.w})) return std::nullopt;
-  const std::size_t n = system.coordinates();
-  // Positions are known to rank_threshold at best, and so is the residue of a sum that is 0.
-  const double known = std::sqrt(rank_threshold);
-  std::vector<double> x(matrix.size()), others(n);
-  for (std::size_t r = 0; r < system.holonomic_rows(); ++r) {
-    if (!system.in_force(r) || system.law(r).compliant() || std::ranges::find(active, r) != active.end())
-      continue;
-    std::ranges::fill(x, 0.0);
-    add_row(system, e.w, r, 1.0, x);
-    matrix.solve(x);  // u: 1 here, and the multipliers found of the others
-    std::ranges::fill(others, 0.0);
-    for (std::size_t j = 0; j < active.size(); ++j)
-      add_row(system, change.psi_q, active[j], x[n + j], others);
-    std::ranges::fill(x, 0.0);
-    add_row(system, change.psi_q, r, 1.0, x);
-    const double scale = std::max(norm(system, x), norm(system, others));
-    for (std::size_t i = 0; i < n; ++i) x[i] += others[i];
-    matrix.solve(x);
-    double left = 0.0;
-    for (std::size_t i = 0; i < n; ++i) left += system.masses()[i] * x[i] * x[i];
-    if (std::sqrt(left) > known * scale) return r;
-  }
+  const bool at_rest = largest(start.v) == 0.0;
+  if (at_rest && !begins_to_move(system, start, t)) return std::nullopt;
+  Dependences dependences(problem, start, at_rest ? start.a : start.v, t);
+  for (std::size_t r = 0; r < system.holonomic_rows(); ++r)
+    if (system.in_force(r) && !system.law(r).compliant() && dependences.ends(r)) return r;
   return std::nullopt;
 }
 
