@@ -48,6 +48,7 @@ void KeptSteps::add(TimeStepper& stepper, double from, long number) {
   steps_.push_back(step);
 }
 
+/// At the time of a change, the one before it; at the start, what goes on behind those there.
 const KeptSteps::Step& KeptSteps::step_at(double t) const {
   if (!(t >= steps_.front().from && t <= steps_.back().end)) {
     std::ostringstream what;
@@ -55,7 +56,9 @@ const KeptSteps::Step& KeptSteps::step_at(double t) const {
          << steps_.back().end;
     throw InvalidArgument(what.str());
   }
-  return *std::ranges::lower_bound(steps_, t, {}, &Step::end);
+  if (t > steps_.front().from) return *std::ranges::lower_bound(steps_, t, {}, &Step::end);
+  const auto first = std::ranges::upper_bound(steps_, t, {}, &Step::end);
+  return first == steps_.end() ? steps_.back() : *first;
 }
 
 void KeptSteps::interpolate(const Step& step, double t, Moment& m, Springs& springs) const {
