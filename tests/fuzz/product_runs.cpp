@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 /// One motion by all the ways in which a scene may be stated and run.
 namespace dalembert::fuzz {
@@ -55,8 +56,11 @@ std::string step_by_step(Draft<D>& draft, const Ending<D>& one) {
   const std::vector<double> scale = units(draft.scene.system(), s.length);
   for (std::size_t i = 0; i < now.q.size(); ++i) {
     // The same steps: where one was interrupted by a sample nothing else begins.
-    if (std::abs(now.q[i] - last.q[i]) > error_of_run * s.accuracy * scale[i])
-      return "step by step it ends elsewhere";
+    const double apart = std::abs(now.q[i] - last.q[i]), bound = error_of_run * s.accuracy * scale[i];
+    if (!(apart > bound)) continue;
+    std::ostringstream what;
+    what << "step by step it ends " << apart << " from there, bound " << bound;
+    return what.str();
   }
   return {};
 }
