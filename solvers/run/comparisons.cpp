@@ -211,7 +211,7 @@ double Comparisons::margin_ahead(std::size_t k, const Motion& from, double ahead
 double Comparisons::rounding(std::size_t k, const Motion& at) {
   const double here = margin_ahead(k, at, 0.0);
   double most = 0.0;
-  for (const std::size_t turns : {1, 2, 3}) {
+  for (const std::size_t turns : {1U, 2U, 3U}) {
     move(at, 0.0, other_);
     for (std::size_t i = 0; i < at.q.size(); ++i)
       other_.q[i] *= i / turns % 2 == 0 ? 1.0 + epsilon : 1.0 - epsilon;
