@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 namespace dalembert {
@@ -27,7 +28,11 @@ void AuditedDense::read(std::span<const double> times, Record& out) const {
     const Stated* own = &*std::prev(behind);
     if (std::exchange(last, own) != own) laws.emplace(own->system, claim_);
     laws->check(out.sample(i), claim_, findings);
-    if (findings.violated()) throw EquationFault(findings.message(*own->system));
+    if (!findings.violated()) continue;
+    std::ostringstream what;
+    what.precision(10);
+    what << "at(" << out.times[i] << "): " << findings.message(*own->system);
+    throw EquationFault(what.str());
   }
 }
 

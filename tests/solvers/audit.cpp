@@ -407,6 +407,7 @@ TEST(Audit, FindsWhatDenseOutputGetsWrong) {
     audited.read(std::vector{0.25, 0.4}, out);
     FAIL() << "nobody noticed";
   } catch (const EquationFault& found) {
+    EXPECT_THAT(found.what(), testing::HasSubstr("at(0.4)"));
     EXPECT_THAT(found.what(), testing::HasSubstr(name(Law::position)));
     EXPECT_THAT(found.what(), testing::HasSubstr("rod"));
   }
