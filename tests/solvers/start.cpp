@@ -209,13 +209,15 @@ Scene<2> stretched_out(double t, double u) {
 }
 
 TEST(Start, AtASingularPositionIsAnErrorThatSaysSo) {
-  for (const auto& [t, u] :
-       std::array<std::array<double, 2>, 4>{{{1.0, 1.0}, {1.0, -3.0}, {1.0, -1.0}, {0.0, 0.0}}})
+  using Rates = std::array<double, 2>;
+  for (const Rates& rates : {Rates{1.0, 1.0}, Rates{1.0, -3.0}, Rates{1.0, -1.0}, Rates{0.0, 0.0}}) {
+    const Scene<2> scene = stretched_out(rates[0], rates[1]);
     for (const Stepper stepper : {Stepper::ida, Stepper::erk})
-      EXPECT_THAT([&] { (void)simulate(stretched_out(t, u), {.t_end = 1.0, .stepper = stepper}); },
+      EXPECT_THAT([&] { (void)simulate(scene, {.t_end = 1.0, .stepper = stepper}); },
                   ThrowsMessage<InconsistentStart>(AllOf(
                       HasSubstr("singular position"), HasSubstr("Distance"), HasSubstr("start beside it"))))
-          << t << ' ' << u;
+          << rates[0] << ' ' << rates[1];
+  }
 }
 
 TEST(Start, WithRedundantConstraintsIsNoSingularPosition) {
