@@ -9,7 +9,6 @@
 #include <Eigen/Core>
 
 #include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -119,13 +118,14 @@ class Contacts {
   [[nodiscard]] std::shared_ptr<const System> only(const std::vector<std::size_t>& in_force) const;
   void solve_impact(const Coupling& coupling, const std::vector<std::size_t>& touching, double t,
                     Eigen::VectorXd& U, Change& change) const;
-  /// Of impacts that accumulate, and the last interval between two.
+  /// Of the impacts that accumulate in an island, and the last interval between two.
   struct Limit {
+    std::size_t island;
     double time, interval;
   };
-  [[nodiscard]] std::map<std::size_t, Limit> limits_of_impacts(const Change& change, const Instant& at);
+  [[nodiscard]] std::vector<Limit> limits_of_impacts(const Change& change, const Instant& at);
   void rest(const Coupling& coupling, const std::vector<std::size_t>& touching,
-            const std::map<std::size_t, Limit>& limits, Eigen::VectorXd& U, Change& change) const;
+            const std::vector<Limit>& limits, Eigen::VectorXd& U, Change& change) const;
   std::vector<Eigen::Index> open_separating(const std::vector<std::size_t>& touched, const Eigen::VectorXd& U,
                                             double t, Change& change);
   [[nodiscard]] double still(const Contact& contact) const;

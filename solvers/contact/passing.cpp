@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <optional>
 
 /// Contacts at an instant at which they change: impacts, and what is closed after them.
@@ -69,10 +68,10 @@ void Contacts::solve_impact(const Coupling& coupling, const std::vector<std::siz
 }
 
 /// Notes the impacts; the islands where they accumulate, and when they end there.
-std::map<std::size_t, Contacts::Limit> Contacts::limits_of_impacts(const Change& change, const Instant& at) {
+std::vector<Contacts::Limit> Contacts::limits_of_impacts(const Change& change, const Instant& at) {
   const double t = at.t;
   find_gaps(at);
-  std::map<std::size_t, Limit> limits;
+  std::vector<Limit> limits;
   for (const Happening& happening : change.what) {
     Contact& c = contacts_[happening.contact];
     Accumulation& impacts = c.impacts;
@@ -80,16 +79,19 @@ std::map<std::size_t, Contacts::Limit> Contacts::limits_of_impacts(const Change&
     if (!std::isfinite(impacts.limit()) ||
         std::abs(psi_[c.row]) * impacts.left() > tolerance_ * scales_.length * c.gradient)
       continue;
-    Limit& limit = limits.try_emplace(c.island, Limit{t, impacts.interval()}).first->second;
-    limit.time = std::max(limit.time, impacts.limit());
+    auto limit = std::ranges::find(limits, c.island, &Limit::island);
+    if (limit == limits.end()) limit = limits.insert(limit, {c.island, t, impacts.interval()});
+    limit->time = std::max(limit->time, impacts.limit());
   }
   return limits;
 }
 
 /// Brings all rates in these islands to 0, after the impacts there.
 void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& touching,
-                    const std::map<std::size_t, Limit>& limits, VectorXd& U, Change& change) const {
-  const auto limit_of = [&](std::size_t contact) { return limits.find(contacts_[contact].island); };
+                    const std::vector<Limit>& limits, VectorXd& U, Change& change) const {
+  const auto limit_of = [&](std::size_t contact) {
+    return std::ranges::find(limits, contacts_[contact].island, &Limit::island);
+  };
   std::erase_if(change.what, [&](const Happening& one) { return limit_of(one.contact) != limits.end(); });
   const VectorXd rates = coupling.rates(change.v);
   VectorXd P = VectorXd::Zero(U.size());
@@ -99,7 +101,7 @@ void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& to
     if (limit == limits.end()) continue;
     P(island) = dense::least_squares(coupling.S(island), -rates(island), rank_threshold);
     U(island).setZero();
-    for (const std::size_t i : its) change.what.push_back({i, Happened::rested, limit->second.time});
+    for (const std::size_t i : its) change.what.push_back({i, Happened::rested, limit->time});
   }
   std::ranges::sort(change.what, {}, &Happening::contact);
   coupling.apply_impulses(P, change.v, change.impulses);
@@ -172,8 +174,8 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
     solve_impact(*coupling, touched, at.t, U, change);
     if (const auto limits = limits_of_impacts(change, at); !limits.empty()) {
       for (std::size_t i = 0; i < contacts_.size(); ++i) {
-        const auto limit = limits.find(contacts_[i].island);
-        if (limit != limits.end() && contacts_[i].impacts.last() >= at.t - limit->second.interval &&
+        const auto limit = std::ranges::find(limits, contacts_[i].island, &Limit::island);
+        if (limit != limits.end() && contacts_[i].impacts.last() >= at.t - limit->interval &&
             !among(touched, i))
           touched.push_back(i);
       }
