@@ -8,6 +8,7 @@
 #include <boost/math/special_functions/bessel.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -37,6 +38,37 @@ void long_chain(int beads, std::vector<models::Compared>& all) {
     const double rounding = 10.0 * std::numeric_limits<double>::epsilon() * 4.0 * g * N * N / (rope * rope);
     all.push_back({"chain-" + std::to_string(beads), "omega " + std::to_string(k + 1), found.frequency(k),
                    rope, j * j / (6.0 * n * n) + rounding});
+  }
+}
+
+/// The ten lowest of N rotors in a line with damping a M + b K: s^2 + (a + b omega^2) s + omega^2 = 0. An s
+/// is known to some roundings of the largest K over 2 |s|. The time is printed.
+void damped_line(int rotors, std::vector<models::Compared>& all) {
+  const double n = rotors + 1.0, k = n * n, a = 0.3, b = 1e-3;
+  Scene<2> scene("damped line");
+  std::vector<Rotor> line;
+  for (int i = 0; i < rotors; ++i) {
+    line.push_back(scene.add_rotor({.inertia = 1.0}));
+    const double wall = i == 0 || i + 1 == rotors ? k : 0.0, drag = a + b * wall;
+    scene.add(force_law(points(line.back()),
+                        [wall, drag](auto x, auto v) { return vec(-wall * x[0] - drag * v[0]); }));
+    if (i == 0) continue;
+    scene.add(force_law(points(line[line.size() - 2], line.back()), [k, b](auto x, auto y, auto v, auto w) {
+      const auto force = k * (y[0] - x[0]) + b * k * (w[0] - v[0]);
+      return std::make_tuple(vec(force), vec(-force));
+    }));
+  }
+  const auto rest = equilibrium(scene);
+  const auto start = std::chrono::steady_clock::now();
+  const auto found = normal_modes(scene, rest, {.lowest = 10});
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  std::cout << "ten damped modes of " << rotors << " coordinates: " << time.count() << " s\n";
+  for (std::size_t j = 0; j < found.size(); ++j) {
+    const double omega = 2.0 * n * std::sin(static_cast<double>(j + 1) * std::acos(-1.0) / (2.0 * n));
+    const double d = (a + b * omega * omega) / 2.0, vibration = std::sqrt(omega * omega - d * d);
+    const double rounding = 100.0 * std::numeric_limits<double>::epsilon() * 4.0 * k / (omega * vibration);
+    all.push_back({"damped-line-" + std::to_string(rotors), "omega " + std::to_string(j + 1),
+                   found.frequency(j), vibration, rounding});
   }
 }
 
@@ -153,6 +185,7 @@ int modes(const ModesTable& options) {
   require_writable(options.report);
   auto all = models::small_motions();
   long_chain(options.beads, all);
+  damped_line(options.beads, all);
   branches(all);
   two_formulations(models::cross_checks(), all);
   two_formulations(models::equivalent_lagrangians(), all);

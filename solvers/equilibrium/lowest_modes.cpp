@@ -3,6 +3,8 @@
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
+#include <dalembert/solvers/equilibrium/quadratic_modes.h>
+#include <dalembert/solvers/linear/dense.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
@@ -10,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <random>
+#include <sstream>
 
 namespace dalembert {
 
@@ -24,13 +26,17 @@ struct Pair {
   Vector x;       // M^1/2 u, of unit length
 };
 
+Vector root_of_masses(const System& system) {
+  return Eigen::Map<const Vector>(system.masses().data(), static_cast<Index>(system.coordinates()))
+      .cwiseSqrt();
+}
+
 /// The operator T on x = M^1/2 u, where it is symmetric in the usual sense.
 class Inverse {
  public:
   Inverse(const System& system, const LinearTerms& terms, double s)
       : shift(s),
-        root_(Eigen::Map<const Vector>(system.masses().data(), static_cast<Index>(system.coordinates()))
-                  .cwiseSqrt()),
+        root_(root_of_masses(system)),
         rows_(independent_rows(system, terms.w)),
         matrix_(system, rows_, terms, s),
         y_(system.coordinates() + rows_.size()) {
@@ -45,7 +51,6 @@ class Inverse {
     matrix_.solve(y_);
     return root_.cwiseProduct(Eigen::Map<const Vector>(y_.data(), n));
   }
-  [[nodiscard]] Vector shape(const Vector& x) const { return x.cwiseQuotient(root_); }
   [[nodiscard]] Index size() const { return root_.size(); }
 
   const double shift;
@@ -62,13 +67,6 @@ void orthogonalise(Vector& x, std::span<const Vector> basis, std::span<const Pai
     for (const Pair& pair : found) x -= pair.x.dot(x) * pair.x;
     for (const Vector& b : basis) x -= b.dot(x) * b;
   }
-}
-
-Vector random_vector(Index n, unsigned seed) {
-  std::mt19937 generator(seed);  // the engine's numbers are the standard's, its distributions' are not
-  Vector x(n);
-  for (Index i = 0; i < n; ++i) x[i] = static_cast<double>(generator()) / 4294967296.0 - 0.5;
-  return x;
 }
 
 /// The matrix that T has on the vectors so far, tridiagonal, and how well its eigenvalues are known.
@@ -100,7 +98,7 @@ std::vector<Pair> lanczos(Inverse& T, std::span<const Pair> found, std::size_t w
   constexpr std::size_t most_vectors = 400, between_looks = 5;
   std::vector<Vector> basis;
   std::vector<double> diagonal, below;
-  Vector x = T(random_vector(T.size(), seed));  // into the tangent space
+  Vector x = T(generic_vector(T.size(), seed));  // into the tangent space
   const double whole = x.norm();
   orthogonalise(x, basis, found);
   if (!(x.norm() > 1e-10 * whole)) return {};
@@ -150,6 +148,14 @@ double stiffest(const System& system, const LinearTerms& terms) {
     const double m = std::sqrt(system.masses()[entry.row()] * system.masses()[entry.col()]);
     largest = std::max(largest, std::abs(entry.value()) / m);
   }
+  for (std::size_t r = 0; r < system.rows(); ++r) {
+    const double C = system.law(r).compliance;
+    if (C == 0.0) continue;  // a spring: w w^T/C
+    double square = 0.0;
+    for (const std::size_t k : system.row(r))
+      square += terms.w[k] * terms.w[k] / system.masses()[system.w_columns()[k]];
+    largest = std::max(largest, square / C);
+  }
   return largest;
 }
 
@@ -184,15 +190,11 @@ bool nothing_below(const System& system, const LinearTerms& terms, double s, dou
   return ldl.info() == Eigen::Success && ldl.vectorD().minCoeff() > 0.0;
 }
 
-void require_conservative(const System& system, const LinearTerms& terms, std::size_t wanted) {
-  const bool damped = std::ranges::any_of(terms.damping, [](const auto& d) { return d.value() != 0.0; });
+void require_suitable(const System& system, std::size_t wanted) {
   const char* why = nullptr;
   if (wanted == 0) why = "all modes are too many; set the option lowest";
-  if (damped) why = "so many are analysed only without damping and without rotation";
   if (system.holonomic_rows() < system.rows())
     why = "so many are analysed only without nonholonomic constraints";
-  if (circulatory(terms, system.coordinates()).nonZeros() > 0)
-    why = "so many are analysed only where all forces have a potential";
   if (why == nullptr) return;
   throw InvalidScene("Normal modes of scene \"" + system.layout()->scene + "\" with " +
                      std::to_string(system.coordinates()) + " coordinates: " + why);
@@ -210,38 +212,166 @@ void require_all(const System& system, const LinearTerms& terms, std::size_t fou
                      " converged; ask for fewer");
 }
 
-}  // namespace
-
-Modes lowest_modes(const System& system, const LinearTerms& terms, std::size_t wanted) {
-  require_conservative(system, terms, wanted);
-  const double largest = stiffest(system, terms);
-  const double s = largest > 0.0 ? constants.shift_below_0 * largest : 1.0;
+/// The lowest eigenvalues of K, of which there is a symmetric one.
+std::vector<Pair> lowest_of_stiffness(const System& system, const LinearTerms& terms, double s,
+                                      std::size_t wanted) {
   Inverse T(system, terms, s);
   auto pairs = lowest_pairs(T, wanted);
   require_all(system, terms, pairs.size(), wanted);
   pairs.resize(std::min(pairs.size(), wanted));
   std::ranges::sort(pairs, {}, [](const Pair& p) { return p.square; });
+  return pairs;
+}
 
+/// Its largest number 1.
+Mode scaled_mode(std::complex<double> eigenvalue, Eigen::VectorXcd u) {
+  Index most = 0;
+  (void)u.cwiseAbs().maxCoeff(&most);
+  u /= std::complex<double>(u[most]);
+  return {eigenvalue, {u.begin(), u.end()}, false};
+}
+
+Modes conservative_modes(const System& system, const LinearTerms& terms, double s, double largest,
+                         std::size_t wanted) {
   Modes found{{}, Stability::stable, "every vibration has positive energy"};
   if (!nothing_below(system, terms, s, largest)) {
     found.stability = Stability::undecided;
     found.reason = "it could not be proved that no mode grows fast";
   }
   const double zero = roundings_of_a_sum * epsilon * largest;
-  for (const Pair& pair : pairs) {
-    const Vector u = T.shape(pair.x);
-    Index most = 0;
-    (void)u.cwiseAbs().maxCoeff(&most);
+  for (const Pair& pair : lowest_of_stiffness(system, terms, s, wanted)) {
+    const Vector u = pair.x.cwiseQuotient(root_of_masses(system));
     std::complex<double> eigenvalue = std::sqrt(std::complex<double>(-pair.square));
     if (std::abs(pair.square) <= zero) eigenvalue = 0.0;
-    Mode mode{{std::abs(eigenvalue.real()), std::abs(eigenvalue.imag())}, {}, false};
-    for (const double x : u) mode.shape.emplace_back(x / u[most]);
-    if (mode.eigenvalue.real() > 0.0) {
+    eigenvalue = {std::abs(eigenvalue.real()), std::abs(eigenvalue.imag())};
+    if (eigenvalue.real() > 0.0) {
       found.stability = Stability::unstable;
-      found.reason = "a mode grows as exp(" + std::to_string(mode.eigenvalue.real()) + " t)";
+      found.reason = "a mode grows as exp(" + std::to_string(eigenvalue.real()) + " t)";
     }
-    found.modes.push_back(std::move(mode));
+    found.modes.push_back(scaled_mode(eigenvalue, u.cast<std::complex<double>>()));
   }
+  return found;
+}
+
+/// Whether damping adds no energy: the symmetric part of C is positive semi-definite, each coordinate scaled
+/// by its own so that a strong damper hides no weak negative one.
+bool is_dissipative(const System& system, const LinearTerms& terms) {
+  const auto n = static_cast<Index>(system.coordinates());
+  LinearTerms::Entries entries, sizes;
+  for (const auto& d : terms.damping) {
+    for (const auto& [i, j] : {std::pair(d.row(), d.col()), std::pair(d.col(), d.row())}) {
+      entries.emplace_back(i, j, d.value() / 2.0);
+      sizes.emplace_back(i, j, std::abs(d.value()) / 2.0);
+    }
+  }
+  Eigen::SparseMatrix<double> D(n, n), size(n, n);
+  D.setFromTriplets(entries.begin(), entries.end());
+  size.setFromTriplets(sizes.begin(), sizes.end());
+  constexpr double rounding = roundings_of_a_sum * epsilon;
+  D.prune([&](Index i, Index j, double value) { return std::abs(value) > rounding * size.coeff(i, j); });
+  const Vector own = D.diagonal();
+  Vector scale = Vector::Zero(n);
+  for (Index i = 0; i < n; ++i) {
+    if (own[i] < 0.0 || (own[i] == 0.0 && D.col(i).nonZeros() > 0)) return false;
+    scale[i] = own[i] > 0.0 ? 1.0 / std::sqrt(own[i]) : 0.0;
+  }
+  D = (scale.asDiagonal() * D * scale.asDiagonal()).eval();
+  Eigen::SparseMatrix<double> I(n, n);
+  I.setIdentity();
+  D += rounding * I;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldl(D);
+  return ldl.info() == Eigen::Success && ldl.vectorD().minCoeff() > 0.0;
+}
+
+/// Eigenvalues s with |s| <= `zero` that free motions have: one each, and one more where it goes on for ever,
+/// undamped: -s of those of U^T C U, with U^T M U = 1.
+std::size_t zeros_of(const System& system, const LinearTerms& terms, std::span<const Pair> free,
+                     double zero) {
+  const auto n = static_cast<Index>(system.coordinates()), count = static_cast<Index>(free.size());
+  Eigen::SparseMatrix<double> C(n, n);
+  C.setFromTriplets(terms.damping.begin(), terms.damping.end());
+  Eigen::MatrixXd U(n, count);
+  for (Index k = 0; k < count; ++k)
+    U.col(k) = free[static_cast<std::size_t>(k)].x.cwiseQuotient(root_of_masses(system));
+  const Eigen::MatrixXd Z = U.transpose() * (C * U);
+  if (count == 0) return 0;
+  const Eigen::VectorXcd slow = dense::eigenvalues(Z);
+  return free.size() + static_cast<std::size_t>(std::ranges::count_if(
+                           slow, [&](std::complex<double> z) { return std::abs(z) <= zero; }));
+}
+
+/// With an energy that no damping increases and that is positive, all modes decay or vibrate (Kelvin, Tait;
+/// Chetaev), known or not. Otherwise only those that are known can be judged.
+void judge_many(Modes& found, const char* why_not) {
+  if (why_not == nullptr) return;
+  found.stability = Stability::undecided;
+  std::ostringstream text;
+  const auto grows =
+      std::ranges::max_element(found.modes, {}, [](const Mode& m) { return m.eigenvalue.real(); });
+  text << "of the " << found.modes.size() << " modes that were asked for ";
+  if (grows == found.modes.end() || grows->eigenvalue.real() <= 0.0) {
+    text << "none grows; others may, since " << why_not;
+  } else {
+    text << "one of " << grows->eigenvalue.imag() << " rad/time would grow as exp("
+         << grows->eigenvalue.real() << " t), which is not known to exceed round-off";
+  }
+  found.reason = text.str();
+}
+
+Modes damped_modes(const System& system, const LinearTerms& terms, double s, double largest,
+                   std::size_t wanted) {
+  const bool potential = circulatory(terms, system.coordinates()).nonZeros() == 0;
+  std::vector<Pair> lowest;
+  if (potential) lowest = lowest_of_stiffness(system, terms, s, wanted);
+  const double zero_square = roundings_of_a_sum * epsilon * largest, zero = std::sqrt(zero_square);
+  const bool positive = std::ranges::all_of(lowest, [&](const Pair& p) { return p.square >= -zero_square; });
+  std::vector<Pair> free;
+  double unit = std::sqrt(s);
+  for (const Pair& pair : lowest) {
+    if (std::abs(pair.square) <= zero_square) free.push_back(pair);
+  }
+  // K is regular without free motions, and then the lowest are those nearest to 0.
+  const double sigma = potential && free.empty() ? 0.0 : unit;
+  if (sigma == 0.0) unit = std::sqrt(std::abs(lowest.front().square));
+
+  Modes found{{}, Stability::stable, "every mode decays or vibrates with positive energy"};
+  for (const Pair& pair : free) {
+    const Vector u = pair.x.cwiseQuotient(root_of_masses(system));
+    found.modes.push_back(scaled_mode(0.0, u.cast<std::complex<double>>()));
+  }
+  if (free.size() < wanted) {
+    const double counts_as_zero = sigma == 0.0 ? 0.0 : zero;
+    const auto all = nearest_solutions(system, terms, sigma, unit, counts_as_zero, wanted - free.size());
+    std::size_t zeros = 0;
+    for (const QuadraticPair& pair : all) {
+      if (std::abs(pair.s) <= counts_as_zero) ++zeros;
+      if (std::abs(pair.s) > counts_as_zero && pair.s.imag() >= 0.0 && found.modes.size() < wanted)
+        found.modes.push_back(scaled_mode(pair.s, pair.u));
+    }
+    if (zeros != zeros_of(system, terms, free, zero))
+      throw InvalidScene("Normal modes of scene \"" + system.layout()->scene +
+                         "\": it cannot be told which of the lowest eigenvalues are 0 beside the largest "
+                         "stiffness; leave out what is stiff and does not act on them, or make it rigid");
+  }
+  const char* why_not = nullptr;
+  if (!positive || !nothing_below(system, terms, s, largest))
+    why_not = "the stiffness is not known to be positive";
+  if (!is_dissipative(system, terms)) why_not = "damping adds energy to some motions";
+  if (!potential) why_not = "some forces have no potential";
+  judge_many(found, why_not);
+  return found;
+}
+
+}  // namespace
+
+Modes lowest_modes(const System& system, const LinearTerms& terms, std::size_t wanted) {
+  require_suitable(system, wanted);
+  const double largest = stiffest(system, terms);
+  const double s = largest > 0.0 ? constants.shift_below_0 * largest : 1.0;
+  const bool damped = std::ranges::any_of(terms.damping, [](const auto& d) { return d.value() != 0.0; });
+  const bool potential = circulatory(terms, system.coordinates()).nonZeros() == 0;
+  Modes found = damped || !potential ? damped_modes(system, terms, s, largest, wanted)
+                                     : conservative_modes(system, terms, s, largest, wanted);
   std::ranges::stable_sort(found.modes, {}, [](const Mode& m) { return std::abs(m.eigenvalue); });
   return found;
 }

@@ -6,7 +6,7 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// The lowest modes of a large scene at rest, without damping: with s > 0 small,
+/// The lowest modes of a large scene. Without damping and rotation, with s > 0 small,
 ///
 ///   [ K + s M  -W^T ] [ u ]   [ M x ]
 ///   [ W         c   ] [ y ] = [  0  ],      u = T x,      T u = u/(omega^2 + s),                  (1)
@@ -17,8 +17,13 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// finds nothing as low. s, a ten millionth of the largest K/M, keeps (1) regular where there are free
 /// motions; that K + s M + rho W^T W has an L D L^T with D > 0 proves that nothing is below -s.
 ///
-/// Throws InvalidScene if the scene is damped, has nonholonomic rows or forces without a potential (K must be
-/// symmetric), if no number of modes is wanted or fewer than wanted converge.
+/// With damping, Coriolis forces or forces without a potential: `nearest_solutions` of the quadratic problem.
+/// (1) then finds the free motions, one mode each, and whether K is positive: with damping that adds no
+/// energy all modes are then stable (Kelvin, Tait; Chetaev), those that were not found too. Without such an
+/// energy the verdict is undecided: what some modes tell is not told of all.
+///
+/// Throws InvalidScene if the scene has nonholonomic rows, no number of modes is wanted, fewer than wanted
+/// converge, or an eigenvalue 0 cannot be told from others.
 [[nodiscard]] Modes lowest_modes(const System& system, const LinearTerms& terms, std::size_t wanted);
 
 }  // namespace dalembert

@@ -30,7 +30,7 @@ struct Modes {
 };
 
 struct ModesOptions {
-  /// How many modes are wanted, those of the lowest frequencies; 0: all, for up to 600 coordinates.
+  /// How many modes are wanted, those of least |eigenvalue|; 0: all, for up to 600 coordinates.
   std::size_t lowest = 0;
 };
 
@@ -116,9 +116,12 @@ extern template class NormalModes<3>;
 /// otherwise undecided: an eigenvalue 0 that is no free motion (a bifurcation), or a vibration of negative
 /// energy that is stabilised by gyroscopic forces only.
 ///
-/// Up to 600 coordinates by dense matrices: all modes. Beyond that the lowest, by Lanczos' method on the
-/// inverse of (1), with memory in proportion to the size of the scene, for scenes at rest, without damping,
-/// nonholonomic constraints and forces that have no potential.
+/// Up to 600 coordinates by dense matrices: all modes. Beyond that the `lowest`, by shift and invert with
+/// memory in proportion to the size of the scene: Lanczos' method if (1) is symmetric and undamped, else
+/// Arnoldi's on the quadratic problem, each pair checked in (1). Runs from new vectors, deflated by what is
+/// known, until one finds nothing as low: no proof that none is missed. The verdict is then of all modes only
+/// where an energy proves it: forces with a potential, H + M A^2 positive, damping that adds no energy. Where
+/// it does not, it is undecided and says how many modes were looked at. Not for nonholonomic constraints.
 ///
 /// Uncoupled parts of a scene are judged separately. The numbers of a part's K are known to round-off of the
 /// largest: within that an eigenvalue is undecided, or 0 and tried.

@@ -4,6 +4,9 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
+#include <cmath>
+#include <complex>
+
 namespace dalembert::dense {
 
 using Eigen::MatrixXcd;
@@ -22,6 +25,32 @@ ComplexEigen complex_eigen(const MatrixXd& A) {
 }
 
 VectorXcd eigenvalues(const MatrixXd& A) { return Eigen::EigenSolver<MatrixXd>(A, false).eigenvalues(); }
+
+/// Neighbours on the diagonal change places by one rotation (LAPACK's ztrexc).
+Schur ordered_schur(const MatrixXd& A) {
+  const Eigen::ComplexSchur<MatrixXd> schur(A);
+  Schur s{schur.matrixT(), schur.matrixU()};
+  const Eigen::Index n = A.rows();
+  for (Eigen::Index sorted = 1; sorted < n; ++sorted) {
+    for (Eigen::Index k = sorted; k > 0 && std::abs(s.T(k, k)) > std::abs(s.T(k - 1, k - 1)); --k) {
+      const std::complex<double> first = s.T(k - 1, k - 1), second = s.T(k, k);
+      Eigen::JacobiRotation<std::complex<double>> rotation;
+      rotation.makeGivens(s.T(k - 1, k), second - first);
+      s.T.applyOnTheLeft(k - 1, k, rotation.adjoint());
+      s.T.applyOnTheRight(k - 1, k, rotation);
+      s.U.applyOnTheRight(k - 1, k, rotation);
+      s.T(k, k - 1) = 0.0;
+      s.T(k - 1, k - 1) = second;
+      s.T(k, k) = first;
+    }
+  }
+  return s;
+}
+
+MatrixXd orthonormal(const MatrixXd& columns, Eigen::Index rank) {
+  return Eigen::ColPivHouseholderQR<MatrixXd>(columns).householderQ() *
+         MatrixXd::Identity(columns.rows(), rank);
+}
 
 MatrixXd least_squares(const MatrixXd& A, const MatrixXd& b, double threshold) {
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> qr(A.rows(), A.cols());

@@ -23,6 +23,15 @@ struct ComplexEigen {
 [[nodiscard]] ComplexEigen complex_eigen(const Eigen::MatrixXd& A);
 [[nodiscard]] Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A);
 
+/// A = U T U^H with T upper triangular and |t_11| >= |t_22| >= ...: the first columns of U span an invariant
+/// subspace each.
+struct Schur {
+  Eigen::MatrixXcd T, U;
+};
+[[nodiscard]] Schur ordered_schur(const Eigen::MatrixXd& A);
+/// An orthonormal basis of the span of some columns, of known rank.
+[[nodiscard]] Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns, Eigen::Index rank);
+
 /// The shortest x of those for which |A x - b| is least; what makes a smaller part of A's largest pivot than
 /// `threshold` counts as dependent.
 [[nodiscard]] Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b,

@@ -263,15 +263,106 @@ TEST(LowestModes, FindFreeMotionsAndWhatGrows) {
   EXPECT_NE(unstable.stability(), Stability::stable);
 }
 
-TEST(LowestModes, AreRefusedWithDampingAndWithoutANumber) {
+TEST(LowestModes, AreRefusedWithoutANumberAndWithNonholonomicRows) {
   Scene<3> scene = chain(201);
   const auto rest = equilibrium(scene);
   EXPECT_THAT([&] { (void)normal_modes(scene, rest); }, ThrowsMessage<InvalidScene>(HasSubstr("lowest")));
-  const auto bead = scene.add_particle({.mass = 1.0});
-  scene.add(LinearDrag{bead, 1.0});
-  scene.add(Distance{Fixed<3>{{0.0, 0.0, 1.0}}, bead, 1.0});
-  EXPECT_THAT([&] { (void)normal_modes(scene, equilibrium(scene), {.lowest = 3}); },
-              ThrowsMessage<InvalidScene>(HasSubstr("damping")));
+}
+
+/// Rotors in a line with springs of stiffness k between them and to the walls, damping a M + b K.
+struct DampedLine {
+  std::size_t count;
+  double k, a, b;
+
+  [[nodiscard]] Scene<2> scene() const {
+    Scene<2> line("line");
+    std::vector<Rotor> all;
+    for (std::size_t i = 0; i < count; ++i) all.push_back(line.add_rotor({.inertia = 1.0}));
+    for (std::size_t i = 0; i < count; ++i) {
+      const double wall = i == 0 || i + 1 == count ? k : 0.0, d = a + b * wall;
+      line.add(force_law(points(all[i]), [=](auto x, auto v) { return vec(-wall * x[0] - d * v[0]); }));
+      if (i == 0) continue;
+      line.add(force_law(points(all[i - 1], all[i]),
+                         [stiffness = k, damper = b * k](auto x, auto y, auto v, auto w) {
+                           const auto force = stiffness * (y[0] - x[0]) + damper * (w[0] - v[0]);
+                           return std::make_tuple(vec(force), vec(-force));
+                         }));
+    }
+    return line;
+  }
+  /// omega = 2 sqrt(k) sin(j pi/(2 N + 2)), s^2 + (a + b omega^2) s + omega^2 = 0.
+  [[nodiscard]] std::complex<double> eigenvalue(std::size_t j) const {
+    const double angle = static_cast<double>(j) * std::acos(-1.0) / (2.0 * static_cast<double>(count) + 2.0);
+    const double omega = 2.0 * std::sqrt(k) * std::sin(angle), d = (a + b * omega * omega) / 2.0;
+    return -d + std::sqrt(std::complex<double>(d * d - omega * omega));
+  }
+};
+
+TEST(LowestModes, OfALineWithRayleighDampingSolveOneQuadraticEach) {
+  // Either eigenvalue is known to roundings of the largest of K, 4 k, over 2 |s|.
+  constexpr std::size_t N = 1000;
+  const double n = N + 1.0;
+  const DampedLine line{N, n * n, 0.3, 1e-3};
+  const auto scene = line.scene();
+  const auto modes = normal_modes(scene, equilibrium(scene), {.lowest = 10});
+  ASSERT_EQ(modes.size(), 10U);
+  EXPECT_EQ(modes.stability(), Stability::stable) << modes.describe();
+  for (std::size_t j = 0; j < 10; ++j) {
+    const auto s = line.eigenvalue(j + 1);
+    EXPECT_LT(std::abs(modes.eigenvalue(j) - s), 100 * epsilon * 4.0 * line.k / std::abs(s)) << j;
+  }
+}
+
+TEST(LowestModes, ThatDampingSustainsAreNotStable) {
+  // Damping of -2 d over a unit of inertia: modes grow as exp(d t), and others might too.
+  const DampedLine line{601, 1.0, -0.002, 0.0};
+  const auto scene = line.scene();
+  const auto modes = normal_modes(scene, equilibrium(scene), {.lowest = 3});
+  EXPECT_NE(modes.stability(), Stability::stable);
+  EXPECT_THAT(modes.describe(), HasSubstr("of the 3 modes that were asked for"));
+}
+
+/// Both methods, which share the terms alone, on a scene that is small enough for the dense one.
+template <int D>
+void expect_as_dense(const Scene<D>& scene, const Turning<D>& turning, std::size_t wanted, double highest) {
+  const auto state = equilibrium(scene, {.turning = turning});
+  const FlatSample at = state.sample().flat();
+  const System system = scene.system();
+  const LinearTerms terms =
+      linear_terms(system, RotatingFrame(*system.layout(), turning), {at.time, at.q, at.v}, at.lambda);
+  const Modes dense = dense_modes(system, terms), sparse = lowest_modes(system, terms, wanted);
+  ASSERT_EQ(sparse.modes.size(), wanted);
+  EXPECT_EQ(sparse.stability, dense.stability) << sparse.reason << " / " << dense.reason;
+  for (std::size_t k = 0; k < wanted; ++k) {
+    const auto s = dense.modes[k].eigenvalue, found = sparse.modes[k].eigenvalue;
+    // Those of equal modulus may stand in another order: the nearest of the dense ones.
+    double nearest = std::abs(found - s);
+    for (const Mode& other : dense.modes) nearest = std::min(nearest, std::abs(found - other.eigenvalue));
+    EXPECT_LE(nearest, 1e3 * epsilon * highest / std::max(std::abs(s), 1e-3)) << k;
+    EXPECT_NEAR(std::abs(found), std::abs(s), 1e3 * epsilon * highest / std::max(std::abs(s), 1e-3)) << k;
+  }
+}
+
+TEST(LowestModes, WithOneDashpotAreThoseOfTheDenseMatrix) {
+  for (const double damper : {0.5, 50.0}) {
+    Scene<3> scene = chain(40);
+    const auto extra = scene.add_particle({.mass = 0.1, .position = {0.5, 0.0, -1.0}});
+    scene.add(LinearDrag{extra, damper});
+    scene.add(Distance{Fixed<3>{{0.5, 0.0, 0.0}}, extra, 1.0});
+    expect_as_dense<3>(scene, {}, 8, 4.0 * 40 * 40);
+  }
+}
+
+TEST(LowestModes, OfATurningChainHaveCoriolisForces) {
+  // Beads on a radius, held by springs to the ground of the turning frame and to each other.
+  Scene<2> scene("turning");
+  std::vector<Particle<2>> beads;
+  for (int i = 0; i < 40; ++i) {
+    beads.push_back(scene.add_particle({.mass = 1.0, .position = {1.0 + 0.1 * i, 0.0}}));
+    scene.add(Spring{Fixed<2>{}, beads.back(), 4.0, 0.5});
+    if (i > 0) scene.add(Spring{beads[beads.size() - 2], beads.back(), 100.0, 0.05});
+  }
+  expect_as_dense<2>(scene, {.rate = 0.3, .centre = {0.0, 0.0}}, 6, 400.0);
 }
 
 /// The residual of motion in the rotating frame at displacements u and rates w of it:
