@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <sstream>
 
 namespace dalembert {
@@ -302,18 +303,19 @@ std::size_t zeros_of(const System& system, const LinearTerms& terms, std::span<c
 
 /// With an energy that no damping increases and that is positive, all modes decay or vibrate (Kelvin, Tait;
 /// Chetaev), known or not. Otherwise only those that are known can be judged.
-void judge_many(Modes& found, const char* why_not) {
+void judge_many(Modes& found, const std::optional<QuadraticPair>& fastest, const char* why_not) {
   if (why_not == nullptr) return;
-  found.stability = Stability::undecided;
   std::ostringstream text;
-  const auto grows =
-      std::ranges::max_element(found.modes, {}, [](const Mode& m) { return m.eigenvalue.real(); });
-  text << "of the " << found.modes.size() << " modes that were asked for ";
-  if (grows == found.modes.end() || grows->eigenvalue.real() <= 0.0) {
-    text << "none grows; others may, since " << why_not;
+  found.stability = Stability::undecided;
+  if (!fastest) {
+    text << "of the " << found.modes.size() << " modes that were asked for none grows; others may, since "
+         << why_not;
+  } else if (fastest->s.real() > fastest->error) {
+    found.stability = Stability::unstable;
+    text << "a mode of " << fastest->s.imag() << " rad/time grows as exp(" << fastest->s.real() << " t)";
   } else {
-    text << "one of " << grows->eigenvalue.imag() << " rad/time would grow as exp("
-         << grows->eigenvalue.real() << " t), which is not known to exceed round-off";
+    text << "it cannot be told whether a mode of " << fastest->s.imag() << " rad/time grows as exp("
+         << fastest->s.real() << " t), since that is known to " << fastest->error;
   }
   found.reason = text.str();
 }
@@ -339,6 +341,7 @@ Modes damped_modes(const System& system, const LinearTerms& terms, double s, dou
     const Vector u = pair.x.cwiseQuotient(root_of_masses(system));
     found.modes.push_back(scaled_mode(0.0, u.cast<std::complex<double>>()));
   }
+  std::optional<QuadraticPair> fastest;
   if (free.size() < wanted) {
     const double counts_as_zero = sigma == 0.0 ? 0.0 : zero;
     const auto all = nearest_solutions(system, terms, sigma, unit, counts_as_zero, wanted - free.size());
@@ -347,6 +350,10 @@ Modes damped_modes(const System& system, const LinearTerms& terms, double s, dou
       if (std::abs(pair.s) <= counts_as_zero) ++zeros;
       if (std::abs(pair.s) > counts_as_zero && pair.s.imag() >= 0.0 && found.modes.size() < wanted)
         found.modes.push_back(scaled_mode(pair.s, pair.u));
+      const double sure = pair.s.real() - pair.error;
+      if (std::abs(pair.s) > counts_as_zero && pair.s.real() > 0.0 && pair.s.imag() >= 0.0 &&
+          (!fastest || sure > fastest->s.real() - fastest->error))
+        fastest = pair;
     }
     if (zeros != zeros_of(system, terms, free, zero))
       throw InvalidScene("Normal modes of scene \"" + system.layout()->scene +
@@ -358,7 +365,7 @@ Modes damped_modes(const System& system, const LinearTerms& terms, double s, dou
     why_not = "the stiffness is not known to be positive";
   if (!is_dissipative(system, terms)) why_not = "damping adds energy to some motions";
   if (!potential) why_not = "some forces have no potential";
-  judge_many(found, why_not);
+  judge_many(found, fastest, why_not);
   return found;
 }
 

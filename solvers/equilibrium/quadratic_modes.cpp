@@ -5,11 +5,14 @@
 #include <dalembert/solvers/equilibrium/mass_metric.h>
 #include <dalembert/solvers/linear/dense.h>
 
+#include <Eigen/SparseLU>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <span>
+#include <sstream>
 #include <string>
 
 namespace dalembert {
@@ -65,7 +68,6 @@ class QuadraticInverse {
   [[nodiscard]] Index size() const { return 2 * root_.size(); }
   [[nodiscard]] const Vector& root() const { return root_; }
   [[nodiscard]] const ActiveRows& rows() const { return rows_; }
-  [[nodiscard]] const Eigen::SparseMatrix<double, 0, Index>& damping() const { return C_; }
 
  private:
   double sigma_, Omega_;
@@ -213,57 +215,134 @@ double norm_in_mass_metric(const LinearTerms::Entries& entries, const Vector& ro
   return sums.size() > 0 ? sums.maxCoeff() : 0.0;
 }
 
-/// The residuals of solutions in the equations as they stand, not in S.
-class Residual {
+/// The equations as they stand, of x = (u, y), in complex numbers.
+class Equations {
  public:
-  Residual(const System& system, const LinearTerms& terms, QuadraticInverse& S)
-      : system_(&system),
-        terms_(&terms),
-        S_(&S),
-        K_(S.root().size(), S.root().size()),
+  using Matrix = Eigen::SparseMatrix<Complex, 0, Index>;
+
+  Equations(const System& system, const LinearTerms& terms, QuadraticInverse& S)
+      : S_(&S),
+        n_(S.root().size()),
+        K_(n_ + static_cast<Index>(S.rows().size()), n_ + static_cast<Index>(S.rows().size())),
+        C_(K_.rows(), K_.rows()),
+        M_(Eigen::VectorXcd::Zero(K_.rows())),
+        lengths_(static_cast<Index>(S.rows().size())),
+        compliance_(lengths_.size()),
         c_(norm_in_mass_metric(terms.damping, S.root())),
         k_(norm_in_mass_metric(terms.stiffness, S.root())) {
-    K_.setFromTriplets(terms.stiffness.begin(), terms.stiffness.end());
+    M_.head(n_) = S.root().cwiseAbs2().cast<Complex>();
+    C_.setFromTriplets(terms.damping.begin(), terms.damping.end());
+    std::vector<Eigen::Triplet<Complex, Index>> entries;
+    for (const auto& k : terms.stiffness)
+      entries.emplace_back(static_cast<Index>(k.row()), static_cast<Index>(k.col()), k.value());
+    for (Index a = 0; a < lengths_.size(); ++a) {
+      const std::size_t r = S.rows().rows[static_cast<std::size_t>(a)];
+      double square = 0.0;
+      for (const std::size_t k : system.row(r)) {
+        const auto j = static_cast<Index>(system.w_columns()[k]);
+        entries.emplace_back(j, n_ + a, -terms.w[k]);
+        entries.emplace_back(n_ + a, j, terms.w[k]);
+        square += std::pow(terms.w[k] / S.root()[j], 2);
+      }
+      compliance_[a] = system.law(r).compliance;
+      entries.emplace_back(n_ + a, n_ + a, compliance_[a]);
+      lengths_[a] = std::sqrt(square);
+    }
+    K_.setFromTriplets(entries.begin(), entries.end());
   }
 
   /// x = (M^1/2 u, M^1/2 s u/Omega); S once more, S x = theta x, gives u and its multipliers y/theta.
   [[nodiscard]] QuadraticPair pair(const Eigen::VectorXcd& x, Complex theta, Complex s) const {
-    const Index n = S_->root().size();
     const Vector re = (*S_)(x.real()), y_re = S_->multipliers(), im = (*S_)(x.imag()),
                  y_im = S_->multipliers();
     const Complex i(0.0, 1.0);
-    const Eigen::VectorXcd xi = (re.head(n) + i * im.head(n)) / theta, y = (y_re + i * y_im) / theta;
-    const Eigen::VectorXcd u = xi.cwiseQuotient(S_->root());
-    Eigen::VectorXcd f = s * s * S_->root().cwiseAbs2().cwiseProduct(u) + s * (S_->damping() * u) + K_ * u;
-    Eigen::VectorXcd force = Eigen::VectorXcd::Zero(n);
-    double apart = 0.0;
-    for (std::size_t a = 0; a < S_->rows().size(); ++a) {
-      const std::size_t r = S_->rows().rows[a];
-      const Complex multiplier = y[static_cast<Index>(a)];
-      const double c = system_->law(r).compliance;
-      Complex g = c * multiplier;
-      double length = 0.0;
-      for (const std::size_t k : system_->row(r)) {
-        const auto j = static_cast<Index>(system_->w_columns()[k]);
-        g += terms_->w[k] * u[j];
-        force[j] += terms_->w[k] * multiplier;
-        length += std::pow(terms_->w[k] / S_->root()[j], 2);
-      }
-      apart = std::max(apart, std::abs(g) / (std::sqrt(length) * xi.norm() + c * std::abs(multiplier)));
+    Eigen::VectorXcd z(K_.rows());
+    z << (re.head(n_) + i * im.head(n_)).cwiseQuotient(S_->root()), y_re + i * y_im;
+    z /= theta;
+    constexpr double bound = roundings_of_a_sum * epsilon;
+    double backward = backward_error(s, z);
+    const double known = std::abs(s);
+    for (int step = 0; step < 3 && !(backward <= bound) && known > 0.0; ++step) {
+      improve(s, z);
+      backward = backward_error(s, z);
     }
-    f -= force;
-    const double size =
-        (std::norm(s) + std::abs(s) * c_ + k_) * xi.norm() + force.cwiseQuotient(S_->root()).norm();
-    return {s, u, std::max(apart, f.cwiseQuotient(S_->root()).norm() / size)};
+    return {s, z.head(n_), backward, s.real() > 0.0 && s.imag() >= 0.0 ? error(s, z) : 0.0};
   }
 
  private:
-  const System* system_;
-  const LinearTerms* terms_;
+  [[nodiscard]] Matrix at(Complex s) const {
+    Matrix Q = K_ + s * C_;
+    Q += Matrix((s * s * M_).asDiagonal());
+    return Q;
+  }
+  [[nodiscard]] Eigen::VectorXcd slope(Complex s, const Eigen::VectorXcd& z) const {
+    return 2.0 * s * M_.cwiseProduct(z) + C_ * z;
+  }
+  /// |u| and |f| in the mass metric.
+  [[nodiscard]] double size_of(const Eigen::VectorXcd& z) const {
+    return z.head(n_).cwiseProduct(S_->root()).norm();
+  }
+  [[nodiscard]] double size_of_force(const Eigen::VectorXcd& z) const {
+    return z.head(n_).cwiseQuotient(S_->root()).norm();
+  }
+  /// |W^T y|, of the multipliers alone.
+  [[nodiscard]] double reaction(Eigen::VectorXcd z) const {
+    z.head(n_).setZero();
+    return size_of_force(K_ * z);
+  }
+  [[nodiscard]] double size_of_terms(Complex s, const Eigen::VectorXcd& z) const {
+    return (std::norm(s) + std::abs(s) * c_ + k_) * size_of(z) + reaction(z);
+  }
+  [[nodiscard]] double backward_error(Complex s, const Eigen::VectorXcd& z) const {
+    const Eigen::VectorXcd f = at(s) * z;
+    double worst = size_of_force(f) / size_of_terms(s, z);
+    for (Index a = 0; a < lengths_.size(); ++a) {
+      const double size = lengths_[a] * size_of(z) + compliance_[a] * std::abs(z[n_ + a]);
+      worst = std::max(worst, std::abs(f[n_ + a]) / size);
+    }
+    return worst;
+  }
+  /// Newton's method on Q(s) z = 0 and z of its length: inverse iteration. False where Q is exactly singular.
+  void improve(Complex& s, Eigen::VectorXcd& z) const {
+    Eigen::SparseLU<Matrix> lu(at(s));
+    if (lu.info() != Eigen::Success) return;
+    const Eigen::VectorXcd next = lu.solve(slope(s, z));
+    const Eigen::VectorXcd own = M_.cwiseProduct(z);
+    s -= own.dot(z) / own.dot(next);
+    z = next / size_of(next);
+  }
+  [[nodiscard]] double error(Complex s, const Eigen::VectorXcd& z) const {
+    constexpr double beside = 1e-10;  // so that Q is regular; inverse iteration does not depend on it
+    const Eigen::SparseLU<Matrix> lu(Matrix(at(s * (1.0 + beside)).adjoint()));
+    if (lu.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+    Eigen::VectorXcd v = M_.cwiseProduct(z);
+    for (int twice = 0; twice < 2; ++twice) {
+      v = lu.solve(v);
+      v /= size_of(v);
+      if (twice == 0) v = M_.cwiseProduct(v).eval();
+    }
+    const double terms = size_of_terms(s, z) + reaction(v) * size_of(z);
+    return roundings_of_a_sum * epsilon * terms / std::abs(v.dot(slope(s, z)));
+  }
+
   QuadraticInverse* S_;
-  Eigen::SparseMatrix<double, 0, Index> K_;
+  Index n_;
+  Matrix K_, C_;
+  Eigen::VectorXcd M_;
+  Vector lengths_, compliance_;
   double c_, k_;
 };
+
+/// The |s| of the `wanted`th that counts, and what is equal to it.
+double largest_wanted(const Eigen::VectorXcd& theta, double sigma, double zero, std::size_t wanted) {
+  std::vector<double> sizes;
+  for (const Complex t : theta) {
+    const Complex s = sigma + 1.0 / t;
+    if (std::abs(s) > zero && s.imag() >= 0.0) sizes.push_back(std::abs(s));
+  }
+  std::ranges::sort(sizes);
+  return sizes.size() < wanted ? std::numeric_limits<double>::infinity() : 1.000001 * sizes[wanted - 1];
+}
 
 }  // namespace
 
@@ -284,17 +363,26 @@ std::vector<QuadraticPair> nearest_solutions(const System& system, const LinearT
   if (outcome == Outcome::not_converged)
     refuse_quadratic(system, "of " + std::to_string(wanted) + " modes not all converged; ask for fewer");
   const auto [values, vectors] = search.eigen();
-  const Residual residual(system, terms, S);
+  const double largest = largest_wanted(values, sigma, zero, wanted);
+  const Equations equations(system, terms, S);
   std::vector<QuadraticPair> found;
   for (Index k = 0; k < values.size(); ++k) {
+    const Complex s = sigma + 1.0 / values[k];
+    if (std::abs(s) > largest) continue;
     Eigen::VectorXcd x = Eigen::VectorXcd::Zero(S.size());
     for (Index i = 0; i < vectors.rows(); ++i)
       x += vectors(i, k) * search.basis()[static_cast<std::size_t>(i)];
-    const QuadraticPair pair = residual.pair(x, values[k], sigma + 1.0 / values[k]);
-    if (std::abs(pair.s) > zero && !(pair.backward_error <= roundings_of_a_sum * epsilon))
-      refuse_quadratic(system, "a mode satisfies its equations only to " +
-                                   std::to_string(pair.backward_error) +
-                                   " of their terms; leave out what is stiff and does not act on it");
+    if (std::abs(s) <= zero) {
+      found.push_back({s, x.head(S.root().size()).cwiseQuotient(S.root()), 0.0});
+      continue;
+    }
+    const QuadraticPair pair = equations.pair(x, values[k], s);
+    if (!(pair.backward_error <= roundings_of_a_sum * epsilon)) {
+      std::ostringstream why;
+      why << "a mode of eigenvalue " << s << " satisfies its equations only to " << pair.backward_error
+          << " of their terms; leave out what is stiff and does not act on it";
+      refuse_quadratic(system, why.str());
+    }
     found.push_back(pair);
   }
   std::ranges::stable_sort(found, {}, [](const QuadraticPair& p) { return std::abs(p.s); });

@@ -17,6 +17,9 @@ struct QuadraticPair {
   /// |(s^2 M + s C + K) u - W^T y| over (|s|^2 + |s| |C| + |K|) |u|, all in the mass metric, see Tisseur,
   /// Linear Algebra Appl. 309 (2000).
   double backward_error;
+  /// To which s is known where it may grow, Re s > 0: by its condition 1/|v^H (2 s M + C) u| with the
+  /// solution v on the left, and a backward error of the roundings of a sum.
+  double error = 0.0;
 };
 
 /// All solutions of a large scene with |s| up to that of the `wanted`th with |s| > `zero`, conjugates and
@@ -30,8 +33,9 @@ struct QuadraticPair {
 /// nearest to sigma. Arnoldi's method, its leading Schur vectors locked as they converge (Stewart, SIAM J.
 /// Matrix Anal. 23, 2001) and deflated from the next run, which starts from another generic vector. Since
 /// |s - sigma| <= |s| + sigma, all with |s| <= R are known when all within R + sigma of the shift are: a run
-/// ends when its largest Schur values, converged, reach as far, and the search when a run begins there. Like
-/// every Krylov method it proves nothing of a solution that no starting vector has a part in.
+/// ends when its largest Schur values, converged, reach as far, and the search when a run begins there. What
+/// is small beside the largest of S is improved by inverse iteration (Newton's method, Tisseur). Like every
+/// Krylov method this proves nothing of a solution that no starting vector has a part in.
 ///
 /// Throws InvalidScene if fewer converge, the equations are singular or a solution does not satisfy them.
 [[nodiscard]] std::vector<QuadraticPair> nearest_solutions(const System& system, const LinearTerms& terms,
