@@ -6,6 +6,7 @@
 #include <dalembert/models/two_formulations.h>
 
 #include <boost/math/special_functions/bessel.hpp>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -42,7 +43,8 @@ void long_chain(int beads, std::vector<models::Compared>& all) {
 }
 
 /// The ten lowest of N rotors in a line with damping a M + b K: s^2 + (a + b omega^2) s + omega^2 = 0. An s
-/// is known to some roundings of the largest K over 2 |s|. The time is printed.
+/// is known to some roundings of the largest K over 2 |s|. Time, and the peak memory of the process so far,
+/// are printed.
 void damped_line(int rotors, std::vector<models::Compared>& all) {
   const double n = rotors + 1.0, k = n * n, a = 0.3, b = 1e-3;
   Scene<2> scene("damped line");
@@ -62,7 +64,10 @@ void damped_line(int rotors, std::vector<models::Compared>& all) {
   const auto start = std::chrono::steady_clock::now();
   const auto found = normal_modes(scene, rest, {.lowest = 10});
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-  std::cout << "ten damped modes of " << rotors << " coordinates: " << time.count() << " s\n";
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  std::cout << "ten damped modes of " << rotors << " coordinates: " << time.count() << " s, "
+            << static_cast<double>(usage.ru_maxrss) / 1024.0 << " MiB\n";
   for (std::size_t j = 0; j < found.size(); ++j) {
     const double omega = 2.0 * n * std::sin(static_cast<double>(j + 1) * std::acos(-1.0) / (2.0 * n));
     const double d = (a + b * omega * omega) / 2.0, vibration = std::sqrt(omega * omega - d * d);

@@ -121,8 +121,8 @@ extern template class NormalModes<3>;
 /// Arnoldi's on the quadratic problem, each pair checked in (1). Runs from new vectors, deflated by what is
 /// known, until one finds nothing as low: no proof that none is missed. The verdict is then of all modes only
 /// where an energy proves it: forces with a potential, H + M A^2 positive, damping that adds no energy. Where
-/// it does not, it is unstable if a mode that was found surely grows, else undecided and says how many were
-/// looked at. Not for nonholonomic constraints.
+/// it does not, it is unstable if a mode that was found surely grows, else undecided, and says of how many
+/// modes it is. Not for nonholonomic constraints.
 ///
 /// Uncoupled parts of a scene are judged separately. The numbers of a part's K are known to round-off of the
 /// largest: within that an eigenvalue is undecided, or 0 and tried.

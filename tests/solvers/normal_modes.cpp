@@ -267,6 +267,11 @@ TEST(LowestModes, AreRefusedWithoutANumberAndWithNonholonomicRows) {
   Scene<3> scene = chain(201);
   const auto rest = equilibrium(scene);
   EXPECT_THAT([&] { (void)normal_modes(scene, rest); }, ThrowsMessage<InvalidScene>(HasSubstr("lowest")));
+  const auto skate = scene.add_particle({.mass = 1.0});
+  scene.add(Distance{Fixed<3>{{0.0, 0.0, 1.0}}, skate, 1.0});
+  scene.add(nonholonomic(points(skate), [](auto, auto v) { return v.y(); }));
+  EXPECT_THAT([&] { (void)normal_modes(scene, equilibrium(scene), {.lowest = 3}); },
+              ThrowsMessage<InvalidScene>(HasSubstr("nonholonomic")));
 }
 
 /// Rotors in a line with springs of stiffness k between them and to the walls, damping a M + b K.
