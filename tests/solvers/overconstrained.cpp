@@ -169,5 +169,39 @@ TEST_P(Overconstrained, BarsKeptInTheirPlaneMoveAsWithoutIt) {
   }
 }
 
+TEST_P(Overconstrained, WeldedBlocksOnEachOtherStandUnderAnyLoad) {
+  // Nothing can move; the weld carries the upper block, whatever round-off its weight leaves to the lower
+  // one.
+  for (const double mass : {1.0, 1e4, 1e6}) {
+    Scene<3> scene("tower");
+    scene.add(UniformGravity<3>{{0.0, 0.0, -10.0}});
+    const auto low =
+        add_body(scene, {.mass = 1.0, .inertia = {0.17, 0.17, 0.17}, .centre = {0.0, 0.0, 0.5}}, "low");
+    const Vec<3> inertia = mass * Vec<3>{0.17, 0.17, 0.17};
+    const auto high = add_body(scene, {.mass = mass, .inertia = inertia, .centre = {0.0, 0.0, 1.5}}, "high");
+    add_joint(scene, Weld{Ground<3>{}, low, {0.0, 0.0, 0.0}}, "base");
+    const auto weld = add_joint(scene, Weld{low, high, {0.0, 0.0, 1.0}}, "weld");
+    const auto run = simulate(scene, {.t_end = 5.0, .samples = 3, .tolerance = 1e-10, .stepper = GetParam()});
+    EXPECT_NEAR(reaction(run.sample(2), weld).force.z(), 10.0 * mass, 1e-9 * mass) << mass;
+  }
+}
+
+TEST_P(Overconstrained, DoorLocksWhereTheAxisOfOneHingeIsOff) {
+  // A push of m g_y = 10 at 0.5 m from the hinges has a moment of 5. With axes (0, 0, 1) and (off, 0, 1) only
+  // the upper hinge's moment T, at right angles to its axis, has a part about the other: T_x off = 5.
+  for (const double off : {1e-5, 1e-3}) {
+    Scene<3> scene("door");
+    scene.add(UniformGravity<3>{{0.0, 1.0, -10.0}});
+    const auto door =
+        add_body(scene, {.mass = 10.0, .inertia = {3.0, 1.5, 4.0}, .centre = {0.5, 0.0, 1.0}}, "door");
+    add_joint(scene, Revolute{Ground<3>{}, door, {0.0, 0.0, 0.2}, {0.0, 0.0, 1.0}}, "lower");
+    const auto upper =
+        add_joint(scene, Revolute{Ground<3>{}, door, {0.0, 0.0, 1.8}, {off, 0.0, 1.0}}, "upper");
+    const auto run = simulate(scene, {.t_end = 1.0, .samples = 3, .tolerance = 1e-8, .stepper = GetParam()});
+    // Positions on their constraints to a hundredth of the tolerance are gradients known to that over `off`.
+    EXPECT_NEAR(reaction(run.sample(2), upper).torque.x() * off, 5.0, 5.0 * 1e-10 / off) << off;
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::overconstrained_test
