@@ -13,11 +13,14 @@
 namespace dalembert::ledger_test {
 namespace {
 
-/// What belongs to a name at a sample.
+/// What belongs to "impacts", or to the element of that name, at a sample.
 double of(const std::vector<Ledger::Account>& accounts, const std::string& name, std::size_t sample) {
-  const auto account = std::ranges::find(accounts, name, &Ledger::Account::name);
-  EXPECT_NE(account, accounts.end()) << name;
-  return account == accounts.end() ? std::numeric_limits<double>::quiet_NaN() : account->values[sample];
+  const auto account = std::ranges::find_if(accounts, [&](const Ledger::Account& one) {
+    return one.name == name || one.name.ends_with(" \"" + name + '"');
+  });
+  if (account != accounts.end()) return account->values[sample];
+  ADD_FAILURE() << "no account of " << name;
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 class Ledgers : public WithEvents {
