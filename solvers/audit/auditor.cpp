@@ -44,11 +44,11 @@ void Auditor::instant(const FlatSample& sample) {
 
 void Auditor::sample(const FlatSample& sample) {
   if (!begun_) begin(sample);
-  const auto work = ledger_ ? std::optional(ledger_->take()) : std::nullopt;
+  const auto work = ledger_ ? ledger_->take() : LedgerKeeper::Work{};
   judge([&](const Claim& claim, Findings& found) {
     samples_.check(sample, claim, found);
     if (balance_.watches()) balance_.check(sample, claim, found);
-    if (work) balance_.check(sample, work->sum, work->error, claim, found);
+    if (ledger_) balance_.check(sample, work.sum, work.error, claim, found);
   });
   balance_.accept(sample);
   shown_ = std::max(shown_, balance_.shown());
