@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace dalembert::coulomb_test {
@@ -214,6 +215,28 @@ TEST_P(CoulombFriction, ThatLetsGoMayOpenAContact) {
   EXPECT_NEAR(run.event_sample(1).multiplier(wall), g, bound * g);
   EXPECT_EQ(run.sample_after(1).multiplier(wall), 0.0);
   EXPECT_NEAR(run.sample_after(1).acceleration(top).x(), g / 3.0, bound * g);
+}
+
+TEST_P(CoulombFriction, OfAWireWhoseForceChangesItsSignIsAsExactAsTheRun) {
+  // N = -3 cos t: v = v0 - 3 mu integral |cos t| dt. |N| has a kink where the force is 0.
+  constexpr double mu = 0.3, v0 = 5.0;
+  for (const double loose : {1e-3, 1e-4, 1e-5, 1e-6, 1e-8}) {
+    Scene<2> scene;
+    const auto bead = scene.add_particle({.mass = 1.0, .velocity = {v0, 0.0}}, "bead");
+    const auto wire = scene.add(OnCurve{bead, Plane<2>{}}, "wire");
+    scene.add(force_law(points(bead), [](auto t, auto, auto) { return vec(0.0 * t, 3.0 * cos(t)); }));
+    scene.add(coulomb(wire, Slip{bead, Plane<2>{}}, mu), "rough");
+    Options with = options(3.0);
+    with.tolerance = loose;
+    const auto run = simulate(scene, with);
+    for (std::size_t i = 0; i < run.size(); ++i) {
+      const double t = run.times()[i], sine = std::sin(t);
+      const double integral = t < std::numbers::pi / 2.0 ? sine : 2.0 - sine;
+      // The sum of the errors of all steps is what a run says; the true error is at most twelve times that.
+      EXPECT_NEAR(run.velocity(bead, i).x(), v0 - 3.0 * mu * integral, 12.0 * run.statistics().accuracy)
+          << loose;
+    }
+  }
 }
 
 TEST_P(CoulombFriction, WithoutForceDoesNotChatter) {
