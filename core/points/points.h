@@ -48,7 +48,7 @@ struct Particle {
 
   /// Its D numbers out of q (its position) or v (its velocity).
   [[nodiscard]] Vec<D> gather(std::span<const double> x) const {
-    return Eigen::Map<const Vec<D>>(x.data() + coordinate);
+    return Vec<D>::from(x.data() + coordinate);
   }
   [[nodiscard]] auto reads() const { return consecutive<D>(coordinate); }
 
@@ -95,7 +95,7 @@ template <class Path>
       "write `auto` for the time that a path takes: it is called with numbers that carry derivatives");
   using Position = decltype(path(0.0));
   static_assert(detail::Column<Position>,
-                "a path returns a plain column of fixed size, vec(x, y); of an Eigen expression its .eval()");
+                "a path returns a plain column of fixed size, vec(x, y)");
   return Driven<Position::RowsAtCompileTime, Path>{std::move(path)};
 }
 
