@@ -4,8 +4,8 @@
 #include <concepts>
 #include <type_traits>
 
-/// Loops over the few components of a vector, written out also at -O2. (g++ does so by itself at -O3 only, and
-/// clang always.)
+/// Loops over the few components of a vector, written out also at -O2. (g++ does so by itself at -O3 only,
+/// and clang always.)
 #if defined(__GNUC__) && !defined(__clang__)
 #define DALEMBERT_UNROLL _Pragma("GCC unroll 8")
 #else
@@ -38,8 +38,8 @@ concept OfEigen = requires(const E& e) {
 };
 /// One that is a column, or a row, of N numbers.
 template <class E, int N>
-concept ColumnOfEigen = OfEigen<E> && ((E::RowsAtCompileTime == N && E::ColsAtCompileTime == 1) ||
-                                       (E::RowsAtCompileTime == 1 && E::ColsAtCompileTime == N));
+concept ColumnOfEigen = OfEigen<E> &&((E::RowsAtCompileTime == N && E::ColsAtCompileTime == 1) ||
+                                      (E::RowsAtCompileTime == 1 && E::ColsAtCompileTime == N));
 
 /// A vector as a row, for a stream.
 template <class S, int N>
@@ -109,7 +109,7 @@ struct VecOf {
     for (int i = 0; i < N; ++i) e[i] = S(from.coeff(i));
   }
   template <detail::OfEigen E>
-    requires(std::same_as<E, typename E::PlainObject> && E::ColsAtCompileTime == 1 &&
+    requires(std::same_as<E, typename E::PlainObject>&& E::ColsAtCompileTime == 1 &&
              (E::RowsAtCompileTime == N || E::RowsAtCompileTime == -1))
   operator E() const {  // NOLINT(google-explicit-constructor)
     E to;
@@ -225,7 +225,7 @@ struct VecOf {
   [[nodiscard]] auto cross(const VecOf<T, N>& b) const requires(N == 3) {
     using R = decltype(e[0] * b.e[0]);
     return VecOf<R, 3>(e[1] * b.e[2] - e[2] * b.e[1], e[2] * b.e[0] - e[0] * b.e[2],
-                        e[0] * b.e[1] - e[1] * b.e[0]);
+                       e[0] * b.e[1] - e[1] * b.e[0]);
   }
   template <detail::ColumnOfEigen<N> E>
   [[nodiscard]] auto dot(const E& b) const {

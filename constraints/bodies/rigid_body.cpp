@@ -113,7 +113,8 @@ typename RigidBody<D>::Axes RigidBody<D>::axes(const Sample<D>& sample) const {
   const Vec<D> origin = sample.position(centre());
   // Points as far from the centre as particles keep round-off small whatever the size of the body.
   const double far = arms.norm();
-  for (int k = 0; k < D; ++k) axes.col(k) = Eigen::Matrix<double, D, 1>((sample.position(point(far * Vec<D>::Unit(k))) - origin) / far);
+  for (int k = 0; k < D; ++k)
+    axes.col(k) = Eigen::Matrix<double, D, 1>((sample.position(point(far * Vec<D>::Unit(k))) - origin) / far);
   return axes;
 }
 

@@ -136,7 +136,8 @@ class PotentialBatch final : public ForceBatch {
   void power(const Instant& at, const Multipliers& /*lambda*/, std::span<double> out) const override {
     using S = Dual<inputs, 1>;
     detail::for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      out[i] = -Vec<inputs>(potential<S>(e, at, detail::AsInput<S>{}).gradient).dot(detail::gather_inputs(e, at.v));
+      out[i] = -Vec<inputs>(potential<S>(e, at, detail::AsInput<S>{}).gradient)
+                    .dot(detail::gather_inputs(e, at.v));
     });
   }
 

@@ -50,7 +50,7 @@ Real root(const F& f) {
 Matrix upright_axes(const Vector& L, const Vector& U, Real chi) {
   const Vector e = (U - L).normalized(), n = (Vector::UnitX() - e.x() * e).normalized();
   Matrix axes;
-  axes << Eigen::Vector3d(n), Eigen::Vector3d(e.cross(n)), Eigen::Vector3d(e);
+  axes << n, e.cross(n), e;
   return about(e, chi) * axes;
 }
 

@@ -38,7 +38,7 @@ Vector slider(Real t) {
 Matrix coupler_axes(Real t) {
   const Vector e = (slider(t) - ball(t)).normalized(), p = e.cross(Vector::UnitY()).normalized();
   Matrix axes;
-  axes << Eigen::Vector3d(e), Eigen::Vector3d(p), Eigen::Vector3d(e.cross(p));
+  axes << e, p, e.cross(p);
   return axes;
 }
 
