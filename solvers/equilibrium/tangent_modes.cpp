@@ -30,12 +30,18 @@ struct Tangent {
   Matrix K, C, B, E;
   bool symmetric;  ///< K
   Matrix metric;   ///< M^1/2 N
+  double zero;     ///< round-off of K: of the terms that its numbers are sums of
 };
+
+/// What N^T X N sums, without signs.
+Matrix summed(const Matrix& N, const Matrix& X) {
+  return N.cwiseAbs().transpose() * X.cwiseAbs() * N.cwiseAbs();
+}
 
 /// N^T X N, with 0 for what is round-off of the summed terms.
 Matrix onto(const Matrix& N, const Matrix& X) {
   const Matrix Y = N.transpose() * X * N;
-  const Matrix size = N.cwiseAbs().transpose() * X.cwiseAbs() * N.cwiseAbs();
+  const Matrix size = summed(N, X);
   return (Y.array().abs() > round_off_of_a_sum * size.array()).select(Y, Matrix::Zero(Y.rows(), Y.cols()));
 }
 
@@ -55,8 +61,10 @@ Tangent tangent(const System& system, const LinearTerms& terms, std::vector<std:
             metric.W.bottomRows(velocity_rows) * N,
             metric.E.bottomRows(velocity_rows) * N,
             skew.isZero(0.0),
-            metric.root.cwiseInverse().asDiagonal() * N};
+            metric.root.cwiseInverse().asDiagonal() * N,
+            N.cols() > 0 ? round_off_of_a_sum * summed(N, metric.K).maxCoeff() : 0.0};
   if (t.symmetric) t.K = ((t.K + t.K.transpose()) / 2).eval();
+  if (t.K.size() > 0 && t.K.cwiseAbs().maxCoeff() <= t.zero) t.K.setZero();
   for (Index k = 0; k < velocity_rows; ++k)
     if (t.B.row(k).norm() < rank_threshold) t.B.row(k).setZero();  // dependent on holonomic rows
   return t;
@@ -114,10 +122,9 @@ struct Verdict {
 /// K z = omega^2 z. What is within round-off of 0 counts as 0, to be decided by a finite motion.
 void of_conservative(const Tangent& t, Verdict& verdict) {
   const auto [square, shapes] = dense::symmetric_eigen(t.K);
-  const double zero = round_off_of_a_sum * (square.size() > 0 ? square.cwiseAbs().maxCoeff() : 0.0);
   for (Index k = 0; k < square.size(); ++k) {
     std::complex<double> s = std::sqrt(std::complex<double>(-square[k]));
-    if (std::abs(square[k]) <= zero) s = 0.0;
+    if (std::abs(square[k]) <= t.zero) s = 0.0;
     s = {std::abs(s.real()), std::abs(s.imag())};
     verdict.found.modes.push_back(mode(s, shapes.col(k).cast<std::complex<double>>(), t));
     verdict.grows_by(s);
@@ -130,6 +137,7 @@ double scale_time(Tangent& t) {
   if (Omega == 0.0) Omega = std::max(t.C.norm(), t.E.norm());
   if (Omega == 0.0) return 1.0;
   t.K /= Omega * Omega;
+  t.zero /= Omega * Omega;
   t.C /= Omega;
   t.E /= Omega;
   return Omega;
@@ -296,8 +304,7 @@ void of_any(Tangent t, Verdict& verdict) {
 /// Whether every eigenvalue of a symmetric K is >= 0, within round-off.
 bool is_positive(const Tangent& t) {
   if (t.K.size() == 0) return true;
-  const Vector values = dense::symmetric_eigen(t.K).values;
-  return values.minCoeff() >= -round_off_of_a_sum * values.cwiseAbs().maxCoeff();
+  return dense::symmetric_eigen(t.K).values.minCoeff() >= -t.zero;
 }
 
 /// Those of one part, see `vibrations`.
@@ -344,10 +351,9 @@ double append_real(const Tangent& t, std::vector<RealShape>& found) {
   double least = std::numeric_limits<double>::infinity();
   if (t.K.rows() == 0) return least;
   const Decomposed K = decomposed(t);
-  const double zero = round_off_of_a_sum * K.values.cwiseAbs().maxCoeff();
   const auto all = static_cast<Index>(t.all);
   for (Index k = 0; k < K.values.size(); ++k) {
-    const double value = std::abs(K.values[k]) <= zero ? 0.0 : K.values[k].real();
+    const double value = std::abs(K.values[k]) <= t.zero ? 0.0 : K.values[k].real();
     least = std::min(least, value);
     if (K.values[k].imag() != 0.0) continue;
     RealShape one{value, Vector::Zero(all), Vector::Zero(all)};

@@ -164,6 +164,31 @@ TEST(Stability, OfASlowlyGrowingModeIsNotAFreeMotionBesideAStiffSpring) {
   }
 }
 
+TEST(Stability, OfADoorInTwoHingesIsNotReadFromRoundOff) {
+  // It turns freely: its only stiffness is the round-off of what hinges and weight sum to 0. With a drag of
+  // 0.4 at 1 m in x and 0.1 m in y off the hinges, s = -0.4 (1 + 0.01)/(4 + 10 (0.25 + 0.01)).
+  for (const bool drags : {false, true}) {
+    for (const double height : {0.2, 0.3, 0.53, 0.7, 1.9}) {
+      Scene<3> scene("door");
+      scene.add(UniformGravity<3>{{0.0, 0.0, -9.81}});
+      const auto door =
+          add_body(scene, {.mass = 10.0, .inertia = {3.0, 1.5, 4.0}, .centre = {0.5, 0.1, 1.0}}, "door");
+      add_joint(scene, Revolute{Ground<3>{}, door, {0.0, 0.0, height}, {0.0, 0.0, 1.0}}, "lower");
+      add_joint(scene, Revolute{Ground<3>{}, door, {0.0, 0.0, 1.8}, {0.0, 0.0, 1.0}}, "upper");
+      if (drags)
+        scene.add(force_law(points(door.point({0.5, 0.0, 0.0})),
+                            [](auto, auto v) { return vec(-0.4 * v.x(), -0.4 * v.y(), -0.4 * v.z()); }));
+      const auto modes = normal_modes(scene, equilibrium(scene));
+      EXPECT_EQ(modes.stability(), Stability::stable) << height << modes.describe();
+      ASSERT_EQ(modes.size(), drags ? 2U : 1U);
+      EXPECT_TRUE(modes.is_free(0)) << height;
+      if (drags) {
+        EXPECT_NEAR(modes.eigenvalue(1).real(), -0.4 * 1.01 / 6.6, 1e-12) << height;
+      }
+    }
+  }
+}
+
 TEST(Stability, IsThatOfAllModesHoweverFewAreWanted) {
   for (const bool top_first : {true, false}) {
     Scene<2> scene;
