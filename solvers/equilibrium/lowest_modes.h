@@ -20,7 +20,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// With damping, Coriolis forces or forces without a potential: `nearest_solutions` of the quadratic problem.
 /// (1) then finds the free motions, one mode each, and whether K is positive: with damping that adds no
 /// energy all modes are then stable (Kelvin, Tait; Chetaev), those that were not found too. Without such an
-/// energy the verdict is undecided: what some modes tell is not told of all.
+/// energy they are unstable if one that was found surely grows, else undecided: what some modes tell is not
+/// told of all.
 ///
 /// Throws InvalidScene if the scene has nonholonomic rows, no number of modes is wanted, fewer than wanted
 /// converge, or an eigenvalue 0 cannot be told from others.

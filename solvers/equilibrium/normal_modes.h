@@ -125,7 +125,7 @@ extern template class NormalModes<3>;
 /// modes it is. Not for nonholonomic constraints.
 ///
 /// Uncoupled parts of a scene are judged separately. The numbers of a part's K are known to round-off of the
-/// largest: within that an eigenvalue is undecided, or 0 and tried.
+/// terms that they sum: within that an eigenvalue is undecided, or 0 and tried.
 ///
 /// The equilibrium may be that of a copy of the scene. Throws InvalidArgument if it is not one of this scene
 /// as it is now, InvalidScene if `lowest` is not suitable or its equations change with time.

@@ -143,6 +143,7 @@ void Search::lock(std::span<const Vector> krylov, const Eigen::MatrixXcd& schur)
 
 /// How many leading Schur values have converged, conjugates together.
 Index converged(const dense::Schur& schur, double rest) {
+  // Insensitive: ten times more or less gives the same modes, which inverse iteration improves.
   constexpr double well_known = 1e-13;
   const Index m = schur.T.rows();
   Index k = 0;
@@ -312,7 +313,9 @@ class Equations {
     z = next / size_of(next);
   }
   [[nodiscard]] double error(Complex s, const Eigen::VectorXcd& z) const {
-    constexpr double beside = 1e-10;  // so that Q is regular; inverse iteration does not depend on it
+    // So that Q is regular. Inverse iteration does not depend on it: a hundred times more or less is the
+    // same.
+    constexpr double beside = 1e-10;
     const Eigen::SparseLU<Matrix> lu(Matrix(at(s * (1.0 + beside)).adjoint()));
     if (lu.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
     Eigen::VectorXcd v = M_.cwiseProduct(z);

@@ -170,8 +170,8 @@ TEST_P(Overconstrained, BarsKeptInTheirPlaneMoveAsWithoutIt) {
 }
 
 TEST_P(Overconstrained, WeldedBlocksOnEachOtherStandUnderAnyLoad) {
-  // Nothing can move; the weld carries the upper block, whatever round-off its weight leaves to the lower
-  // one.
+  // Nothing can move, and the forces are known to the tolerance; the weld carries the upper block, whatever
+  // round-off that load leaves to the lower one.
   for (const double mass : {1.0, 1e4, 1e6}) {
     Scene<3> scene("tower");
     scene.add(UniformGravity<3>{{0.0, 0.0, -10.0}});

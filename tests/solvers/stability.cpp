@@ -166,7 +166,8 @@ TEST(Stability, OfASlowlyGrowingModeIsNotAFreeMotionBesideAStiffSpring) {
 
 TEST(Stability, OfADoorInTwoHingesIsNotReadFromRoundOff) {
   // It turns freely: its only stiffness is the round-off of what hinges and weight sum to 0. With a drag of
-  // 0.4 at 1 m in x and 0.1 m in y off the hinges, s = -0.4 (1 + 0.01)/(4 + 10 (0.25 + 0.01)).
+  // 0.4 at 1 m in x and 0.1 m in y off the hinges, s = -0.4 (1 + 0.01)/(4 + 10 (0.25 + 0.01)), to
+  // the roundings of a sum, 1e3, of terms of size 1.
   for (const bool drags : {false, true}) {
     for (const double height : {0.2, 0.3, 0.53, 0.7, 1.9}) {
       Scene<3> scene("door");
