@@ -369,6 +369,17 @@ TEST(LowestModes, WithOneDashpotAreThoseOfTheDenseMatrix) {
   }
 }
 
+TEST(LowestModes, WithDampingBesideCompliantAndRedundantRowsAreThoseOfTheDenseMatrix) {
+  Scene<3> scene = chain(40);
+  const auto held = scene.add_particle({.mass = 0.1, .position = {0.5, 0.0, -1.0}});
+  scene.add(LinearDrag{held, 0.2});
+  for (int twin = 0; twin < 2; ++twin) scene.add(Distance{Fixed<3>{{0.5, 0.0, 0.0}}, held, 1.0});
+  const auto sprung = scene.add_particle({.mass = 0.1, .position = {0.5, 0.0, -2.0}});
+  scene.add(compliant(Distance{held, sprung, 1.0}, 1e-2));
+  scene.add(LinearDrag{sprung, 0.1});
+  expect_as_dense<3>(scene, {}, 8, 4.0 * 40 * 40);
+}
+
 TEST(LowestModes, OfATurningChainHaveCoriolisForces) {
   // Beads on a radius, held by springs to the ground of the turning frame and to each other.
   Scene<2> scene("turning");
