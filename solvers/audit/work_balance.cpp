@@ -1,19 +1,13 @@
 #include "dalembert/solvers/audit/work_balance.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/constants.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace dalembert {
-
-namespace {
-
-/// Of what estimates add up to, over what errors may; and once more in a single step.
-constexpr double growth = 10.0;
-
-}  // namespace
 
 bool conservative(const System& system) {
   return !system.rheonomic() && !system.frictional() && system.damping_pattern().empty();
@@ -37,7 +31,7 @@ void WorkBalance::begin(double time, double energy, std::span<const double> v) {
   time_ = checked_ = time;
   energy_ = energy;
   kinetic_ = stated_->kinetic_energy(v);
-  changes_ = changes_before_ = last_ = worst_ = 0.0;
+  changes_ = changes_before_ = last_ = 0.0;
   size_ = std::abs(energy);
   std::ranges::copy(v, v_.begin());
 }
@@ -53,7 +47,6 @@ void WorkBalance::step(double time, std::span<const double> v) {
     v_[i] = v[i];
   }
   changes_ += last_;
-  worst_ = std::max(worst_, last_);
 }
 
 /// What is left of (1) at rest, and in springs.
@@ -114,8 +107,7 @@ void WorkBalance::check(const FlatSample& sample, const Claim& claim, Findings& 
 
 void WorkBalance::weigh(double time, double size, double changes, double other, Findings& findings) {
   if (size > limits_.accuracy * changes + other) shown_ = std::max(shown_, (size - other) / changes);
-  const double grown = growth * (changes + growth * worst_);
-  findings.weigh(Law::work, {}, time, size, limits_.accuracy * grown + other);
+  findings.weigh(Law::work, {}, time, size, limits_.accuracy * constants.growth * changes + other);
 }
 
 void WorkBalance::check(const FlatSample& sample, double work, double error, const Claim& claim,

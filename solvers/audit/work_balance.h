@@ -25,9 +25,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// that m dv/dt stands for the force. Steps' errors add up, and a sample within a step errs by as much as
 /// one. Springs that vibrate faster than the steps keep what `accuracy` leaves of that, once.
 ///
-/// Errors of the state grow with the motion, and a long step's estimate is too small where a force quickens
-/// within it: neither is in `accuracy`. Up to ten times (1), and a hundred times that of one step, the
-/// balance is kept, by the accuracy that it shows, see `shown`.
+/// Errors of the state grow with the motion, which is not in `accuracy`. Up to `Constants::growth` times (1)
+/// the balance is kept, by the accuracy that it shows, see `shown`.
 class WorkBalance {
  public:
   WorkBalance(std::shared_ptr<const System> stated, const Claim& claim);
@@ -63,8 +62,7 @@ class WorkBalance {
   std::vector<double> v_;                        // at the last step
   std::vector<double> at_rest_, g_, u_;          // work
   System::Evaluation e_;
-  double changes_ = 0.0, last_ = 0.0;  // (1) without `accuracy`, summed over steps, and of the last,
-  double worst_ = 0.0;                 // and largest one
+  double changes_ = 0.0, last_ = 0.0;  // (1) without `accuracy`, summed over steps, and of the last
   double shown_ = 0.0;
   double elastic_ = 0.0;  // of a deflection by a unit
   double size_ = 0.0;     // the largest energy of a sample

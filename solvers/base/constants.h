@@ -27,6 +27,9 @@ struct Constants {
   /// the scene in a step by more than this fraction of its size, the step has jumped over something: a centre
   /// of force, whose two sides may deceive the error estimate.
   double most_disagreement = 0.05;
+  /// A step's error near a singularity, over what its null rules tell, see near_singularity: at most 58 on
+  /// motions that are known.
+  double quickening = 60.0;
   /// A step that has to be so much shorter than usual has reached something that is not smooth. The error
   /// estimate cannot be trusted there: it weights the first derivative by a thousandth of what the step does.
   double far_too_short = 0.15, unreliable = 100.0;
@@ -115,6 +118,11 @@ struct Constants {
   /// Accumulating changes of the scene are an error where they follow each other within this many roots of
   /// the tolerance: what happens between two of them is to be resolved.
   double brief_changes = 10.0;
+
+  // Audit.
+  /// By how many times more than the estimated errors of all steps the energy of a run may change, see
+  /// WorkBalance: what they grow by with the motion.
+  double growth = 10.0;
 
   // Equilibria and small motions.
   /// The stiffness over mass, as a fraction of the largest, that counts as none: free motions are given this

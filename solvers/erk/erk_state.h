@@ -57,8 +57,9 @@ struct ErkStepper::State {
   void weigh(const Node& at, double step, double allowed);
   void take(const Way& way);
   [[nodiscard]] double size() const;
+  [[nodiscard]] double size_of(const Combination<stages>& sum, double step);
   [[nodiscard]] double error(double step, double doubt);
-  void estimate(double step);
+  void estimate(double step, double of_order_8);
   void measure_noise();
   [[nodiscard]] double error_of_springs(std::span<const double> dq) const;
   [[nodiscard]] double project();
@@ -109,6 +110,7 @@ struct ErkStepper::State {
   Manifold manifold;
   std::vector<Combination<stages>> a;
   Combination<stages> b{pair.b}, d{pair.d}, last_difference;
+  Combination<stages> null_3{null_rules.third}, null_4{null_rules.fourth}, null_6{null_rules.sixth};
   Node from, to;  // the last step; before the first, both are the start
   Node middle;    // of that step, if `has_middle`
   bool has_middle = false;

@@ -4,14 +4,18 @@
 #include <dalembert/constraints/holonomic.h>
 #include <dalembert/constraints/nonholonomic.h>
 #include <dalembert/core/scene/scene.h>
+#include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/erk/verner.h>
 #include <dalembert/solvers/simulation.h>
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 namespace dalembert::erk_test {
 namespace {
@@ -98,6 +102,74 @@ TEST(Verner87, EstimateComesFromASolutionOfOrder7AndNotOfOrder8) {
     }
   }
   EXPECT_GT(eighth, 1e-6);
+}
+
+/// What a sum of stages keeps of a tree.
+double kept(const std::array<double, 13>& weights, const Tree& tree) {
+  const auto phi = stage_weights(tree);
+  return std::abs(std::inner_product(weights.begin(), weights.end(), phi.begin(), 0.0));
+}
+
+TEST(Verner87, NullRulesKeepNothingUpToTheirOrder) {
+  const std::vector<std::pair<std::array<double, 13>, int>> rules{
+      {null_rules.third, 3}, {null_rules.fourth, 4}, {null_rules.sixth, 6}};
+  for (const auto& [rule, order] : rules) {
+    double next = 0.0;
+    for (const Tree& tree : trees_up_to(order + 1)) {
+      if (tree.order <= order)
+        EXPECT_LT(kept(rule, tree), table_round_off) << order;
+      else
+        next = std::max(next, kept(rule, tree));
+    }
+    EXPECT_GT(next, 1e-6) << order;
+    EXPECT_NEAR(std::inner_product(rule.begin(), rule.end(), rule.begin(), 0.0), 1.0, 1e-15) << order;
+  }
+}
+
+/// A step of length h from 1 of the motion x = (1 - t)^p, x'' = p (p - 1) x^(1 - 2/p): positions and
+/// velocities of its stages.
+using Stages = std::array<std::array<long double, 2>, 13>;
+Stages stages_towards_singularity(long double p, long double h) {
+  Stages k{};
+  for (std::size_t i = 0; i < 13; ++i) {
+    long double x = 1.0L, v = -p;
+    for (std::size_t j = 0; j < i; ++j) {
+      x += h * verner87.a[i][j] * k[j][0];
+      v += h * verner87.a[i][j] * k[j][1];
+    }
+    k[i] = {v, p * (p - 1.0L) * std::pow(x, 1.0L - 2.0L / p)};
+  }
+  return k;
+}
+
+/// The constant of the estimate near a singularity is the least that bounds the error of every such step.
+/// Their distance from the singularity is 1, and so are units of length and time. Below h = 0.15 the estimate
+/// of order 7 is the larger one.
+TEST(Verner87, NullRulesTellTheErrorNearASingularity) {
+  const auto sum = [](const std::array<double, 13>& weights, const Stages& k, std::size_t part) {
+    long double total = 0.0L;
+    for (std::size_t i = 0; i < 13; ++i) total += weights[i] * k[i][part];
+    return total;
+  };
+  long double most = 0.0L, least = 1e3L;
+  for (long double p = 0.2L; p < 0.91L; p += 0.05L)
+    for (long double h = 0.15L; h < 0.705L; h += 0.01L) {
+      const Stages k = stages_towards_singularity(p, h);
+      const auto size = [&](const std::array<double, 13>& weights) {
+        return h * std::hypot(sum(weights, k, 0), sum(weights, k, 1));
+      };
+      const long double error = std::hypot(1.0L + h * sum(verner87.b, k, 0) - std::pow(1.0L - h, p),
+                                           -p + h * sum(verner87.b, k, 1) + p * std::pow(1.0L - h, p - 1.0L));
+      const long double of_estimate =
+          std::sqrt(std::inner_product(verner87.d.begin(), verner87.d.end(), verner87.d.begin(), 0.0L));
+      const long double told = std::hypot(size(null_rules.sixth), size(verner87.d) / of_estimate) *
+                               std::pow(size(null_rules.fourth) / size(null_rules.third), 3);
+      most = std::max(most, error / told);
+      least = std::min(least, error / told);
+    }
+  EXPECT_NEAR(static_cast<double>(most), 58.0, 0.5);
+  EXPECT_NEAR(static_cast<double>(least), 20.0, 0.5);
+  EXPECT_LT(most, constants.quickening);
 }
 
 TEST(Verner87, TimesOfStagesAreRowSums) {
