@@ -72,7 +72,8 @@ void EventLog::look(Stepping& stepping) {
   const EventWatch::Read reader = [&](double t) { return read(stepping, t); };
   const auto all = watch_.look({reader, stepping.time(), stepping.degree(), stepping.at_end()});
   std::vector<Occurrence> found;
-  for (const auto& one : all) found.push_back(one.what);
+  for (const auto& one : all)
+    if (one.wanted) found.push_back(one.what);
   const auto changes = [this](const Occurrence& one) {
     return one.event >= asked_for_ || watch_.event(one.event).change;
   };
@@ -154,9 +155,10 @@ void EventLog::begin_anew(double t, Stepping& stepping) {
   if (const auto function = transitions_->approaching()) change_ = {asked_for_ + *function, t};
 }
 
-/// Throws StepFailure where changes of one kind accumulate, as impacts do (see Accumulation): they do not
-/// determine what follows their limit. (Contacts come to rest there by themselves.) A parabola of duration D
-/// rises by D^2/8 of its acceleration: this many roots of the tolerance keep that in sight of EventWatch.
+/// Throws StepFailure where changes of one kind accumulate within the run, as impacts do (see Accumulation):
+/// they do not determine what follows their limit. (Contacts come to rest there by themselves.) A parabola of
+/// duration D rises by D^2/8 of its acceleration: this many roots of the tolerance keep that in sight of
+/// EventWatch.
 void EventLog::require_progress(const Stepping& stepping) {
   const double t = change_->time, time = stepping.start().scales.time;
   if (change_->event < asked_for_) {
@@ -164,7 +166,7 @@ void EventLog::require_progress(const Stepping& stepping) {
     changes.add(t);
     const double least = std::max(stepping.tolerance(), round_off());
     const double brief = constants.brief_changes * std::sqrt(least) * time;
-    if (std::isfinite(changes.left()) && changes.interval() <= brief) chatters();
+    if (t + changes.left() <= stepping.end() && changes.interval() <= brief) chatters();
   }
   const double apart = same_time(t, stepping);
   repeated_ = last_ && last_->event == change_->event && t - last_->time <= apart ? repeated_ + 1 : 0;

@@ -136,9 +136,10 @@ struct DALEMBERT_HIDDEN Integrator::State {
     finish();
   }
 
-  /// What changes where the run ends is carried out, though no step follows.
+  /// What changes where the run ends is carried out, though no step follows; not before all of the last step
+  /// has been read.
   void finish() {
-    while (log && log->pending() && reached() >= options.t_end) log->carry_out(stepping);
+    while (log && log->pending() && now.t >= options.t_end) log->carry_out(stepping);
   }
 
   template <class Observe>

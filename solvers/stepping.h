@@ -31,7 +31,9 @@ class Stepping {
 
   /// Where the last step ended, or where it came to a switch of the equations.
   [[nodiscard]] double time() const { return switch_ ? switch_->at.t : stretch_->stepper->time(); }
-  [[nodiscard]] bool at_end() const { return time() >= options_.t_end; }
+  /// Where the run ends.
+  [[nodiscard]] double end() const { return options_.t_end; }
+  [[nodiscard]] bool at_end() const { return time() >= end(); }
   [[nodiscard]] const Problem& problem() const { return stretch_->problem; }
   /// The one whose equations are stepped.
   [[nodiscard]] const System& system() const { return problem().system(); }

@@ -22,6 +22,7 @@ double sum_of_rest(double D, double r_before, double r) {
 void Accumulation::add(double t) {
   const double before = std::exchange(interval_, t - std::exchange(last_, t));
   const double ratio_before = std::exchange(ratio_, interval_ / before);
+  left_ = infinity;
   if (!(ratio_before > 0.0 && ratio_before < 1.0)) return;
   left_ = sum_of_rest(interval_, ratio_before, ratio_);
   const double before_this = std::exchange(estimate_, t + left_);

@@ -76,9 +76,8 @@ std::vector<Contacts::Limit> Contacts::limits_of_impacts(const Change& change, c
     Contact& c = contacts_[happening.contact];
     Accumulation& impacts = c.impacts;
     impacts.add(t);
-    if (!std::isfinite(impacts.limit()) ||
-        std::abs(psi_[c.row]) * impacts.left() > tolerance_ * scales_.length * c.gradient)
-      continue;
+    const bool ends = std::abs(psi_[c.row]) * impacts.left() <= tolerance_ * scales_.length * c.gradient;
+    if (!std::isfinite(impacts.limit()) || !ends) continue;
     auto limit = std::ranges::find(limits, c.island, &Limit::island);
     if (limit == limits.end()) limit = limits.insert(limit, {c.island, t, impacts.interval()});
     limit->time = std::max(limit->time, impacts.limit());

@@ -118,8 +118,9 @@ void EventWatch::find(std::size_t event, const Step& step, const std::vector<Int
     const double exact = 4.0 * epsilon * std::max(std::abs(a), std::abs(b));
     side_[event] = after == 0 ? -before : after;
     if (f_a == 0.0) continue;
-    if (wanted(events_[event].crossing, before))
-      found.push_back({{event, root(function, a, f_a, b, f_b, exact)}, before});
+    const bool asked = wanted(events_[event].crossing, before);
+    if (asked || event < asked_for_)
+      found.push_back({{event, root(function, a, f_a, b, f_b, exact)}, before, asked});
   }
 }
 
@@ -143,18 +144,21 @@ std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& ste
 }
 
 std::vector<EventWatch::Found> EventWatch::look(const Step& step) {
+  // Of a function that is faster than a step, few values may be alike by chance: a period, or a multiple.
+  constexpr int least_degree = 6;
+  const int degree = asked_for_ > 0 ? std::max(step.degree, least_degree) : step.degree;
   std::vector<Interpolant> whole(events_.size());
   std::vector<std::vector<double>> at_checks(events_.size());
   for (std::size_t e = 0; e < events_.size(); ++e) whole[e] = {{from_}, {at_from_[e]}};
-  for (int j = 1; j <= step.degree; ++j) {
-    const double t = chebyshev_node(from_, step.to, j, step.degree);
+  for (int j = 1; j <= degree; ++j) {
+    const double t = chebyshev_node(from_, step.to, j, degree);
     const FlatSample at = step.read(t);
     for (std::size_t e = 0; e < events_.size(); ++e) {
       whole[e].nodes.push_back(t);
       whole[e].values.push_back(value(e, at));
     }
   }
-  for (const double t : asked_for_ > 0 ? check_times(from_, step.to, step.degree) : std::vector<double>{}) {
+  for (const double t : asked_for_ > 0 ? check_times(from_, step.to, degree) : std::vector<double>{}) {
     const FlatSample at = step.read(t);
     for (std::size_t e = 0; e < asked_for_; ++e) at_checks[e].push_back(value(e, at));
   }

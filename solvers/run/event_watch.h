@@ -16,9 +16,10 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// Finds the events of a run, step by step: where the functions change their sign on the stepper's own
 /// polynomial, with recovered forces.
 ///
-/// Within a step a function is known at the nodes of a Chebyshev interpolant of the polynomial's degree, or
-/// of as many as resolve it. Where one turns towards 0 between two nodes of one sign, or first crosses the 0
-/// that it began with, the function itself is evaluated: so two roots within a step are found as well.
+/// Within a step a function is known at the nodes of a Chebyshev interpolant of the polynomial's degree or,
+/// of events that were asked for, of at least 6, and of as many as resolve it. Where one turns towards 0
+/// between two nodes of one sign, or first crosses the 0 that it began with, the function itself is
+/// evaluated: so two roots within a step are found as well.
 class EventWatch {
  public:
   /// The polynomial of the last step at a time inside it.
@@ -30,17 +31,18 @@ class EventWatch {
     int degree;
     bool ends_run;
   };
-  /// And the sign that the function had before.
+  /// A crossing, the sign that the function had before, and whether that way was asked for.
   struct Found {
     Occurrence what;
     int before;
+    bool wanted;
   };
 
   /// Throws InvalidArgument for an event without function.
   EventWatch(std::vector<FlatEvent> events, const Layout& layout);
 
-  /// What happened in a step, in the order of time. Throws StepFailure if a function throws, gives no number
-  /// or cannot be followed.
+  /// Every crossing in a step, in the order of time; of contacts those that were asked for. Throws
+  /// StepFailure if a function throws, gives no number or cannot be followed.
   [[nodiscard]] std::vector<Found> look(const Step& step);
   /// From here on steps are those of a run that begins, or begins anew, at a sample; the values of the
   /// functions there are no crossing, and as long as one is 0 to round-off of its largest value so far it has

@@ -171,6 +171,25 @@ TEST_P(Changes, AtOneTimeAreAllCarriedOutAndListed) {
   EXPECT_NEAR(ended.times().back(), 0.5, bound);
 }
 
+// The last step reaches from several samples to the change at its end: they are of the motion before it.
+TEST_P(Changes, WhereTheRunEndsLeaveWhatWasBefore) {
+  Scene<2> scene;
+  const auto body = scene.add_particle({.mass = 1.0, .velocity = {1.0, 0.0}});
+  const Event<2> back{
+      .name = "back",
+      .function = [](const auto& now) { return now.time() - 1.0; },
+      .change =
+          [=](Scene<2>& s) {
+            s.replace(body, ParticleState<2>{.mass = 1.0, .position = {1.0, 0.0}, .velocity = {-2.0, 0.0}});
+          }};
+  const auto run = simulate(scene, options(1.0), {back});
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    EXPECT_NEAR(run.position(body, i).x(), run.times()[i], bound) << i;
+    EXPECT_NEAR(run.velocity(body, i).x(), 1.0, bound) << i;
+  }
+  EXPECT_NEAR(run.sample_after(0).velocity(body).x(), -2.0, bound);
+}
+
 TEST_P(Changes, ThatChatterAreErrors) {
   // A ball that its user reflects to half its speed: the times accumulate.
   Scene<2> scene("ball");
