@@ -60,15 +60,7 @@ FlatSample EventLog::read(Stepping& stepping, double t) {
 }
 
 void EventLog::look(Stepping& stepping) {
-  if (transitions_ != nullptr && stepping.start().scales.of_path) {  // the scene's length grows with its path
-    Scales scales = stepping.start().scales;
-    const Statistics so_far = stepping.statistics();
-    scales.take({.length = so_far.length,
-                 .speed = so_far.length / so_far.time,
-                 .rate = scales.way.rate,
-                 .step = scales.way.step});
-    transitions_->adopt(scales);
-  }
+  if (transitions_ != nullptr && stepping.start().scales.of_path) transitions_->adopt(stepping.scales());
   const EventWatch::Read reader = [&](double t) { return read(stepping, t); };
   const auto all = watch_.look({reader, stepping.time(), stepping.degree(), stepping.at_end()});
   std::vector<Occurrence> found;

@@ -57,6 +57,8 @@ class Stepping {
   [[nodiscard]] std::span<const double> velocities() { return interpolate(time()).v; }
   /// What it began from, or last began anew from.
   [[nodiscard]] const Start& start() const { return stretch_->start; }
+  /// Those of the scene where the last step ended: a length of its path grows.
+  [[nodiscard]] Scales scales() const;
   /// The constraint whose force has grown without bound where the last step ended, in words; empty if there
   /// is none.
   [[nodiscard]] std::string unbounded_multiplier();
@@ -104,7 +106,7 @@ class Stepping {
   void find_switch(double from);
   void put_on_springs(double t, State& now);
   void pass_switch();
-  void take_way(Scales& scales) const;
+  [[nodiscard]] Start start_with_scales() const;
   void stepper_at(double t, std::span<double> q, std::span<double> v);
 
   Options options_;

@@ -86,6 +86,8 @@ VectorXd DryFriction::part(const Rough& rough, std::span<const double> all) {
 
 VectorXd DryFriction::slip(const Rough& rough) const { return part(rough, u_); }
 
+double DryFriction::no_slip() const { return round_off() * scales_.speed(); }
+
 /// Round-off of the forces on what it acts on, of inertia and its own; never 0.
 double DryFriction::round_off_of(const Rough& rough, std::span<const double> a,
                                  std::span<const double> lambda) const {
@@ -116,8 +118,8 @@ double DryFriction::switching(std::size_t function, const FlatSample& now) const
   if (watched == speed && !slow && !r.shared) return 1.0;
   if (slip_at_ != now.time) find_slip({now.time, now.q, now.v});
   const VectorXd u = slip(r);
-  if (watched == speed) return 2.0 * (slow ? r.slow : r.still) - u.norm();
-  return r.rows == 1 || slow ? u.dot(r.direction) + round_off() * scales_.speed() : u.norm() - r.slow;
+  if (watched == speed) return 2.0 * (slow ? r.slow : no_slip()) - u.norm();
+  return r.rows == 1 || slow ? u.dot(r.direction) + no_slip() : u.norm() - r.slow;
 }
 
 /// Starts to slide from rest, whatever small slip is left.

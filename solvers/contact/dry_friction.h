@@ -74,7 +74,7 @@ class DryFriction {
     double mu = 0.0, mu_static = 0.0;
     bool one_sided = false;
     double sign = 1.0;               // of lambda
-    double still = 0.0, slow = 0.0;  // speeds: that count as none, and below which a slip in space is slow
+    double still = 0.0, slow = 0.0;  // speeds: that may be none, and below which a slip in space is slow
     Mode mode = Mode::absent;
     bool shared = false;  // sticks, but others constrain the same slip
     Eigen::VectorXd direction{};
@@ -98,6 +98,7 @@ class DryFriction {
   [[nodiscard]] static Eigen::VectorXd part(const Rough& rough, std::span<const double> all);
   void find_slip(const Instant& at) const;
   [[nodiscard]] Eigen::VectorXd slip(const Rough& rough) const;
+  [[nodiscard]] double no_slip() const;  ///< round-off
   [[nodiscard]] bool own(const Rough& rough, Fallen fallen, Watched watched) const;
   [[nodiscard]] static bool shared(const Rough& rough, std::span<const char> unique);
 

@@ -65,7 +65,8 @@ bool DryFriction::own(const Rough& rough, Fallen fallen, Watched watched) const 
   return fallen == kinds * index + watched;
 }
 
-/// What moves slides; what does not sticks, before `decide`.
+/// What moves slides; what does not sticks, before `decide`. A slip that others prescribe is known to
+/// round-off, another one as exactly as velocities are.
 void DryFriction::begin(Rough& rough, const std::vector<std::size_t>& open, double t, Fallen fallen) {
   const bool slid = rough.mode == Mode::slides, slow = slid && rough.pace != Pace::fast;
   const bool due = own(rough, fallen, mode), just = slid && rough.let_go && t - *rough.let_go <= same_time(t);
@@ -76,8 +77,9 @@ void DryFriction::begin(Rough& rough, const std::vector<std::size_t>& open, doub
   }
   if (own(rough, fallen, sign)) rough.sign = -rough.sign;
   const VectorXd u = slip(rough);
-  const double none = round_off() * scales_.speed();
-  const bool stops = due && slid && (rough.rows == 1 || slow), moves = slid && u.dot(rough.direction) > none;
+  const double none = no_slip();
+  const bool stops = due && slid && (rough.rows == 1 || slow),
+             moves = slid ? u.dot(rough.direction) > none : rough.shared && u.norm() > none;
   if (stops || (u.norm() <= std::max(rough.still, none) && !moves)) {
     rough.at_rest = true;
     rough.reached = slid ? just : due;

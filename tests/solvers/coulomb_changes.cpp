@@ -127,6 +127,33 @@ TEST_P(CoulombChanges, OfABlockThatIsCarriedSlidesBothWays) {
   EXPECT_EQ(run.events()[0].what, Happened::slides);
 }
 
+// The slip grows from rest like t^2, t^3 or after a rest: friction is there as soon as it is a slip.
+TEST_P(CoulombChanges, OfABlockThatIsCarriedOffSlowlySlidesAtOnce) {
+  constexpr double mu = 0.3;
+  const auto carried = [&](const auto& path, double from) {
+    Scene<2> scene("carried");
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto block = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
+    const auto table = scene.add(OnCurve{block, Plane<2>{}});
+    const auto rough = scene.add(coulomb(table, Slip{block, Plane<2>{}}, mu));
+    scene.add(Distance{driven([path](auto t) { return vec(path(t), 0.0 * t); }), block, 1.0});
+    const auto run = simulate(scene, options(2.0));
+    for (std::size_t i = 0; i < run.size(); ++i)
+      if (run.times()[i] > from) {
+        EXPECT_NEAR(run.multiplier(rough, i), -mu * g, bound() * g) << run.times()[i];
+      }
+  };
+  carried([](auto t) { return 0.2 * (2.0 * t - sin(2.0 * t)); }, 0.0);
+  carried([](auto t) { return t * t * t; }, 0.0);
+  carried(
+      [](auto t) {
+        const auto s = t - 1.0;
+        if (t < 1.0) return 0.0 * t;
+        return s * s * s;
+      },
+      1.0);
+}
+
 TEST_P(CoulombChanges, OfADrivenWheelThatIsHeldSlidesBothWays) {
   // Centre held, phi = sin t prescribed: the slip is R phi'.
   constexpr double mu = 0.2, R = 0.5, m = 2.0, I = 0.25;
