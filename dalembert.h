@@ -59,3 +59,4 @@
 #include <dalembert/solvers/equilibrium/equilibrium.h>
 #include <dalembert/solvers/equilibrium/floquet.h>
 #include <dalembert/solvers/equilibrium/normal_modes.h>
+#include <dalembert/solvers/equilibrium/steady.h>

@@ -40,8 +40,9 @@ namespace detail {
 }  // namespace detail
 
 /// For a System and what `find_equilibrium` gave, out of which `normal_modes` makes NormalModes.
+/// About a steady motion `motion` stands for the turning.
 [[nodiscard]] Modes find_modes(const System& system, const FlatSample& at, const Turning<3>& turning,
-                               const ModesOptions& options);
+                               const ModesOptions& options, const UniformMotion* motion = nullptr);
 
 /// The small motions about an equilibrium, read by handle. Functions of a mode k throw InvalidArgument if
 /// there is none.
@@ -135,8 +136,10 @@ template <int D>
   const System system = scene.system();
   if (!detail::same_elements(*system.layout(), equilibrium.layout()))
     throw InvalidArgument("This equilibrium belongs to another scene than \"" + scene.name() + '"');
-  return {system.layout(), find_modes(system, equilibrium.sample().flat(), equilibrium.turning(), options),
-          equilibrium.left_out()};
+  return {
+      system.layout(),
+      find_modes(system, equilibrium.sample().flat(), equilibrium.turning(), options, equilibrium.motion()),
+      equilibrium.left_out()};
 }
 
 }  // namespace dalembert
