@@ -290,7 +290,7 @@ Modes find_modes(const System& system, const FlatSample& at, const Turning<3>& t
   require_constant(system, balance, at, terms);
   Modes found;
   if (system.coordinates() <= most_dense) {
-    found = dense_modes(system, terms);
+    found = dense_modes(system, terms, motion ? motion->symmetric : Eigen::MatrixXd());
   } else {
     found = lowest_modes(system, terms, options.lowest);
     if (!found.modes.empty() && found.modes.back().eigenvalue == 0.0)

@@ -83,6 +83,26 @@ std::vector<Tangent> tangents(const System& system, const LinearTerms& terms) {
   return all;
 }
 
+/// Makes K and E zero along symmetries that leave the motion as it is, see `dense_modes`: those along which
+/// they are no more than `rank_threshold` of their terms.
+void rest_along(const Matrix& symmetric, Tangent& t) {
+  if (symmetric.cols() == 0) return;
+  const Matrix own = t.metric.transpose() * symmetric(t.coordinates, Eigen::all);
+  if (own.isZero(0.0)) return;
+  const Matrix Y = orthogonal_complement(orthogonal_complement(own));
+  const double time = t.K.norm() > 0.0 ? 1.0 / std::sqrt(t.K.norm()) : 1.0;
+  Matrix change(t.K.rows() + t.E.rows(), Y.cols());
+  change << time * time * t.K * Y, time * t.E * Y;
+  const auto [squares, vectors] = dense::symmetric_eigen(change.transpose() * change);
+  const Index none =
+      std::ranges::count_if(squares, [](double x) { return x <= rank_threshold * rank_threshold; });
+  if (none == 0) return;
+  const Matrix still = Y * vectors.leftCols(none);
+  t.K -= t.K * still * still.transpose();
+  t.E -= t.E * still * still.transpose();
+  if (t.symmetric) t.K -= still * (still.transpose() * t.K).eval();
+}
+
 /// The shape in the system's coordinates, its largest number 1.
 Mode mode(std::complex<double> eigenvalue, const Eigen::VectorXcd& z, const Tangent& t) {
   Eigen::VectorXcd u = t.shapes * z;
@@ -366,11 +386,12 @@ double append_real(const Tangent& t, std::vector<RealShape>& found) {
 
 }  // namespace
 
-Modes dense_modes(const System& system, const LinearTerms& terms) {
+Modes dense_modes(const System& system, const LinearTerms& terms, const Matrix& symmetric) {
   Modes found{{}, Stability::stable, "every mode decays or vibrates with positive energy"};
   Verdict verdict{found};
   for (Tangent& t : tangents(system, terms)) {
     if (t.K.rows() == 0) continue;  // a part without freedom
+    rest_along(symmetric, t);
     const bool conservative = t.B.rows() == 0 && t.C.isZero(0.0) && t.symmetric;
     conservative ? of_conservative(t, verdict) : of_any(std::move(t), verdict);
   }

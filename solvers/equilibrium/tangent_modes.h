@@ -29,7 +29,11 @@ inline constexpr std::size_t most_dense = 600;
 /// however long their chains are. Each of these is known to the matrix's round-off times its condition 1/|y^H
 /// x|, and decides only what exceeds that; where it does not grow an energy u'.M u'/2 + u.K u/2 > 0 decides:
 /// for K symmetric, C dissipative, E = 0. Marks no mode as free. Throws EquationFault.
-[[nodiscard]] Modes dense_modes(const System& system, const LinearTerms& terms);
+///
+/// Of displacements by symmetries (columns of `symmetric`) those that the frame's motion leaves as they are
+/// change nothing: K u = 0 and E u = 0 exactly, not to round-off, of which a chain of zeros takes roots.
+[[nodiscard]] Modes dense_modes(const System& system, const LinearTerms& terms,
+                                const Eigen::MatrixXd& symmetric = {});
 
 /// K on the tangent space, of each uncoupled part separately: its real eigenvalues, increasing, their shapes
 /// u = M^-1/2 N z of |z| = 1 as columns, and the covectors that give 1 for their own shape and 0 for the
