@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 
 namespace dalembert::steady_test {
@@ -82,24 +84,67 @@ TEST(Steady, PrecessionOfATopIsARootOfItsQuadratic) {
   }
 }
 
-TEST(Steady, TopAsleepVibratesOrFallsByItsSpin) {
-  // A th'' - i C n th' - m g l th = 0 for th = x + i y: s = i (C n +- sqrt(C^2 n^2 - 4 A m g l))/(2 A).
-  constexpr double A = 0.3, C = 0.02;
-  const double mgl = g * 0.5;
-  for (const double n : {100.0, 150.0}) {
+/// The distance of the nearest eigenvalue.
+double off(const NormalModes<3>& modes, std::complex<double> s) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < modes.size(); ++k)
+    nearest = std::min(nearest, std::abs(modes.eigenvalue(k) - s));
+  return nearest;
+}
+
+/// Eigenvalues of a top that sleeps: A th'' - i C n th' - m g l th = 0 for th = x + i y, so that
+/// s = i (C n +- sqrt(C^2 n^2 - 4 A m g l))/(2 A). Critical: n = sqrt(4 A m g l)/C = 121.3.
+std::array<std::complex<double>, 2> asleep(double n) {
+  constexpr double A = 0.3, C = 0.02, mgl = g * 0.5;
+  const std::complex<double> root = std::sqrt(std::complex<double>(C * C * n * n - 4.0 * A * mgl)),
+                             i(0.0, 1.0);
+  return {i * (C * n + root) / (2.0 * A), i * (C * n - root) / (2.0 * A)};
+}
+
+TEST(Steady, TopAsleepIsStableAboveItsCriticalSpin) {
+  // K is known to round-off of n^2, of which K keeps nothing.
+  for (const double n : {20.0, 100.0, 120.0, 122.0, 150.0, 300.0, 3000.0}) {
     const Top top(0.0, 0.0, n);
     const auto modes = normal_modes(top.scene, steady(top.scene));
-    const std::complex<double> root = std::sqrt(std::complex<double>(C * C * n * n - 4.0 * A * mgl));
-    for (const double sign : {-1.0, 1.0}) {
-      const std::complex<double> s = std::complex<double>(0.0, 1.0) * (C * n + sign * root) / (2.0 * A);
-      double nearest = 1e9;
-      for (std::size_t k = 0; k < modes.size(); ++k)
-        nearest = std::min(nearest, std::abs(modes.eigenvalue(k) - s));
-      EXPECT_LT(nearest, 1e3 * rounding) << n;
-    }
-    // Critical: n = sqrt(4 A m g l)/C = 121. (Above it the verdict is not tested: zeros of the spin, a chain
-    // of two, are still known to a root of round-off only.)
-    if (n < 121.0) EXPECT_EQ(modes.stability(), Stability::unstable) << modes.describe();
+    ASSERT_EQ(modes.size(), 3U) << n;
+    EXPECT_TRUE(modes.is_free(0));
+    EXPECT_EQ(modes.eigenvalue(0), 0.0);
+    for (const auto s : asleep(n)) EXPECT_LT(off(modes, s), 1e2 * rounding) << n << ' ' << s;
+    EXPECT_EQ(modes.stability(), n < 121.3 ? Stability::unstable : Stability::stable) << modes.describe();
+  }
+}
+
+TEST(Steady, TopAsleepIsJudgedBesideAPendulum) {
+  for (const double n : {100.0, 150.0, 300.0}) {
+    Top top(0.0, 0.0, n);
+    const auto bob = top.scene.add_particle({.mass = 2.0, .position = {5.0, 0.0, -1.0}}, "bob");
+    top.scene.add(Distance{Fixed<3>{{5.0, 0.0, 0.0}}, bob, 1.0});
+    const auto modes = normal_modes(top.scene, steady(top.scene));
+    ASSERT_EQ(modes.size(), 5U);
+    for (const auto s : asleep(n)) EXPECT_LT(off(modes, s), 1e2 * rounding) << n;
+    EXPECT_LT(off(modes, {0.0, std::sqrt(g)}), rounding);
+    EXPECT_EQ(modes.stability(), n < 121.3 ? Stability::unstable : Stability::stable) << modes.describe();
+  }
+}
+
+TEST(Steady, PrecessionNutatesAboutItsLean) {
+  // A t'' = f(t) = A p^2 sin t cos t - C n p sin t + m g l sin t with n and A p sin^2 t + C n cos t
+  // conserved, so that p' = (C n/A - 2 p cos t)/sin t and omega^2 = -f'/A = p^2 sin^2 t + (C n/A - 2 p cos
+  // t)^2.
+  constexpr double lean = 0.5, A = 0.3, C = 0.02, mgl = g * 0.5;
+  for (const double n : {150.0, 300.0}) {
+    const double c = std::cos(lean), s = std::sin(lean), root = std::sqrt(C * C * n * n - 4.0 * A * c * mgl),
+                 p = (C * n - root) / (2.0 * A * c);
+    const Top top(lean, p, n - p * c);
+    const auto at = steady(
+        top.scene, {.keep = {{"lean", [=](const auto& now) { return top.body.axes(now).col(2).z(); }}}});
+    const auto modes = normal_modes(top.scene, at);
+    ASSERT_EQ(modes.size(), 3U);
+    EXPECT_TRUE(modes.is_free(0));
+    EXPECT_TRUE(modes.is_free(1));
+    const double rate = C * n / A - 2.0 * p * c;
+    EXPECT_NEAR(modes.frequency(2), std::sqrt(p * p * s * s + rate * rate), 1e2 * rounding) << n;
+    EXPECT_EQ(modes.stability(), Stability::stable) << modes.describe();
   }
 }
 
