@@ -28,7 +28,8 @@ VectorXd vector_of(std::span<const double> x) {
 /// Newton's iteration for (1) of the header.
 class SteadySearch {
  public:
-  SteadySearch(const Problem& problem, const Start& start, double time, const std::vector<FlatKept>& keep)
+  SteadySearch(const Problem& problem, const Start& stated, const Start& start, double time,
+               const std::vector<FlatKept>& keep)
       : problem_(problem),
         system_(&problem_.system()),
         time_(time),
@@ -41,7 +42,7 @@ class SteadySearch {
     const VectorXd v = vector_of(start.v);
     decompose(v);
     require_symmetric(v);
-    for (const FlatKept& one : keep) kept_.push_back(value(one, q_, v));
+    for (const FlatKept& one : keep) kept_.push_back(value(one, vector_of(stated.q), vector_of(stated.v)));
   }
 
   FoundSteady find() {
@@ -124,7 +125,8 @@ class SteadySearch {
     const Index n = q_.size(), p = y_.size(), m = static_cast<Index>(rows_.size()),
                 kept = static_cast<Index>(keep_->size());
     VectorXd masses = vector_of(system_->masses()), units(n + p);
-    const double fast = std::max(v.cwiseAbs().maxCoeff() / scales_.length, 1e-3 / scales_.time);
+    const double most = v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0,
+                 fast = std::max(most / scales_.length, 1e-3 / scales_.time);
     for (Index i = 0; i < n; ++i) units[i] = scales_.unit(static_cast<std::size_t>(i));
     units.tail(p).setConstant(fast);
     MatrixXd J = MatrixXd::Zero(n + m + kept, n + p), J_terms = J, Jl = MatrixXd::Zero(J.rows(), m);
@@ -151,12 +153,16 @@ class SteadySearch {
         const double Z = terms.w[k] * lambda_[static_cast<Index>(row)];
         r[i] += Z;
         terms_of_r[i] += std::abs(Z);
-        terms_of_r[n + a] += std::abs(terms.w[k] * (holonomic ? q_[i] : v[i]));
+        terms_of_r[n + a] += std::abs(terms.w[k]) * (holonomic ? std::max(std::abs(q_[i]), units[i]) : most);
         Jl(i, a) += terms.w[k];
         J(n + a, i) += holonomic ? terms.w[k] : terms.e[k];
         if (!holonomic) J.block(n + a, n, 1, p) += terms.w[k] * X.row(i);
       }
       if (holonomic) Jl(n + a, a) = system_->law(row).compliance;
+    }
+    for (const auto& particle : system_->layout()->particles) {  // of any direction
+      auto own = terms_of_r.segment(particle.coordinate, system_->layout()->dimension);
+      own.setConstant(own.maxCoeff());
     }
     for (Index k = 0; k < kept; ++k) add_kept(k, n + m + k, r, terms_of_r, J);
     for (Index i = 0; i < n; ++i) {
@@ -185,8 +191,10 @@ class SteadySearch {
     MatrixXd left = free.transpose() * J;
     VectorXd right = free.transpose() * r;
     // What balances to round-off stays as it is: beside a fast spin that displaces what is soft.
-    const bool balances =
-        ((free * right).cwiseAbs().array() <= roundings * epsilon * terms_of_r.array()).all();
+    const MatrixXd across = free * free.transpose();
+    const VectorXd unbalanced = (across * r).cwiseAbs(),
+                   rounding = roundings * epsilon * across.cwiseAbs() * terms_of_r;
+    const bool balances = (unbalanced.array() <= rounding.array()).all();
     // Forces in units of the stiffness that they change by. What is round-off of its terms changes by
     // nothing.
     const VectorXd least =
@@ -297,14 +305,19 @@ void require_suited_to_steady(const System& system) {
 }  // namespace
 
 FoundSteady find_steady(System system, std::span<const double> q, std::span<const double> v, double time,
-                        const std::vector<FlatKept>& keep) {
+                        const std::vector<FlatKept>& keep, std::span<const double> beside) {
   if (!std::isfinite(time)) throw InvalidArgument("Option time of a steady motion must be finite");
   require_suited_to_steady(system);
   try {
     const Problem problem(std::move(system));
-    const Start start =
-        consistent_start(problem, q, v, {.t_end = time + 1.0, .t_start = time, .assemble = true});
-    return SteadySearch(problem, start, time, keep).find();
+    const auto start_at = [&](std::span<const double> at, std::span<const double> rates) {
+      return consistent_start(problem, at, rates, {.t_end = time + 1.0, .t_start = time, .assemble = true});
+    };
+    const Start stated = start_at(q, v);
+    if (beside.empty()) return SteadySearch(problem, stated, stated, time, keep).find();
+    VectorXd there = vector_of(stated.q) + vector_of(beside.first(q.size())),
+             rates = vector_of(stated.v) + vector_of(beside.subspan(q.size()));
+    return SteadySearch(problem, stated, start_at(flat(there), flat(rates)), time, keep).find();
   } catch (const EquationFault& fault) {
     throw NoEquilibrium(fault.what());
   }

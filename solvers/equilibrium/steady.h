@@ -32,8 +32,26 @@ struct FoundSteady {
   std::shared_ptr<const Record> state;
   std::shared_ptr<const UniformMotion> motion;
 };
+/// Throws like `steady`. What is kept has its value in the statement (q, v), from which the search begins
+/// after `beside` is added: (dq, dv), or nothing.
 [[nodiscard]] FoundSteady find_steady(System system, std::span<const double> q, std::span<const double> v,
-                                      double time, const std::vector<FlatKept>& keep);
+                                      double time, const std::vector<FlatKept>& keep,
+                                      std::span<const double> beside = {});
+
+namespace detail {
+
+template <int D>
+[[nodiscard]] std::vector<FlatKept> flat(const std::vector<Kept<D>>& keep,
+                                         const std::shared_ptr<const Layout>& layout) {
+  std::vector<FlatKept> all;
+  for (const Kept<D>& one : keep)
+    all.push_back({one.name, [layout, value = one.value](const FlatSample& at) {
+                     return value(Sample<D>(*layout, at));
+                   }});
+  return all;
+}
+
+}  // namespace detail
 
 /// A steady motion near the positions and velocities that a scene states: each of its parts translates and
 /// rotates uniformly, and within it rotors turn and bodies spin about axes of their own (wheels, tops), so
@@ -58,11 +76,7 @@ struct FoundSteady {
 template <int D>
 [[nodiscard]] Equilibrium<D> steady(const Scene<D>& scene, const SteadyOptions<D>& options = {}) {
   System system = scene.system();
-  std::vector<FlatKept> keep;
-  for (const Kept<D>& one : options.keep)
-    keep.push_back({one.name, [layout = system.layout(), value = one.value](const FlatSample& at) {
-                      return value(Sample<D>(*layout, at));
-                    }});
+  const std::vector<FlatKept> keep = detail::flat<D>(options.keep, system.layout());
   FoundSteady found = find_steady(std::move(system), scene.initial_positions(), scene.initial_velocities(),
                                   options.time, keep);
   return {std::move(found.state), std::move(found.motion)};

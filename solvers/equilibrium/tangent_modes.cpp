@@ -1,5 +1,6 @@
 #include "dalembert/solvers/equilibrium/tangent_modes.h"
 
+#include <dalembert/core/analysis/rank.h>
 #include <dalembert/solvers/equilibrium/first_order.h>
 #include <dalembert/solvers/equilibrium/tangent.h>
 #include <dalembert/solvers/linear/dense.h>
@@ -129,6 +130,17 @@ Decomposed decomposed(const Tangent& t) {
   return {std::move(values), std::move(right), std::move(left)};
 }
 
+/// The part of it along which nonholonomic rows let something move.
+Tangent along_velocities(Tangent t) {
+  if (t.B.isZero(0.0)) return t;
+  const Matrix P = orthogonal_complement(t.B.transpose());
+  t.shapes = (t.shapes * P).eval();
+  t.metric = (t.metric * P).eval();
+  t.K = (P.transpose() * t.K * P).eval();
+  t.K_terms = (P.cwiseAbs().transpose() * t.K_terms * P.cwiseAbs()).eval();
+  return t;
+}
+
 /// A real eigenvalue of K, in the coordinates of the scene.
 struct RealShape {
   double value;
@@ -136,9 +148,10 @@ struct RealShape {
 };
 
 /// Those of one part; returns the smallest real part of all.
-double append_real(const Tangent& t, std::vector<RealShape>& found) {
+double append_real(const Tangent& whole, std::vector<RealShape>& found) {
   double least = std::numeric_limits<double>::infinity();
-  if (t.K.rows() == 0) return least;
+  if (whole.K.rows() == 0) return least;
+  const Tangent t = along_velocities(whole);
   const Decomposed K = decomposed(t);
   const auto all = static_cast<Index>(t.all);
   for (Index k = 0; k < K.values.size(); ++k) {
@@ -170,6 +183,17 @@ Modes dense_modes(const System& system, const LinearTerms& terms, const UniformM
 std::vector<Vibration> vibrations(const System& system, const LinearTerms& terms) {
   std::vector<Vibration> found;
   for (Tangent& t : tangents(system, terms)) append_vibrations(std::move(t), found);
+  std::ranges::stable_sort(found, std::greater{}, [](const Vibration& x) { return x.s.real(); });
+  return found;
+}
+
+std::vector<Vibration> all_vibrations(const System& system, const LinearTerms& terms,
+                                      const UniformMotion& motion) {
+  std::vector<Vibration> found;
+  for (const Tangent& t : tangents(system, terms, &motion)) {
+    if (t.K.rows() == 0) continue;
+    for (const Solution& x : solutions(t).others) found.push_back({x.s, x.error});
+  }
   std::ranges::stable_sort(found, std::greater{}, [](const Vibration& x) { return x.s.real(); });
   return found;
 }

@@ -22,9 +22,10 @@ inline constexpr std::size_t most_dense = 600;
 [[nodiscard]] Modes dense_modes(const System& system, const LinearTerms& terms,
                                 const UniformMotion* motion = nullptr);
 
-/// K on the tangent space, of each uncoupled part separately: its real eigenvalues, increasing, their shapes
-/// u = M^-1/2 N z of |z| = 1 as columns, and the covectors that give 1 for their own shape and 0 for the
-/// others. Where circulatory forces make K unsymmetric others may be complex.
+/// K on the tangent space (with nonholonomic rows: of what may move), of each uncoupled part separately: its
+/// real eigenvalues, increasing, their shapes u = M^-1/2 N z of |z| = 1 as columns, and the covectors that
+/// give 1 for their own shape and 0 for the others. Where circulatory forces make K unsymmetric others may be
+/// complex.
 struct TangentStiffness {
   Eigen::VectorXd values;
   Eigen::MatrixXd shapes, duals;
@@ -32,7 +33,8 @@ struct TangentStiffness {
 };
 [[nodiscard]] TangentStiffness tangent_stiffness(const System& system, const LinearTerms& terms);
 
-/// The eigenvalue of a vibration, Im s > 0, and the error to which it is known.
+/// The eigenvalue of a vibration, Im s > 0 (or of a motion that does not vibrate), and the error to which it
+/// is known.
 struct Vibration {
   std::complex<double> s;
   double error;
@@ -44,5 +46,10 @@ struct Vibration {
 /// is symmetric, and either C is or K is not negative along any shape: nothing that vibrates grows then
 /// (Kelvin, Tait; Chetaev). Without C, and without nonholonomic rows, -s^2 is an eigenvalue of K.
 [[nodiscard]] std::vector<Vibration> vibrations(const System& system, const LinearTerms& terms);
+
+/// All eigenvalues of the small motions about a steady motion that are not 0, real ones included, by
+/// decreasing real part.
+[[nodiscard]] std::vector<Vibration> all_vibrations(const System& system, const LinearTerms& terms,
+                                                    const UniformMotion& motion);
 
 }  // namespace dalembert
