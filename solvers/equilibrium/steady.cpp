@@ -3,6 +3,7 @@
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/balance.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
+#include <dalembert/solvers/equilibrium/steady_equations.h>
 #include <dalembert/solvers/equilibrium/symmetries.h>
 #include <dalembert/solvers/equilibrium/tangent_modes.h>
 #include <dalembert/solvers/linear/dense.h>
@@ -114,143 +115,39 @@ class SteadySearch {
 
   /// One correction; its size, in units of the scene.
   double correct() {
-    constexpr double roundings = 10.0;  // of a sum of some dozens of terms
-    const RotatingFrame frame(symmetries_.motion(y_));
-    const MatrixXd X = symmetries_.fields(q_);
-    const VectorXd v = X * y_;
-    const Instant at{time_, flat(q_), flat(v)};
-    const LinearTerms terms = linear_terms(*system_, frame, at, flat(lambda_));
-    auto e = system_->evaluation();
-    system_->evaluate(at, e);
-    const Index n = q_.size(), p = y_.size(), m = static_cast<Index>(rows_.size()),
-                kept = static_cast<Index>(keep_->size());
-    VectorXd masses = vector_of(system_->masses()), units(n + p);
-    const double most = v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0,
-                 fast = std::max(most / scales_.length, 1e-3 / scales_.time);
-    for (Index i = 0; i < n; ++i) units[i] = scales_.unit(static_cast<std::size_t>(i));
-    units.tail(p).setConstant(fast);
-    MatrixXd J = MatrixXd::Zero(n + m + kept, n + p), J_terms = J, Jl = MatrixXd::Zero(J.rows(), m);
-    VectorXd r(J.rows()), terms_of_r = VectorXd::Zero(J.rows());
-    // Forces, over the roots of the masses.
-    r.head(n) = vector_of(e.force) - masses.cwiseProduct(frame.matrix() * v);
-    terms_of_r.head(n) = vector_of(e.force).cwiseAbs() + masses.cwiseProduct(frame.matrix() * v).cwiseAbs();
-    const MatrixXd AX = frame.matrix() * X, Xv = symmetries_.images(v);
-    J.block(0, n, n, p) = masses.asDiagonal() * (AX - Xv);
-    J_terms.block(0, n, n, p) = masses.asDiagonal() * (AX.cwiseAbs() + Xv.cwiseAbs());
-    for (const auto& k : terms.stiffness) {
-      J(static_cast<Index>(k.row()), static_cast<Index>(k.col())) -= k.value();
-      J_terms(static_cast<Index>(k.row()), static_cast<Index>(k.col())) += std::abs(k.value());
+    constexpr double longest = 0.2;
+    SteadyEquations equations(*system_, symmetries_, scales_, rows_, {time_, q_, lambda_, y_},
+                              static_cast<Index>(keep_->size()));
+    for (std::size_t k = 0; k < keep_->size(); ++k) {
+      const double now = value((*keep_)[k], q_, symmetries_.fields(q_) * y_);
+      equations.keep(static_cast<Index>(k), now - kept_[k], std::abs(now) + std::abs(kept_[k]),
+                     gradient((*keep_)[k]));
     }
-    for (const auto& c : terms.damping)
-      J.block(static_cast<Index>(c.row()), n, 1, p) -= c.value() * X.row(static_cast<Index>(c.col()));
-    for (Index a = 0; a < m; ++a) {
-      const std::size_t row = rows_.rows[static_cast<std::size_t>(a)];
-      const bool holonomic = row < system_->holonomic_rows();
-      r[n + a] =
-          holonomic ? system_->law(row).residual(e.g[row], lambda_[static_cast<Index>(row)]) : e.psi[row];
-      for (const std::size_t k : system_->row(row)) {
-        const auto i = static_cast<Index>(system_->w_columns()[k]);
-        const double Z = terms.w[k] * lambda_[static_cast<Index>(row)];
-        r[i] += Z;
-        terms_of_r[i] += std::abs(Z);
-        terms_of_r[n + a] += std::abs(terms.w[k]) * (holonomic ? std::max(std::abs(q_[i]), units[i]) : most);
-        Jl(i, a) += terms.w[k];
-        J(n + a, i) += holonomic ? terms.w[k] : terms.e[k];
-        if (!holonomic) J.block(n + a, n, 1, p) += terms.w[k] * X.row(i);
-      }
-      if (holonomic) Jl(n + a, a) = system_->law(row).compliance;
-    }
-    for (const auto& particle : system_->layout()->particles) {  // of any direction
-      auto own = terms_of_r.segment(particle.coordinate, system_->layout()->dimension);
-      own.setConstant(own.maxCoeff());
-    }
-    for (Index k = 0; k < kept; ++k) add_kept(k, n + m + k, r, terms_of_r, J);
-    for (Index i = 0; i < n; ++i) {
-      const double root = 1.0 / std::sqrt(masses[i]);
-      r[i] *= root;
-      terms_of_r[i] *= root;
-      J.row(i) *= root;
-      J_terms.row(i) *= root;
-      Jl.row(i) *= root;
-    }
-    J = (J * units.asDiagonal()).eval();
-    J_terms = J.cwiseAbs().cwiseMax(J_terms * units.asDiagonal());
-    rest_along(units.head(n).cwiseInverse().asDiagonal() *
-                   symmetries_.displacements(q_, symmetries_.commuting(q_, y_)),
-               J.topLeftCorner(n + m, n));
-    for (Index i = n; i < J.rows(); ++i) {
-      const double length = J.row(i).norm();
-      if (length == 0.0) continue;
-      J.row(i) /= length;
-      J_terms.row(i) /= length;
-      Jl.row(i) /= length;
-      r[i] /= length;
-      terms_of_r[i] /= length;
-    }
-    const MatrixXd free = m > 0 ? orthogonal_complement(Jl) : MatrixXd::Identity(J.rows(), J.rows());
-    MatrixXd left = free.transpose() * J;
-    VectorXd right = free.transpose() * r;
-    // What balances to round-off stays as it is: beside a fast spin that displaces what is soft.
-    const MatrixXd across = free * free.transpose();
-    const VectorXd unbalanced = (across * r).cwiseAbs(),
-                   rounding = roundings * epsilon * across.cwiseAbs() * terms_of_r;
-    const bool balances = (unbalanced.array() <= rounding.array()).all();
-    // Forces in units of the stiffness that they change by. What is round-off of its terms changes by
-    // nothing.
-    const VectorXd least =
-        roundings_of_a_sum * epsilon * free.cwiseAbs().transpose() * J_terms.rowwise().maxCoeff();
-    for (Index i = 0; i < left.rows(); ++i) {
-      const double length = left.row(i).norm(), unit = length > least[i] ? 1.0 / length : 0.0;
-      left.row(i) *= unit;
-      right[i] *= unit;
-    }
-    const VectorXd x = balances ? VectorXd(VectorXd::Zero(n + p))
-                                : VectorXd(dense::least_squares(left, -right, rank_threshold));
-    const double size = x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.0;
-    const double part = size > 0.2 ? 0.2 / size : 1.0;
-    if (!x.allFinite()) return std::numeric_limits<double>::infinity();
-    if (m > 0) {
-      const VectorXd l = dense::least_squares(Jl, -r - J * x, rank_threshold);
-      for (Index a = 0; a < m; ++a)
-        lambda_[static_cast<Index>(rows_.rows[static_cast<std::size_t>(a)])] += part * l[a];
-    }
-    q_ += part * units.head(n).cwiseProduct(x.head(n));
-    y_ += part * units.tail(p).cwiseProduct(x.tail(p));
-    return size;
+    const auto step = equations.correction();
+    if (!std::isfinite(step.size)) return step.size;
+    const double part = step.size > longest ? longest / step.size : 1.0;
+    q_ += part * step.q;
+    y_ += part * step.y;
+    for (std::size_t a = 0; a < rows_.size(); ++a)
+      lambda_[static_cast<Index>(rows_.rows[a])] += part * step.lambda[static_cast<Index>(a)];
+    return step.size;
   }
 
-  /// Equations do not change along symmetries that commute with the motion, exactly: what is left of their
-  /// derivative is round-off of fast spins.
-  static void rest_along(const MatrixXd& symmetric, Eigen::Ref<MatrixXd> J) {
-    const MatrixXd still = orthogonal_complement(orthogonal_complement(symmetric));
-    J -= J * still * still.transpose();
-  }
-
-  /// A kept quantity's row, by central differences.
-  void add_kept(Index k, Index row, VectorXd& r, VectorXd& terms, MatrixXd& J) const {
-    const FlatKept& one = (*keep_)[static_cast<std::size_t>(k)];
+  /// Of a kept quantity by q and y, by central differences.
+  [[nodiscard]] Eigen::RowVectorXd gradient(const FlatKept& one) const {
     const Index n = q_.size();
-    const auto at = [&](const VectorXd& q, const VectorXd& y) {
+    const double h = std::cbrt(epsilon);
+    const auto at = [&](Index i, double by) {
+      VectorXd q = q_, y = y_;
+      (i < n ? q[i] : y[i - n]) += by;
       return value(one, q, symmetries_.fields(q) * y);
     };
-    const double now = at(q_, y_);
-    r[row] = now - kept_[static_cast<std::size_t>(k)];
-    terms[row] = std::abs(now) + std::abs(kept_[static_cast<std::size_t>(k)]);
-    const double h = std::cbrt(epsilon);
-    for (Index i = 0; i < J.cols(); ++i) {
-      VectorXd q1 = q_, q2 = q_, y1 = y_, y2 = y_;
-      double step = h;
-      if (i < n) {
-        step *= scales_.unit(static_cast<std::size_t>(i));
-        q1[i] -= step;
-        q2[i] += step;
-      } else {
-        step /= scales_.time;
-        y1[i - n] -= step;
-        y2[i - n] += step;
-      }
-      J(row, i) = (at(q2, y2) - at(q1, y1)) / (2.0 * step);
+    Eigen::RowVectorXd slope(n + y_.size());
+    for (Index i = 0; i < slope.size(); ++i) {
+      const double step = h * (i < n ? scales_.unit(static_cast<std::size_t>(i)) : 1.0 / scales_.time);
+      slope[i] = (at(i, step) - at(i, -step)) / (2.0 * step);
     }
+    return slope;
   }
 
   [[nodiscard]] FoundSteady finished() const {
