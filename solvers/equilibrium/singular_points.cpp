@@ -286,7 +286,13 @@ std::optional<SingularPoints::Flutter> SingularPoints::locate_flutter(const Node
   };
   const auto growth = [damped](double x) { return damped ? std::abs(x) : std::sqrt(std::abs(x)); };
   const double before = excess(steady), after = excess(grown);
-  (void)root(on_way, 0.0, before, 1.0, after, exact);
+  const double way = root(on_way, 0.0, before, 1.0, after, exact);
+  if (!vibrates && eigenvalues_of(*near) < eigenvalues_of(steady)) {
+    // Within round-off of its terms an eigenvalue counts as 0: the secant from outside, its error squared.
+    constexpr double beside = 1e-6;
+    const double first = on_way(way - beside), second = on_way(way + beside);
+    if (first * second < 0.0) (void)on_way(way + beside * (first + second) / (first - second));
+  }
   // What turns into steady growth and not into a vibration that is just kept up is no flutter's limit; nor is
   // a jump, where two become others.
   const double left = growth(excess(*near));
