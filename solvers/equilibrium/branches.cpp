@@ -106,7 +106,8 @@ class Follower {
   [[nodiscard]] std::string why_missed(const Node& a, const Node& b) const {
     std::ostringstream text;
     text << "between " << corrector_.parameter(a) << " and " << corrector_.parameter(b)
-         << " stability changes, at a point that was not located: " << corrector_.why() << "; ";
+         << " stability changes, at a point that was not located" << (corrector_.why().empty() ? "" : ": ")
+         << corrector_.why() << "; ";
     return text.str();
   }
 

@@ -230,7 +230,7 @@ std::optional<Node> SingularPoints::interpolated(const Node& a, const Node& b, c
 }
 
 /// A pair of real eigenvalues becomes one vibration without a change of stability, and might hide one: where
-/// both their numbers change the step is divided.
+/// both their numbers change the step is divided, and where several begin to grow.
 void SingularPoints::flutters(const Node& a, const Node& b, int depth, Found& found) const {
   const auto vibrating = [](const Node& node) {
     return std::ranges::count_if(node.vibrations,
@@ -238,7 +238,8 @@ void SingularPoints::flutters(const Node& a, const Node& b, int depth, Found& fo
   };
   const auto vibrating_a = vibrating(a), vibrating_b = vibrating(b);
   const bool both = vibrating_a != vibrating_b && a.growing() - vibrating_a != b.growing() - vibrating_b;
-  if (both && depth < most_divisions && (b.x - a.x).norm() > exact) {
+  const bool several = a.state.motion != nullptr && std::abs(a.growing() - b.growing()) > 1;
+  if ((both || several) && depth < most_divisions && (b.x - a.x).norm() > exact) {
     if (const auto middle = on_chord(a, b, 0.5)) {
       flutters(a, *middle, depth + 1, found);
       flutters(*middle, b, depth + 1, found);
@@ -246,9 +247,12 @@ void SingularPoints::flutters(const Node& a, const Node& b, int depth, Found& fo
     }
   }
   const auto [fewer, more] = std::minmax({a.growing(), b.growing()});
-  for (auto rank = fewer; rank < more; ++rank)
+  for (auto rank = fewer; rank < more; ++rank) {
     if (auto flutter = locate_flutter(a, b, static_cast<std::size_t>(rank), found.missed))
       found.flutters.push_back(std::move(*flutter));
+    else if (a.state.motion != nullptr && !both)  // no two have become one: something has crossed
+      found.missed = true;
+  }
 }
 
 /// Where the vibration of a rank, by decreasing growth, begins to grow: with damping where its real part is

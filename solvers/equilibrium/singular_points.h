@@ -30,7 +30,7 @@ class SingularPoints {
   struct Found {
     std::vector<Zero> zeros;
     std::vector<Flutter> flutters;
-    bool missed = false;  ///< a change of stability was not located: no points were found on the way
+    bool missed = false;  ///< a change of stability was not located
   };
 
   SingularPoints(const Corrector& corrector, double step) : corrector_(&corrector), step_(step) {}
