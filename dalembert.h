@@ -59,3 +59,5 @@
 #include <dalembert/solvers/equilibrium/equilibrium.h>
 #include <dalembert/solvers/equilibrium/floquet.h>
 #include <dalembert/solvers/equilibrium/normal_modes.h>
+#include <dalembert/solvers/equilibrium/steady.h>
+#include <dalembert/solvers/equilibrium/steady_branches.h>

@@ -19,12 +19,14 @@ constexpr int most_corrections = 60, most_halvings = 6, most_descents = 2000;
 /// A sum of forces counts as 0 below this many roundings of the largest of them.
 constexpr double roundings = 100.0;
 
-void require_finite(double time, const Turning<3>& turning, int dimension) {
+RotatingFrame frame_of(double time, const Turning<3>& turning, const Layout& layout) {
+  const int dimension = layout.dimension;
   if (!std::isfinite(time)) throw InvalidArgument("Option time of an equilibrium must be finite");
   if (!turning.rate.allFinite() || !turning.centre.allFinite())
     throw InvalidArgument("Option turning of an equilibrium: rate and centre must be finite");
   if (dimension == 2 && turning.rate.head<2>().norm() > 0.0)
     throw InvalidArgument("Option turning of an equilibrium: a planar scene rotates about its normal only");
+  return {layout, turning};
 }
 
 void require_frictionless(const System& system) {
@@ -50,9 +52,11 @@ void require_bilateral(const System& system) {
 
 Balance::Balance(const Problem& problem, std::span<const double> guess, double time,
                  const Turning<3>& turning)
-    : problem_(problem), system_(&problem_.system()), time_(time), frame_(*system_->layout(), turning) {
+    : Balance(problem, guess, time, frame_of(time, turning, *problem.system().layout())) {}
+
+Balance::Balance(const Problem& problem, std::span<const double> guess, double time, RotatingFrame frame)
+    : problem_(problem), system_(&problem_.system()), time_(time), frame_(std::move(frame)) {
   const System& system = *system_;
-  require_finite(time, turning, system.layout()->dimension);
   require_frictionless(system);
   require_bilateral(system);
   std::vector<double> v(guess.size());
@@ -444,7 +448,8 @@ std::string Balance::remedy(std::size_t row) const {
     return "; give the turning of its drive as an option, or a scene whose constraints do not move";
   bool of_rotor = false;
   for (const std::size_t k : system_->row(row))
-    of_rotor = of_rotor || frame_.first(system_->w_columns()[k]) == RotatingFrame::none;
+    of_rotor =
+        of_rotor || system_->layout()->particle_at(static_cast<int>(system_->w_columns()[k])) == nullptr;
   if (of_rotor)
     return "; in space rotors keep their angles while a scene turns: leave out what drives one, and hold "
            "what "
@@ -457,10 +462,11 @@ std::string Balance::remedy(std::size_t row) const {
 void Balance::require_lasting(const State& s) const {
   const double t = frame_.rotates() ? 1.0 / frame_.rate() : scales_.time;
   const auto lengths = scales_.lengths();
-  const double speed = frame_.rotates() ? frame_.rate() * scales_.length : scales_.speed();
+  const double speed =
+      std::max(frame_.rotates() ? frame_.rate() * scales_.length : scales_.speed(), largest(s.v));
   for (const double later : {0.0, 0.7390851332151607 * t, 2.6180339887498949 * t}) {
     State at = s;
-    if (frame_.rotates()) frame_.rotate_positions(frame_.rate() * later, at.q);
+    if (frame_.moves()) frame_.carry_positions(later, at.q);
     frame_.velocity(at.q, at.v);
     auto e = system_->evaluation();
     system_->evaluate({time_ + later, at.q, at.v}, e);

@@ -19,7 +19,7 @@ inline constexpr double balanced = 1e-10;
 
 /// The search for a state (q, lambda) in which all forces balance, see `equilibrium`:
 ///
-///   R1 = F + W^T lambda - M A v,   R2 = g + C lambda,   v = A (q - p).                              (1)
+///   R1 = F + W^T lambda - M A v,   R2 = g + C lambda,   v = A q + b.                                (1)
 class Balance {
  public:
   struct State {
@@ -36,6 +36,7 @@ class Balance {
 
   /// Projects the guess onto the constraint manifold. Throws InconsistentStart, NoEquilibrium.
   Balance(const Problem& problem, std::span<const double> guess, double time, const Turning<3>& turning);
+  Balance(const Problem& problem, std::span<const double> guess, double time, RotatingFrame frame);
 
   /// v, R1, R2 and size of a state's q and lambda. Throws EquationFault.
   void evaluate(State& s) const;

@@ -2,6 +2,7 @@
 
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/equilibrium/singular_points.h>
+#include <dalembert/solvers/equilibrium/steady_continuation.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,8 +30,8 @@ void validate(const BranchOptions& o) {
 
 class Follower {
  public:
-  Follower(std::function<PosedSystem(double)> pose, const BranchOptions& options)
-      : corrector_(std::move(pose), options), step_(options.step), points_(corrector_, step_) {}
+  Follower(const Corrector& corrector, const BranchOptions& options)
+      : corrector_(corrector), step_(options.step), points_(corrector_, step_) {}
 
   FlatDiagram follow() {
     const auto along = corrector_.tangent(corrector_.begin());
@@ -80,7 +81,7 @@ class Follower {
         step *= 0.5;
         continue;
       }
-      locate(before ? &*before : nullptr, last, *next);
+      locate(before ? &*before : nullptr, last, *next, branch.why);
       branch.points.push_back(point(*next));
       if (next->x != last.x) along = (next->x - last.x).normalized();
       const double distance = (next->x - start.node.x).norm();
@@ -92,7 +93,7 @@ class Follower {
       before = std::exchange(last, *next);
       step = std::min(2.0 * step, step_);
     }
-    if (branch.end == BranchEnd::lost) branch.why = why_lost(last);
+    if (branch.end == BranchEnd::lost) branch.why += why_lost(last);
     found_.branches.push_back(std::move(branch));
   }
   [[nodiscard]] std::string why_lost(const Node& last) const {
@@ -102,13 +103,23 @@ class Follower {
     return text.str();
   }
 
+  [[nodiscard]] std::string why_missed(const Node& a, const Node& b) const {
+    std::ostringstream text;
+    text << "between " << corrector_.parameter(a) << " and " << corrector_.parameter(b)
+         << " stability changes, at a point that was not located" << (corrector_.why().empty() ? "" : ": ")
+         << corrector_.why() << "; ";
+    return text.str();
+  }
+
   /// Adds the singular points between two points of a branch, and the branches that emanate there.
   /// Eigenvalues that vanish at one point make one bifurcation.
-  void locate(const Node* before, const Node& a, const Node& b) {
+  void locate(const Node* before, const Node& a, const Node& b, std::string& why) {
     auto found = points_.between(before, a, b);
+    if (found.missed) why += why_missed(a, b);
     for (auto& flutter : found.flutters) {
-      found_.flutters.push_back(point(flutter.at));
-      found_.flutters.back().frequency = flutter.frequency;
+      auto& to = flutter.frequency > 0.0 ? found_.flutters : found_.bifurcations;
+      to.push_back(point(flutter.at));
+      to.back().frequency = flutter.frequency;
     }
     while (!found.zeros.empty()) {
       const Node at = found.zeros.front().at;
@@ -124,7 +135,12 @@ class Follower {
     }
   }
   void locate(const Node& found, const std::vector<Index>& places, const std::vector<VectorXd>& null) {
-    if (corrector_.range_defect(found, places.front()) > constants.range_defect) {
+    const auto defect = corrector_.range_defect(found, places.front());
+    if (!defect) {
+      found_.flutters.push_back(point(found));
+      return;
+    }
+    if (*defect > constants.range_defect) {
       found_.folds.push_back(point(found));
       return;
     }
@@ -170,7 +186,7 @@ class Follower {
   }
   [[nodiscard]] static double fraction_of(const Node& node) { return node.x[node.x.size() - 1]; }
 
-  Corrector corrector_;
+  const Corrector& corrector_;
   double step_;
   SingularPoints points_;
   std::vector<Start> starts_;
@@ -199,7 +215,13 @@ std::shared_ptr<const Layout> read_by(const Layout& handles, const Layout& own) 
 
 FlatDiagram find_branches(const std::function<PosedSystem(double)>& pose, const BranchOptions& options) {
   validate(options);
-  return Follower(pose, options).follow();
+  return Follower(BalanceCorrector(pose, options), options).follow();
+}
+
+FlatDiagram find_steady_branches(const std::function<PosedSystem(double)>& pose,
+                                 const BranchOptions& options) {
+  validate(options);
+  return Follower(SteadyCorrector(pose, options), options).follow();
 }
 
 }  // namespace dalembert

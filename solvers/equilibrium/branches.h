@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/solvers/equilibrium/equilibrium.h>
+#include <dalembert/solvers/equilibrium/steady.h>
 
 #include <cstddef>
 #include <functional>
@@ -34,7 +35,7 @@ struct BranchPoint {
   State state;
   /// The lowest eigenvalue of the stiffness K on the tangent space, over the masses (see normal_modes), free
   /// motions at a state of rest included: below 0 the stiffness is not definite. With circulatory forces the
-  /// lowest real part [1 / time^2].
+  /// lowest real part [1 / time^2]. Of a steady motion see `follow_steady`.
   double softest;
   double frequency = 0.0;  ///< at a flutter, of the vibration [rad / time]
 };
@@ -55,7 +56,8 @@ struct Branch {
   std::vector<BranchPoint<State>> points;
   std::size_t origin = no_bifurcation;  ///< the bifurcation where it emanates, if it does
   BranchEnd end = BranchEnd::lost;
-  std::string why{};  ///< of `lost`: where, and what failed there
+  /// Of `lost`: where, and what failed there; before that where a change of stability was not located.
+  std::string why{};
 };
 
 template <class State>
@@ -63,7 +65,9 @@ struct Diagram {
   std::vector<Branch<State>> branches;
   std::vector<BranchPoint<State>> bifurcations;  ///< where branches intersect
   std::vector<BranchPoint<State>> folds;         ///< where a branch turns back
-  std::vector<BranchPoint<State>> flutters{};    ///< where a vibration begins to grow, or ceases to
+  /// Where a vibration begins to grow, or ceases to; with frequency 0, of nonholonomic scenes, a motion that
+  /// does not vibrate and leads to no other branch.
+  std::vector<BranchPoint<State>> flutters{};
 };
 
 /// For Systems, out of which `follow_branches` makes branches of Equilibrium<D>.
@@ -72,10 +76,19 @@ struct PosedSystem {
   std::vector<double> guess;
   double time;
   Turning<3> turning;
+  std::vector<double> speeds{};  ///< of a steady motion: the guess of its velocities
+  std::vector<FlatKept> keep{};  ///< and what is to stay as stated
 };
 struct FlatEquilibrium {
   std::shared_ptr<const Record> state;
   Turning<3> turning;
+  std::shared_ptr<const UniformMotion> motion{};
+
+  template <int D>
+  [[nodiscard]] Equilibrium<D> read(std::shared_ptr<const Record> record) const {
+    if (motion) return {std::move(record), motion};
+    return {std::move(record), turning};
+  }
 };
 using FlatDiagram = Diagram<FlatEquilibrium>;
 [[nodiscard]] FlatDiagram find_branches(const std::function<PosedSystem(double)>& pose,
@@ -94,9 +107,20 @@ template <int D>
   for (const auto& one : flat) {
     auto record = std::make_shared<Record>(*one.state.state);
     record->layout = read_by(handles, *record->layout);
-    points.push_back({one.parameter, {std::move(record), one.state.turning}, one.softest, one.frequency});
+    points.push_back({one.parameter, one.state.read<D>(std::move(record)), one.softest, one.frequency});
   }
   return points;
+}
+
+template <int D>
+[[nodiscard]] Diagram<Equilibrium<D>> read_by(const Layout& handles, const FlatDiagram& found) {
+  Diagram<Equilibrium<D>> all;
+  for (const auto& branch : found.branches)
+    all.branches.push_back({read_by<D>(handles, branch.points), branch.origin, branch.end, branch.why});
+  all.bifurcations = read_by<D>(handles, found.bifurcations);
+  all.folds = read_by<D>(handles, found.folds);
+  all.flutters = read_by<D>(handles, found.flutters);
+  return all;
 }
 
 }  // namespace detail
@@ -112,7 +136,10 @@ template <int D>
 /// Every value builds the scene anew; only numbers may differ. What is returned is read with the handles of
 /// the scene that was built last: `build` may store them for its caller.
 ///
-/// Up to 600 coordinates, without nonholonomic constraints. No scene is built outside of the range. Throws
+/// With nonholonomic constraints equilibria at rest are families: followed is the nearest of the next value,
+/// and K is that of what may move.
+///
+/// Up to 600 coordinates. No scene is built outside of the range. Throws
 /// InvalidArgument for invalid options, InvalidScene for scenes that are not suitable or whose first branch
 /// has a fold at `from`, and what `equilibrium` throws there.
 template <int D, class Build>
@@ -126,15 +153,7 @@ template <int D, class Build>
                        posed.options.turning};
   };
   const FlatDiagram found = find_branches(pose, options);
-  const auto layout = build(options.to).scene.system().layout();
-  Diagram<Equilibrium<D>> all;
-  for (const auto& branch : found.branches)
-    all.branches.push_back(
-        {detail::read_by<D>(*layout, branch.points), branch.origin, branch.end, branch.why});
-  all.bifurcations = detail::read_by<D>(*layout, found.bifurcations);
-  all.folds = detail::read_by<D>(*layout, found.folds);
-  all.flutters = detail::read_by<D>(*layout, found.flutters);
-  return all;
+  return detail::read_by<D>(*build(options.to).scene.system().layout(), found);
 }
 
 }  // namespace dalembert

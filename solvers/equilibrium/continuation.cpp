@@ -14,26 +14,31 @@ namespace dalembert {
 namespace {
 using Eigen::Index;
 
-void require_suited(const System& system) {
-  if (system.coordinates() <= most_dense && system.holonomic_rows() == system.rows()) return;
-  throw InvalidScene("Branches of scene \"" + system.layout()->scene + "\": they are followed up to " +
-                     std::to_string(most_dense) + " coordinates and without nonholonomic constraints");
+void require_suited(const PosedSystem& posed) {
+  const System& system = *posed.system;
+  const std::string scene = "Branches of scene \"" + system.layout()->scene + "\": ";
+  if (system.coordinates() > most_dense)
+    throw InvalidScene(scene + "they are followed up to " + std::to_string(most_dense) + " coordinates");
+  if (system.holonomic_rows() < system.rows() && !posed.turning.rate.isZero(0.0))
+    throw InvalidScene(scene + system.row_label(system.holonomic_rows()) +
+                       " is nonholonomic and turns; follow the motion by follow_steady");
 }
 
 Eigen::VectorXd balance_of(const Balance::State& s, const ActiveRows& rows) {
   Eigen::VectorXd r(static_cast<Index>(s.force.size() + rows.size()));
   Index next = 0;
   for (const double force : s.force) r[next++] = force;
-  for (const std::size_t row : rows.rows) r[next++] = s.distance[row];
+  // What rests satisfies the nonholonomic rows.
+  for (const std::size_t row : rows.rows) r[next++] = row < s.distance.size() ? s.distance[row] : 0.0;
   return r;
 }
 
 }  // namespace
 
-Corrector::Corrector(std::function<PosedSystem(double)> pose, const BranchOptions& options)
-    : pose_(std::move(pose)), from_(options.from), range_(options.to - options.from) {
-  const PosedSystem posed = pose_(from_);
-  require_suited(*posed.system);
+BalanceCorrector::BalanceCorrector(std::function<PosedSystem(double)> pose_at, const BranchOptions& options)
+    : Corrector(std::move(pose_at), options) {
+  const PosedSystem posed = pose(options.from);
+  require_suited(posed);
   const auto found = find_equilibrium(*posed.system, posed.guess, posed.time, posed.turning);
   const FlatSample flat = found->sample(0);
   const Scales scales = Balance(Problem(posed.system), flat.q, posed.time, posed.turning).scales();
@@ -41,12 +46,12 @@ Corrector::Corrector(std::function<PosedSystem(double)> pose, const BranchOption
   begin_.x = Eigen::VectorXd::Zero(static_cast<Index>(scale_.size()) + 1);
   for (std::size_t i = 0; i < scale_.size(); ++i) begin_.x[static_cast<Index>(i)] = flat.q[i] / scale_[i];
   begin_.lambda.assign(flat.lambda.begin(), flat.lambda.end());
-  const Here here = at(from_, begin_.x);
+  const Here here = at(options.from, begin_.x);
   finish(here, state(here, begin_), begin_);
 }
 
-Corrector::Here Corrector::at(double p, const Eigen::VectorXd& x) const {
-  PosedSystem posed = pose_(p);
+BalanceCorrector::Here BalanceCorrector::at(double p, const Eigen::VectorXd& x) const {
+  PosedSystem posed = pose(p);
   std::vector<double> q;
   for (std::size_t i = 0; i < scale_.size(); ++i) q.push_back(x[static_cast<Index>(i)] * scale_[i]);
   if (posed.system->coordinates() != q.size() || posed.system->rows() != begin_.lambda.size())
@@ -56,7 +61,7 @@ Corrector::Here Corrector::at(double p, const Eigen::VectorXd& x) const {
   return {std::move(posed.system), std::move(balance), posed.turning};
 }
 
-Balance::State Corrector::state(const Here& here, const Node& node) const {
+Balance::State BalanceCorrector::state(const Here& here, const Node& node) const {
   Balance::State s = here.balance.start();
   for (std::size_t i = 0; i < scale_.size(); ++i) s.q[i] = node.x[static_cast<Index>(i)] * scale_[i];
   s.lambda = node.lambda;
@@ -65,8 +70,8 @@ Balance::State Corrector::state(const Here& here, const Node& node) const {
 }
 
 /// Stores what is read of a point, with multipliers of least norm where rows are dependent.
-void Corrector::finish(const Here& here, const Balance::State& s, Node& node) const {
-  node.state = {here.balance.record(s), here.turning};
+void BalanceCorrector::finish(const Here& here, const Balance::State& s, Node& node) const {
+  node.state = {here.balance.record(s), here.turning, nullptr};
   const FlatSample flat = node.state.state->sample(0);
   node.lambda.assign(flat.lambda.begin(), flat.lambda.end());
   const LinearTerms terms =
@@ -81,7 +86,7 @@ Eigen::VectorXd Corrector::direction(const Eigen::VectorXd& shape) const {
   return x.normalized();
 }
 
-std::optional<Node> Corrector::finished(Node guess) const {
+std::optional<Node> BalanceCorrector::finished(Node guess) const {
   constexpr double close = 1e-8;  // what `normal_modes` asks of an equilibrium
   try {
     const Here here = at(parameter(guess), guess.x);
@@ -94,13 +99,13 @@ std::optional<Node> Corrector::finished(Node guess) const {
   }
 }
 
-Eigen::VectorXd Corrector::residual(double p, const Node& node, const ActiveRows& rows) const {
+Eigen::VectorXd BalanceCorrector::residual(double p, const Node& node, const ActiveRows& rows) const {
   const Here here = at(p, node.x);
   return balance_of(state(here, node), rows);
 }
 
 /// By central differences, one-sided at the ends of the range.
-Eigen::VectorXd Corrector::slope_by_parameter(const Node& node, const ActiveRows& rows) const {
+Eigen::VectorXd BalanceCorrector::slope_by_parameter(const Node& node, const ActiveRows& rows) const {
   const double h = constants.parameter_difference;
   const double fraction = node.x[node.x.size() - 1], before = std::max(fraction - h, 0.0),
                after = std::min(fraction + h, 1.0);
@@ -109,7 +114,7 @@ Eigen::VectorXd Corrector::slope_by_parameter(const Node& node, const ActiveRows
 
 /// With l on the left of K's eigenvalue and m such that (l, m) is on the left of all equations: m balances
 /// what l does across the tangent space.
-double Corrector::range_defect(const Node& node, Index shape) const {
+std::optional<double> BalanceCorrector::range_defect(const Node& node, Index shape) const {
   const Here here = at(parameter(node), node.x);
   const Balance::State s = state(here, node);
   const Eigen::MatrixXd A = jacobian(here, s, node, here.balance.rows_at(s));
@@ -121,6 +126,10 @@ double Corrector::range_defect(const Node& node, Index shape) const {
     const Eigen::MatrixXd rows = A.bottomLeftCorner(m, n).transpose(),
                           across = -A.topLeftCorner(n, n).transpose() * left.head(n);
     left.tail(m) = dense::least_squares(rows, across, rank_threshold);
+    // With nonholonomic rows fewer equations hold than what may move is free.
+    const double terms = (A.topLeftCorner(n, n).cwiseAbs().transpose() * left.head(n).cwiseAbs()).norm();
+    const bool regular = (rows * left.tail(m) - across).norm() > std::sqrt(rank_threshold) * terms;
+    if (regular && here.system->holonomic_rows() < here.system->rows()) return std::nullopt;
   }
   const Eigen::VectorXd slope = A.col(n + m);
   // Difference quotients keep round-off of the forces that act where the mode moves.
@@ -130,8 +139,8 @@ double Corrector::range_defect(const Node& node, Index shape) const {
 }
 
 /// [R_q R_lambda R_p] in the units of x, one row per coordinate and one per constraint row.
-Eigen::MatrixXd Corrector::jacobian(const Here& here, const Balance::State& s, const Node& node,
-                                    const ActiveRows& rows) const {
+Eigen::MatrixXd BalanceCorrector::jacobian(const Here& here, const Balance::State& s, const Node& node,
+                                           const ActiveRows& rows) const {
   const LinearTerms terms =
       linear_terms(*here.system, here.balance.frame(), {here.balance.time(), s.q, s.v}, s.lambda);
   const auto n = static_cast<Index>(s.q.size()), m = static_cast<Index>(rows.size());
@@ -140,18 +149,19 @@ Eigen::MatrixXd Corrector::jacobian(const Here& here, const Balance::State& s, c
     A(static_cast<Index>(k.row()), static_cast<Index>(k.col())) -= k.value() * scale_[k.col()];
   for (Index a = 0; a < m; ++a) {
     const std::size_t r = rows.rows[static_cast<std::size_t>(a)];
+    const bool holonomic = r < here.system->holonomic_rows();
     for (const std::size_t k : here.system->row(r)) {
       const std::size_t i = here.system->w_columns()[k];
       A(static_cast<Index>(i), n + a) += terms.w[k];
-      A(n + a, static_cast<Index>(i)) += terms.w[k] * scale_[i];
+      if (holonomic) A(n + a, static_cast<Index>(i)) += terms.w[k] * scale_[i];
     }
-    A(n + a, n + a) = here.system->law(r).compliance;
+    if (holonomic) A(n + a, n + a) = here.system->law(r).compliance;
   }
   A.col(n + m) = slope_by_parameter(node, rows);
   return A;
 }
 
-std::optional<Eigen::VectorXd> Corrector::tangent(const Node& node) const {
+std::optional<Eigen::VectorXd> BalanceCorrector::tangent(const Node& node) const {
   // Difference quotients err by h times the slope, and by round-off of the forces over h: both with a margin
   // of some tens. Directions in which the matrix is round-off are free motions.
   constexpr double exact = 1e-4, rounding = 1e-8, no_stiffness = 1e-12;
@@ -168,8 +178,8 @@ std::optional<Eigen::VectorXd> Corrector::tangent(const Node& node) const {
   return along.normalized();
 }
 
-void Corrector::newton_step(const Here& here, const Balance::State& s, double off,
-                            const Eigen::VectorXd& normal, Node& node) const {
+void BalanceCorrector::newton_step(const Here& here, const Balance::State& s, double off,
+                                   const Eigen::VectorXd& normal, Node& node) const {
   const ActiveRows rows = here.balance.rows_at(s);
   const auto n = static_cast<Index>(s.q.size()), m = static_cast<Index>(rows.size());
   Eigen::MatrixXd A(n + m + 1, n + m + 1);
@@ -186,7 +196,7 @@ void Corrector::newton_step(const Here& here, const Balance::State& s, double of
   for (Index a = 0; a < m; ++a) node.lambda[rows.rows[static_cast<std::size_t>(a)]] += step[n + a];
 }
 
-std::optional<Node> Corrector::correct(const Node& guess, const Eigen::VectorXd& normal) const {
+std::optional<Node> BalanceCorrector::correct(const Node& guess, const Eigen::VectorXd& normal) const {
   constexpr int most_corrections = 20;
   constexpr double rounding = epsilon;
   Node node = guess;

@@ -12,6 +12,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace DALEMBERT_HIDDEN dalembert {
 
@@ -19,43 +21,71 @@ namespace DALEMBERT_HIDDEN dalembert {
 struct Node {
   Eigen::VectorXd x{};
   std::vector<double> lambda{};
+  std::vector<double> beside{};  ///< of a steady motion: (q, v) less what is stated
   FlatEquilibrium state{};
-  TangentStiffness stiffness{};
-  std::vector<Vibration> vibrations{};
+  TangentStiffness stiffness{};         ///< of an equilibrium
+  std::vector<Vibration> vibrations{};  ///< of a steady motion: all that may grow, real eigenvalues included
 
   [[nodiscard]] double fraction() const { return x[x.size() - 1]; }
   [[nodiscard]] auto growing() const { return std::ranges::count_if(vibrations, &Vibration::grows); }
 };
 
-/// Newton's iteration for a point of a branch in the hyperplane through the guess across `normal`:
+/// What finds the points of a branch.
+class Corrector {
+ public:
+  virtual ~Corrector() = default;
+
+  /// The point where the branch begins.
+  [[nodiscard]] const Node& begin() const { return begin_; }
+  /// The point in the hyperplane through a guess across `normal`; nothing if there is none, see `why`.
+  [[nodiscard]] virtual std::optional<Node> correct(const Node& guess,
+                                                    const Eigen::VectorXd& normal) const = 0;
+  /// The point at x and lambda as they are, if that is one to the accuracy asked of an equilibrium.
+  [[nodiscard]] virtual std::optional<Node> finished(Node guess) const = 0;
+  /// Why the last correction failed.
+  [[nodiscard]] const std::string& why() const { return why_; }
+  [[nodiscard]] double parameter(const Node& node) const { return value(node.fraction()); }
+  /// The unit tangent of the branch at a point, towards options.to; none at a fold. It has no component along
+  /// free motions.
+  [[nodiscard]] virtual std::optional<Eigen::VectorXd> tangent(const Node& node) const = 0;
+  /// The part of the residual's derivative by p along the left eigenvector of an eigenvalue of K, over that
+  /// derivative. At a singular point it is 0 at a bifurcation (the derivative is in the range of the
+  /// equations), not 0 at a fold. Nothing where the equations are regular, and only what moves is not stiff.
+  [[nodiscard]] virtual std::optional<double> range_defect(const Node& node, Eigen::Index shape) const = 0;
+  /// The direction of an eigenvector in x, of length 1.
+  [[nodiscard]] Eigen::VectorXd direction(const Eigen::VectorXd& shape) const;
+
+ protected:
+  Corrector(std::function<PosedSystem(double)> pose, const BranchOptions& options)
+      : pose_(std::move(pose)), from_(options.from), range_(options.to - options.from) {}
+  [[nodiscard]] PosedSystem pose(double p) const { return pose_(p); }
+  [[nodiscard]] double value(double fraction) const { return from_ + range_ * fraction; }
+
+  std::vector<double> scale_;  // of each coordinate
+  Node begin_{};
+  mutable std::string why_{};
+
+ private:
+  std::function<PosedSystem(double)> pose_;
+  double from_, range_;
+};
+
+/// Newton's iteration for an equilibrium,
 ///
 ///   R1(q, lambda, p) = 0,   R2(q, lambda, p) = 0,   normal . (x - x_guess) = 0.                       (1)
 ///
 /// Derivatives by q and lambda are those of Balance, by p difference quotients; corrections are of least
 /// norm, so that free motions do no harm. No scene is built outside of the range of p: there are no points
 /// there.
-class Corrector {
+class BalanceCorrector final : public Corrector {
  public:
   /// Begins at the equilibrium of options.from. Throws like `find_equilibrium`.
-  Corrector(std::function<PosedSystem(double)> pose, const BranchOptions& options);
+  BalanceCorrector(std::function<PosedSystem(double)> pose, const BranchOptions& options);
 
-  [[nodiscard]] const Node& begin() const { return begin_; }
-  /// Nothing if the iteration does not converge.
-  [[nodiscard]] std::optional<Node> correct(const Node& guess, const Eigen::VectorXd& normal) const;
-  /// The point at x and lambda as they are, if that is one to the accuracy asked of an equilibrium.
-  [[nodiscard]] std::optional<Node> finished(Node guess) const;
-  /// Why the last correction failed.
-  [[nodiscard]] const std::string& why() const { return why_; }
-  [[nodiscard]] double parameter(const Node& node) const { return value(node.x[node.x.size() - 1]); }
-  /// The unit tangent of the branch at a point, towards options.to; none at a fold. It has no component along
-  /// free motions.
-  [[nodiscard]] std::optional<Eigen::VectorXd> tangent(const Node& node) const;
-  /// The part of the residual's derivative by p along the left eigenvector of an eigenvalue of K, over that
-  /// derivative. At a singular point it is 0 at a bifurcation (the derivative is in the range of the
-  /// equations), not 0 at a fold.
-  [[nodiscard]] double range_defect(const Node& node, Eigen::Index shape) const;
-  /// The direction of an eigenvector in x, of length 1.
-  [[nodiscard]] Eigen::VectorXd direction(const Eigen::VectorXd& shape) const;
+  [[nodiscard]] std::optional<Node> correct(const Node& guess, const Eigen::VectorXd& normal) const override;
+  [[nodiscard]] std::optional<Node> finished(Node guess) const override;
+  [[nodiscard]] std::optional<Eigen::VectorXd> tangent(const Node& node) const override;
+  [[nodiscard]] std::optional<double> range_defect(const Node& node, Eigen::Index shape) const override;
 
  private:
   struct Here {
@@ -67,18 +97,11 @@ class Corrector {
   [[nodiscard]] Balance::State state(const Here& here, const Node& node) const;
   [[nodiscard]] Eigen::VectorXd residual(double p, const Node& node, const ActiveRows& rows) const;
   [[nodiscard]] Eigen::VectorXd slope_by_parameter(const Node& node, const ActiveRows& rows) const;
-  [[nodiscard]] double value(double fraction) const { return from_ + range_ * fraction; }
   [[nodiscard]] Eigen::MatrixXd jacobian(const Here& here, const Balance::State& s, const Node& node,
                                          const ActiveRows& rows) const;
   void newton_step(const Here& here, const Balance::State& s, double off, const Eigen::VectorXd& normal,
                    Node& node) const;
   void finish(const Here& here, const Balance::State& s, Node& node) const;
-
-  std::function<PosedSystem(double)> pose_;
-  double from_, range_;
-  std::vector<double> scale_;  // of each coordinate
-  Node begin_{};
-  mutable std::string why_{};
 };
 
 }  // namespace dalembert

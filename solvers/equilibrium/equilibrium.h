@@ -4,6 +4,7 @@
 #include <dalembert/core/results/trajectory.h>
 #include <dalembert/core/scene/scene.h>
 #include <dalembert/solvers/equilibrium/turning.h>
+#include <dalembert/solvers/equilibrium/uniform_motion.h>
 
 #include <memory>
 #include <span>
@@ -31,12 +32,17 @@ class Equilibrium {
  public:
   Equilibrium(std::shared_ptr<const Record> state, const Turning<3>& turning, std::string left_out = {})
       : state_(std::move(state)), turning_(turning), left_out_(std::move(left_out)) {}
+  /// One along a symmetry, see `steady`.
+  Equilibrium(std::shared_ptr<const Record> state, std::shared_ptr<const UniformMotion> motion)
+      : state_(std::move(state)), motion_(std::move(motion)) {}
 
   /// Positions, velocities, multipliers and forces of constraint, by handle; see Sample. A view, valid as
   /// long as a copy of the Equilibrium is.
   [[nodiscard]] Sample<D> sample() const& { return {*state_->layout, state_->sample(0)}; }
   void sample() const&& = delete;  // keep the Equilibrium first
-  /// Its rotation; in the plane about an axis along z.
+  /// The motion of a steady one; null if its turning is all of it.
+  [[nodiscard]] const UniformMotion* motion() const { return motion_.get(); }
+  /// Its rotation, of one that `equilibrium` found; in the plane about an axis along z.
   [[nodiscard]] const Turning<3>& turning() const { return turning_; }
   /// Whose velocities, stated in the scene, are not those of this equilibrium, in a sentence; empty if none.
   [[nodiscard]] const std::string& left_out() const { return left_out_; }
@@ -45,8 +51,9 @@ class Equilibrium {
 
  private:
   std::shared_ptr<const Record> state_;
-  Turning<3> turning_;
-  std::string left_out_;
+  Turning<3> turning_{};
+  std::string left_out_{};
+  std::shared_ptr<const UniformMotion> motion_{};
 };
 
 namespace detail {

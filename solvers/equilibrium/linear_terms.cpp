@@ -1,5 +1,7 @@
 #include "dalembert/solvers/equilibrium/linear_terms.h"
 
+#include <dalembert/core/errors.h>
+
 namespace dalembert {
 
 namespace {
@@ -11,40 +13,36 @@ void append(LinearTerms::Entries& to, std::size_t row, std::size_t column, doubl
 /// -F_v A, from an entry of F_v.
 void append_rotating(const RotatingFrame& frame, const System::Entry& place, double slope,
                      LinearTerms::Entries& K) {
-  const std::size_t first = frame.first(place.column);
-  if (first == RotatingFrame::none) return;
-  for (std::size_t k = 0; k < frame.dimension(); ++k)
-    append(K, place.row, first + k, -slope * frame.entry(place.column - first, k));
+  const auto row = static_cast<Eigen::Index>(place.column);
+  for (RotatingFrame::Sparse::InnerIterator a(frame.matrix(), row); a; ++a)
+    append(K, place.row, static_cast<std::size_t>(a.col()), -slope * a.value());
 }
 
-/// 2 M A and M A^2.
-void append_inertia(const System& system, const RotatingFrame& frame, LinearTerms& terms) {
+/// m X, of a sparse X.
+void append_inertia(const System& system, const RotatingFrame::Sparse& X, double factor,
+                    LinearTerms::Entries& to) {
   for (std::size_t i = 0; i < system.coordinates(); ++i) {
-    const std::size_t first = frame.first(i);
-    if (first == RotatingFrame::none) continue;
-    const double m = system.masses()[i];
-    for (std::size_t k = 0; k < frame.dimension(); ++k) {
-      append(terms.damping, i, first + k, 2.0 * m * frame.entry(i - first, k));
-      append(terms.stiffness, i, first + k, m * frame.square_entry(i - first, k));
-    }
+    for (RotatingFrame::Sparse::InnerIterator x(X, static_cast<Eigen::Index>(i)); x; ++x)
+      append(to, i, static_cast<std::size_t>(x.col()), factor * system.masses()[i] * x.value());
   }
 }
 
-/// The first entry of a row in this column: a row with one coordinate of a particle has them all.
+/// The first entry of a row in this column: a row with one coordinate of a particle has them all, and of a
+/// body all particles.
 std::size_t place_in_row(const System& system, std::size_t row, std::size_t column) {
-  std::size_t k = system.row(row).front();
-  while (system.w_columns()[k] != column) ++k;
-  return k;
+  for (const std::size_t k : system.row(row))
+    if (system.w_columns()[k] == column) return k;
+  throw InvalidScene(system.row_label(row) +
+                     " acts on single particles of a body that spins; state it for points of the body");
 }
 
 /// E = psi_q + W A, with psi_q already in place.
 void add_rotating(const System& system, const RotatingFrame& frame, LinearTerms& terms) {
   for (std::size_t r = system.holonomic_rows(); r < system.rows(); ++r) {
     for (const std::size_t k : system.row(r)) {
-      const std::size_t i = system.w_columns()[k], first = frame.first(i);
-      if (first == RotatingFrame::none) continue;
-      for (std::size_t j = 0; j < frame.dimension(); ++j)
-        terms.e[place_in_row(system, r, first + j)] += terms.w[k] * frame.entry(i - first, j);
+      const auto i = static_cast<Eigen::Index>(system.w_columns()[k]);
+      for (RotatingFrame::Sparse::InnerIterator a(frame.matrix(), i); a; ++a)
+        terms.e[place_in_row(system, r, static_cast<std::size_t>(a.col()))] += terms.w[k] * a.value();
     }
   }
 }
@@ -68,7 +66,8 @@ LinearTerms linear_terms(const System& system, const RotatingFrame& frame, const
     if (frame.rotates()) append_rotating(frame, place, slopes.damping[k], terms.stiffness);
   }
   if (!frame.rotates()) return terms;
-  append_inertia(system, frame, terms);
+  append_inertia(system, frame.matrix(), 2.0, terms.damping);    // 2 M A
+  append_inertia(system, frame.square(), 1.0, terms.stiffness);  // M A^2
   add_rotating(system, frame, terms);
   return terms;
 }

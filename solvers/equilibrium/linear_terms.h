@@ -13,8 +13,8 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// The equations of small motions u in a rotating frame (A, see RotatingFrame; at rest A = 0), about a state
-/// with multipliers lambda:
+/// The equations of small motions u in a uniformly moving frame (A, see RotatingFrame; at rest A = 0), about
+/// a state with multipliers lambda:
 ///
 ///   M u'' + C u' + K u = W^T y,       W u + c y = 0          (holonomic rows, c their compliance)   (1)
 ///                                     W u' + E u = 0         (nonholonomic rows)                    (2)

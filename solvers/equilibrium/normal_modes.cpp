@@ -6,6 +6,7 @@
 #include <dalembert/solvers/equilibrium/lowest_modes.h>
 #include <dalembert/solvers/equilibrium/singular_position.h>
 #include <dalembert/solvers/equilibrium/tangent_modes.h>
+#include <dalembert/solvers/linear/dense.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +38,16 @@ bool moves_freely(const Balance& balance, const FlatSample& at, const Mode& mode
     all += m * direction[i] * direction[i];
   }
   return along > 0.5 * way * all;
+}
+
+/// Whether a mode is a displacement by symmetries, along all of which the motion is the same.
+bool is_symmetric(const UniformMotion& motion, const Mode& mode) {
+  Eigen::VectorXd u(static_cast<Eigen::Index>(mode.shape.size()));
+  for (std::size_t i = 0; i < mode.shape.size(); ++i) u[static_cast<Eigen::Index>(i)] = mode.shape[i].real();
+  if (motion.symmetric.cols() == 0) return false;
+  const Eigen::MatrixXd rest =
+      u - motion.symmetric * dense::least_squares(motion.symmetric, u, rank_threshold);
+  return rest.norm() <= std::sqrt(rank_threshold) * u.norm();
 }
 
 /// u^T K u of a state, with the springs of compliant constraints.
@@ -97,12 +108,12 @@ void leave_undecided(Modes& found, const char* why) {
 }
 
 /// Classifies the eigenvalues 0, with what they mean for the verdict.
-void name_zeros(const Balance& balance, const FlatSample& at, Modes& found) {
+void name_zeros(const Balance& balance, const FlatSample& at, const UniformMotion* motion, Modes& found) {
   bool all_free = true;
   for (Mode& mode : found.modes) {
     if (mode.eigenvalue != 0.0) continue;
     try {
-      mode.free = moves_freely(balance, at, mode);
+      mode.free = (motion != nullptr && is_symmetric(*motion, mode)) || moves_freely(balance, at, mode);
     } catch (const EquationFault&) {
       mode.free = false;
     }
@@ -163,7 +174,7 @@ void require_equilibrium(const Balance& balance, const FlatSample& at) {
   const Scales& scales = balance.scales();
   const double time = balance.frame().rotates() ? 1.0 / balance.frame().rate() : scales.time;
   const Violation moving = velocity_violation(system, e, scales.lengths());
-  if (moving.size > close * scales.length / time + scales.rounding(s.q) / time)
+  if (moving.size > close * std::max(scales.length / time, largest(at.v)) + scales.rounding(s.q) / time)
     why << system.row_label(moving.row) << " moves by " << moving.size;
   if (!why.str().empty()) refuse_changed(system, why.str());
 }
@@ -186,6 +197,19 @@ std::vector<double> response(const System& system, const LinearTerms& terms, dou
   return out;
 }
 
+/// A displacement that the constraints allow: what is asked of the equations outside of their tangent space,
+/// as how a rolling condition reads a stretched wheel, is no part of them.
+std::vector<double> allowed(const System& system, const LinearTerms& terms, double s, std::vector<double> u) {
+  const ActiveRows rows = independent_rows(system, terms.w);
+  const std::size_t n = u.size();
+  for (std::size_t i = 0; i < n; ++i) u[i] *= s * system.masses()[i];
+  u.resize(n + rows.size(), 0.0);
+  TangentMatrix matrix(system, rows, terms, s);
+  if (matrix.regular()) matrix.solve(u);
+  u.resize(n);
+  return u;
+}
+
 /// Throws unless the equations of small motions are the same later, in the rotating frame.
 void require_constant(const System& system, const Balance& balance, const FlatSample& at,
                       const LinearTerms& terms) {
@@ -193,16 +217,25 @@ void require_constant(const System& system, const Balance& balance, const FlatSa
   std::vector<double> u(at.q.size());
   for (std::size_t i = 0; i < u.size(); ++i) u[i] = std::sin(static_cast<double>(i + 1));
   const double s = balance.high_stiffness();
+  u = allowed(system, terms, s, std::move(u));
   auto expected = response(system, terms, s, u);
   const double unit = frame.rotates() ? 1.0 / frame.rate() : balance.scales().time;
-  const double later = 0.7390851332151607 * unit, angle = frame.rate() * later;
+  const double later = 0.7390851332151607 * unit;
   std::vector<double> q(at.q.begin(), at.q.end()), v(q.size());
-  if (frame.rotates()) {
-    for (const std::span<double> x : {std::span(u), std::span(expected)}) frame.rotate_vectors(angle, x);
-    frame.rotate_positions(angle, q);
+  if (frame.moves()) {
+    for (const std::span<double> x : {std::span(u), std::span(expected)}) frame.carry_vectors(later, x);
+    frame.carry_positions(later, q);
   }
   frame.velocity(q, v);
-  const auto found = response(system, linear_terms(system, frame, {at.time + later, q, v}, at.lambda), s, u);
+  Balance::State then = balance.start();
+  then.q = q;
+  then.lambda.assign(at.lambda.begin(), at.lambda.end());
+  balance.evaluate(then);
+  // The rods of a body that spins carry its loads by turns.
+  const bool same_loads = system.rheonomic() || then.round_off;  // drives turn with the whole scene
+  if (frame.moves() && !same_loads && !balance.project(then)) then.lambda = balance.start().lambda;
+  const auto found =
+      response(system, linear_terms(system, frame, {at.time + later, q, v}, then.lambda), s, u);
   double difference = 0.0, size = 0.0;
   for (std::size_t i = 0; i < u.size(); ++i) {
     difference = std::max(difference, std::abs(found[i] - expected[i]));
@@ -247,16 +280,17 @@ const char* name(Stability stability) {
 }
 
 Modes find_modes(const System& system, const FlatSample& at, const Turning<3>& turning,
-                 const ModesOptions& options) {
+                 const ModesOptions& options, const UniformMotion* motion) {
   require_same_size(system, at);
-  const Balance balance(Problem(system), at.q, at.time, turning);
+  const Balance balance = motion ? Balance(Problem(system), at.q, at.time, RotatingFrame(*motion))
+                                 : Balance(Problem(system), at.q, at.time, turning);
   require_equilibrium(balance, at);
   require_smooth(system, balance, at);
   const LinearTerms terms = linear_terms(system, balance.frame(), {at.time, at.q, at.v}, at.lambda);
   require_constant(system, balance, at, terms);
   Modes found;
   if (system.coordinates() <= most_dense) {
-    found = dense_modes(system, terms);
+    found = dense_modes(system, terms, motion);
   } else {
     found = lowest_modes(system, terms, options.lowest);
     if (!found.modes.empty() && found.modes.back().eigenvalue == 0.0)
@@ -264,7 +298,7 @@ Modes find_modes(const System& system, const FlatSample& at, const Turning<3>& t
   }
   const bool damped = std::ranges::any_of(terms.damping, [](const auto& d) { return d.value() != 0.0; });
   if (!damped && system.coordinates() <= most_dense) drop_unknown(balance, at, found);
-  name_zeros(balance, at, found);  // all that were found: the verdict is of all
+  name_zeros(balance, at, motion, found);  // all that were found: the verdict is of all
   if (system.coordinates() > most_dense) require_told_from_zero(system, found);
   if (options.lowest > 0 && options.lowest < found.modes.size()) found.modes.resize(options.lowest);
   return found;

@@ -40,8 +40,9 @@ namespace detail {
 }  // namespace detail
 
 /// For a System and what `find_equilibrium` gave, out of which `normal_modes` makes NormalModes.
+/// About a steady motion `motion` stands for the turning.
 [[nodiscard]] Modes find_modes(const System& system, const FlatSample& at, const Turning<3>& turning,
-                               const ModesOptions& options);
+                               const ModesOptions& options, const UniformMotion* motion = nullptr);
 
 /// The small motions about an equilibrium, read by handle. Functions of a mode k throw InvalidArgument if
 /// there is none.
@@ -114,7 +115,8 @@ extern template class NormalModes<3>;
 /// Verdict: unstable if an eigenvalue has a positive real part; stable if all but those of free motions
 /// decay, or vibrate with an energy u'.M u'/2 + u.(H + M A^2).u/2 > 0, which is then a Lyapunov function;
 /// otherwise undecided: an eigenvalue 0 that is no free motion (a bifurcation), or a vibration of negative
-/// energy that is stabilised by gyroscopic forces only.
+/// energy that is stabilised by gyroscopic forces only. About a steady motion an energy > 0 in any frame in
+/// which the state rests will do: of a top that sleeps, in one that turns about its axis.
 ///
 /// Up to 600 coordinates by dense matrices: all modes. Beyond that the `lowest`, by shift and invert with
 /// memory in proportion to the size of the scene: Lanczos' method if (1) is symmetric and undamped, else
@@ -135,8 +137,10 @@ template <int D>
   const System system = scene.system();
   if (!detail::same_elements(*system.layout(), equilibrium.layout()))
     throw InvalidArgument("This equilibrium belongs to another scene than \"" + scene.name() + '"');
-  return {system.layout(), find_modes(system, equilibrium.sample().flat(), equilibrium.turning(), options),
-          equilibrium.left_out()};
+  return {
+      system.layout(),
+      find_modes(system, equilibrium.sample().flat(), equilibrium.turning(), options, equilibrium.motion()),
+      equilibrium.left_out()};
 }
 
 }  // namespace dalembert

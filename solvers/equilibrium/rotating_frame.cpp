@@ -3,60 +3,82 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace dalembert {
 
-RotatingFrame::RotatingFrame(const Layout& layout, const Turning<3>& turning)
-    : dimension_(static_cast<std::size_t>(layout.dimension)),
-      first_(layout.particles.size() * dimension_ + layout.rotors.size(), none),
-      rate_(turning.rate.norm()),
-      axis_(rate_ > 0.0 ? Eigen::Vector3d(turning.rate / rate_) : Eigen::Vector3d::UnitZ()),
-      centre_(turning.centre) {
-  for (const Layout::Particle& particle : layout.particles) {
-    const auto first = static_cast<std::size_t>(particle.coordinate);
-    particles_.push_back(first);
-    std::fill_n(first_.begin() + particle.coordinate, dimension_, first);
-  }
-  for (const Layout::Rotor& rotor : layout.rotors)
-    rotors_.push_back(static_cast<std::size_t>(rotor.coordinate));
+namespace {
+
+using Eigen::Index;
+using ConstFlat = Eigen::Map<const Eigen::VectorXd>;
+using Flat = Eigen::Map<Eigen::VectorXd>;
+
+Index size_of(std::span<const double> x) { return static_cast<Index>(x.size()); }
+
+UniformMotion motion_of(const Layout& layout, const Turning<3>& turning) {
+  const auto n = static_cast<Index>(layout.particles.size() * static_cast<std::size_t>(layout.dimension) +
+                                    layout.rotors.size());
+  UniformMotion motion{{n, n}, Eigen::VectorXd::Zero(n), turning.rate.norm()};
+  if (motion.rate == 0.0) return motion;
   const Vec<3>& w = turning.rate;
-  cross_ << 0.0, -w.z(), w.y(), w.z(), 0.0, -w.x(), -w.y(), w.x(), 0.0;
-  square_ = cross_ * cross_;
+  Eigen::Matrix3d cross;
+  cross << 0.0, -w.z(), w.y(), w.z(), 0.0, -w.x(), -w.y(), w.x(), 0.0;
+  const Eigen::Vector3d drift = -cross * turning.centre;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const Layout::Particle& particle : layout.particles) {
+    for (int i = 0; i < layout.dimension; ++i) {
+      motion.b[particle.coordinate + i] = drift[i];
+      for (int k = 0; k < layout.dimension; ++k)
+        if (i != k) entries.emplace_back(particle.coordinate + i, particle.coordinate + k, cross(i, k));
+    }
+  }
+  if (layout.dimension == 2)
+    for (const Layout::Rotor& rotor : layout.rotors) motion.b[rotor.coordinate] = w.z();
+  motion.A.setFromTriplets(entries.begin(), entries.end());
+  return motion;
 }
 
-/// out = m (x - about) + to for every particle; rotors are left as they are.
-void RotatingFrame::transform(const Eigen::Matrix3d& m, const Eigen::Vector3d& about,
-                              std::span<const double> x, std::span<double> out,
-                              const Eigen::Vector3d& to) const {
-  const auto d = static_cast<Eigen::Index>(dimension_);
-  for (const std::size_t first : particles_) {
-    const Eigen::VectorXd r = Eigen::Map<const Eigen::VectorXd>(x.data() + first, d) - about.head(d);
-    Eigen::Map<Eigen::VectorXd>(out.data() + first, d) = m.topLeftCorner(d, d) * r + to.head(d);
-  }
-}
+}  // namespace
+
+RotatingFrame::RotatingFrame(const Layout& layout, const Turning<3>& turning)
+    : RotatingFrame(motion_of(layout, turning)) {}
+
+RotatingFrame::RotatingFrame(const UniformMotion& motion)
+    : rate_(motion.rate),
+      moves_(motion.A.nonZeros() > 0 || !motion.b.isZero(0.0)),
+      A_(motion.A),
+      square_(motion.A * motion.A),
+      b_(motion.b) {}
 
 void RotatingFrame::velocity(std::span<const double> q, std::span<double> v) const {
-  std::ranges::fill(v, 0.0);
-  if (!rotates()) return;
-  transform(cross_, centre_, q, v, Eigen::Vector3d::Zero());
-  if (dimension_ == 2)
-    for (const std::size_t rotor : rotors_) v[rotor] = rate_ * axis_.z();
+  Flat(v.data(), size_of(v)) = A_ * ConstFlat(q.data(), size_of(q)) + b_;
 }
 
 void RotatingFrame::apply(std::span<const double> x, std::span<double> out) const {
-  std::ranges::fill(out, 0.0);
-  if (rotates()) transform(cross_, Eigen::Vector3d::Zero(), x, out, Eigen::Vector3d::Zero());
+  Flat(out.data(), size_of(out)) = A_ * ConstFlat(x.data(), size_of(x));
 }
 
-void RotatingFrame::rotate_positions(double angle, std::span<double> q) const {
-  transform(Eigen::AngleAxisd(angle, axis_).toRotationMatrix(), centre_, q, q, centre_);
-  if (dimension_ == 2)
-    for (const std::size_t rotor : rotors_) q[rotor] += angle * axis_.z();
+/// x' = A x + drift by its Taylor series, in steps of at most a radian: the terms left are below round-off.
+void RotatingFrame::carry(double time, const Eigen::VectorXd& drift, std::span<double> x) const {
+  constexpr int terms = 20;
+  double size = 0.0;
+  for (Index i = 0; i < A_.outerSize(); ++i) size = std::max(size, A_.row(i).cwiseAbs().sum());
+  const double steps = std::max(1.0, std::ceil(std::abs(time) * size)), h = time / steps;
+  Flat all(x.data(), size_of(x));
+  for (double step = 0.0; step < steps; ++step) {
+    Eigen::VectorXd term = h * (A_ * all + drift);
+    for (int k = 2; k <= terms; ++k) {
+      all += term;
+      term = (h / k) * (A_ * term).eval();
+    }
+  }
 }
 
-void RotatingFrame::rotate_vectors(double angle, std::span<double> x) const {
-  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
-  transform(Eigen::AngleAxisd(angle, axis_).toRotationMatrix(), zero, x, x, zero);
+void RotatingFrame::carry_positions(double time, std::span<double> q) const { carry(time, b_, q); }
+
+void RotatingFrame::carry_vectors(double time, std::span<double> x) const {
+  carry(time, Eigen::VectorXd::Zero(size_of(x)), x);
 }
 
 }  // namespace dalembert

@@ -3,56 +3,50 @@
 #include <dalembert/core/results/layout.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/equilibrium/turning.h>
+#include <dalembert/solvers/equilibrium/uniform_motion.h>
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
-#include <limits>
 #include <span>
-#include <vector>
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// A uniformly rotating frame on the flat coordinates: with Omega its rate and p its centre every particle at
-/// rest in it has
+/// A frame that moves uniformly, on the flat coordinates: what rests in it has
 ///
-///   r' = Omega x (r - p),    or for all together   v = A (q - p),   v' = A v,
+///   v = A q + b,   v' = A v.
 ///
-/// A is block-diagonal and skew, zero for rotors. In the plane rotors are angles about the same axis, and
-/// their v is Omega; in space they keep their angles.
+/// Of a rotation about p with the rate Omega, v = Omega x (r - p) of every particle; in the plane rotors are
+/// angles about the same axis, and their v is Omega; in space they keep their angles. See UniformMotion for
+/// frames in which parts turn against each other.
 class RotatingFrame {
  public:
+  using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
   RotatingFrame(const Layout& layout, const Turning<3>& turning);
+  explicit RotatingFrame(const UniformMotion& motion);
 
   [[nodiscard]] bool rotates() const { return rate_ > 0.0; }
+  [[nodiscard]] bool moves() const { return moves_; }
   [[nodiscard]] double rate() const { return rate_; }
-  /// v = A (q - p).
+  /// v = A q + b.
   void velocity(std::span<const double> q, std::span<double> v) const;
   /// out = A x.
   void apply(std::span<const double> x, std::span<double> out) const;
-  /// Rotates the positions q, and vectors x, by an angle.
-  void rotate_positions(double angle, std::span<double> q) const;
-  void rotate_vectors(double angle, std::span<double> x) const;
+  /// Carries the positions q, and vectors x, on for a time.
+  void carry_positions(double time, std::span<double> q) const;
+  void carry_vectors(double time, std::span<double> x) const;
 
-  /// Coordinates of a particle begin at `first(i)` for each i of them; `none` for a rotor.
-  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-  [[nodiscard]] std::size_t first(std::size_t i) const { return first_[i]; }
-  [[nodiscard]] std::size_t dimension() const { return dimension_; }
-  /// A block of A, of a particle's coordinates, and of A^2.
-  [[nodiscard]] double entry(std::size_t i, std::size_t k) const { return at(cross_, i, k); }
-  [[nodiscard]] double square_entry(std::size_t i, std::size_t k) const { return at(square_, i, k); }
+  [[nodiscard]] const Sparse& matrix() const { return A_; }
+  [[nodiscard]] const Sparse& square() const { return square_; }
 
  private:
-  [[nodiscard]] static double at(const Eigen::Matrix3d& m, std::size_t i, std::size_t k) {
-    return m(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
-  }
-  void transform(const Eigen::Matrix3d& m, const Eigen::Vector3d& about, std::span<const double> x,
-                 std::span<double> out, const Eigen::Vector3d& to) const;
+  void carry(double time, const Eigen::VectorXd& drift, std::span<double> x) const;
 
-  std::size_t dimension_;
-  std::vector<std::size_t> first_, particles_, rotors_;
   double rate_;
-  Eigen::Vector3d axis_, centre_;
-  Eigen::Matrix3d cross_, square_;
+  bool moves_;
+  Sparse A_, square_;
+  Eigen::VectorXd b_;
 };
 
 }  // namespace dalembert

@@ -55,6 +55,12 @@ std::pair<double, double> meeting(const std::vector<Vibration>& all, std::size_t
   if (rank < all.size() && all[rank].grows())
     return {all[rank].s.real() * all[rank].s.real(), all[rank].s.imag()};
   const double frequency = last.imag();
+  if (frequency == 0.0) {  // it meets its conjugate
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Vibration& v : all)
+      if (!v.grows() && v.s.imag() > 0.0) nearest = std::min(nearest, v.s.imag());
+    return {-(std::isfinite(nearest) ? nearest * nearest : last.real() * last.real()), 0.0};
+  }
   double first = std::numeric_limits<double>::infinity(), second = first;  // distances from the frequency
   for (const Vibration& v : all) {
     if (v.grows()) continue;
@@ -68,12 +74,19 @@ std::pair<double, double> meeting(const std::vector<Vibration>& all, std::size_t
   return {-0.25 * (first - second) * (first - second), frequency + 0.5 * (first + second)};
 }
 
+/// The number of eigenvalues with their conjugates.
+int eigenvalues_of(const Node& node) {
+  int sum = 0;
+  for (const Vibration& v : node.vibrations) sum += v.s.imag() > 0.0 ? 2 : 1;
+  return sum;
+}
+
 }  // namespace
 
 SingularPoints::Found SingularPoints::between(const Node* before, const Node& a, const Node& b) const {
   Found found;
   zeros(before, a, b, 0, found);
-  flutters(a, b, found);
+  flutters(a, b, 0, found);
   return found;
 }
 
@@ -216,26 +229,48 @@ std::optional<Node> SingularPoints::interpolated(const Node& a, const Node& b, c
   return corrector_->finished(std::move(found));
 }
 
-void SingularPoints::flutters(const Node& a, const Node& b, Found& found) const {
+/// A pair of real eigenvalues becomes one vibration without a change of stability, and might hide one: where
+/// both their numbers change the step is divided, and where several begin to grow.
+void SingularPoints::flutters(const Node& a, const Node& b, int depth, Found& found) const {
+  const auto vibrating = [](const Node& node) {
+    return std::ranges::count_if(node.vibrations,
+                                 [](const Vibration& v) { return v.grows() && v.s.imag() > 0.0; });
+  };
+  const auto vibrating_a = vibrating(a), vibrating_b = vibrating(b);
+  const bool both = vibrating_a != vibrating_b && a.growing() - vibrating_a != b.growing() - vibrating_b;
+  const bool several = a.state.motion != nullptr && std::abs(a.growing() - b.growing()) > 1;
+  if ((both || several) && depth < most_divisions && (b.x - a.x).norm() > exact) {
+    if (const auto middle = on_chord(a, b, 0.5)) {
+      flutters(a, *middle, depth + 1, found);
+      flutters(*middle, b, depth + 1, found);
+      return;
+    }
+  }
   const auto [fewer, more] = std::minmax({a.growing(), b.growing()});
-  for (auto rank = fewer; rank < more; ++rank)
-    if (auto flutter = locate_flutter(a, b, static_cast<std::size_t>(rank)))
+  for (auto rank = fewer; rank < more; ++rank) {
+    if (auto flutter = locate_flutter(a, b, static_cast<std::size_t>(rank), found.missed))
       found.flutters.push_back(std::move(*flutter));
+    else if (a.state.motion != nullptr && !both)  // no two have become one: something has crossed
+      found.missed = true;
+  }
 }
 
 /// Where the vibration of a rank, by decreasing growth, begins to grow: with damping where its real part is
-/// 0; without where it meets another on the imaginary axis.
+/// 0; without where it meets another on the imaginary axis, or its conjugate at 0.
 std::optional<SingularPoints::Flutter> SingularPoints::locate_flutter(const Node& a, const Node& b,
-                                                                      std::size_t rank) const {
+                                                                      std::size_t rank, bool& missed) const {
   const bool grows_at_b = b.growing() > a.growing();
   const Node &steady = grows_at_b ? a : b, &grown = grows_at_b ? b : a;
   Vibration last = grown.vibrations[rank];
   const bool damped =
       rank < steady.vibrations.size() && steady.vibrations[rank].s.real() < -steady.vibrations[rank].error;
+  const bool vibrates = last.s.imag() > 0.0;
   std::optional<Node> near = grown;
   double frequency = last.s.imag();
   const auto excess = [&](const Node& node) {
     const bool there = rank < node.vibrations.size();
+    frequency = 0.0;
+    if (!vibrates && eigenvalues_of(node) < eigenvalues_of(steady)) return 0.0;  // one has become 0
     if (there && node.vibrations[rank].grows()) last = node.vibrations[rank];
     if (!damped) {
       const auto [off, of_both] = meeting(node.vibrations, rank, last.s);
@@ -245,16 +280,31 @@ std::optional<SingularPoints::Flutter> SingularPoints::locate_flutter(const Node
     frequency = there ? node.vibrations[rank].s.imag() : last.s.imag();
     return there ? node.vibrations[rank].s.real() : -last.s.real();
   };
+  bool found = true;
   const auto on_way = [&](double way) {
     auto next = on_chord(steady, grown, way);
+    found = found && next.has_value();
     if (!next) return 0.0;
     near = std::move(next);
     return excess(*near);
   };
-  (void)root(on_way, 0.0, excess(steady), 1.0, excess(grown), exact);
-  // What turns into steady growth and not into a vibration that is just kept up is no flutter's limit.
-  const double left = std::abs(excess(*near)), growth = damped ? left : std::sqrt(left);
-  if (!(growth <= std::sqrt(rank_threshold) * frequency)) return std::nullopt;
+  const auto growth = [damped](double x) { return damped ? std::abs(x) : std::sqrt(std::abs(x)); };
+  const double before = excess(steady), after = excess(grown);
+  const double way = root(on_way, 0.0, before, 1.0, after, exact);
+  if (!vibrates && eigenvalues_of(*near) < eigenvalues_of(steady)) {
+    // Within round-off of its terms an eigenvalue counts as 0: the secant from outside, its error squared.
+    constexpr double beside = 1e-6;
+    const double first = on_way(way - beside), second = on_way(way + beside);
+    if (first * second < 0.0) (void)on_way(way + beside * (first + second) / (first - second));
+  }
+  // What turns into steady growth and not into a vibration that is just kept up is no flutter's limit; nor is
+  // a jump, where two become others.
+  const double left = growth(excess(*near));
+  const double size = vibrates ? frequency : std::max(growth(before), growth(after));
+  if (!(left <= std::sqrt(rank_threshold) * size)) {
+    missed = missed || !found;
+    return std::nullopt;
+  }
   return Flutter{std::move(*near), frequency};
 }
 

@@ -10,7 +10,8 @@
 namespace DALEMBERT_HIDDEN dalembert {
 
 /// The points of a branch, between two that follow each other, at which its stability may change: where a
-/// real eigenvalue of the stiffness changes its sign, and where a vibration begins to grow or ceases to.
+/// real eigenvalue of the stiffness changes its sign, and where a vibration begins to grow or ceases to. Of a
+/// steady motion, also where something grows that does not vibrate: a flutter of frequency 0.
 ///
 /// Eigenvalues are followed by their shapes and not by their order: of two that change their signs against
 /// each other the numbers above and below 0 do not tell. Two shapes are the same if the covector of either
@@ -29,6 +30,7 @@ class SingularPoints {
   struct Found {
     std::vector<Zero> zeros;
     std::vector<Flutter> flutters;
+    bool missed = false;  ///< a change of stability was not located
   };
 
   SingularPoints(const Corrector& corrector, double step) : corrector_(&corrector), step_(step) {}
@@ -53,13 +55,14 @@ class SingularPoints {
   [[nodiscard]] static bool may_have_turned(const Node* before, const Node& a, const Node& b,
                                             const Followed& followed);
   void zeros(const Node* before, const Node& a, const Node& b, int depth, Found& found) const;
-  void flutters(const Node& a, const Node& b, Found& found) const;
+  void flutters(const Node& a, const Node& b, int depth, Found& found) const;
 
   [[nodiscard]] std::optional<Node> on_chord(const Node& a, const Node& b, double way) const;
   [[nodiscard]] std::optional<Zero> locate(const Node& a, const Node& b, Pair pair) const;
   [[nodiscard]] std::optional<Node> interpolated(const Node& a, const Node& b, const Node& near,
                                                  Pair pair) const;
-  [[nodiscard]] std::optional<Flutter> locate_flutter(const Node& a, const Node& b, std::size_t rank) const;
+  [[nodiscard]] std::optional<Flutter> locate_flutter(const Node& a, const Node& b, std::size_t rank,
+                                                      bool& missed) const;
 
   const Corrector* corrector_;
   double step_;

@@ -14,26 +14,18 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// The most coordinates of a small scene.
 inline constexpr std::size_t most_dense = 600;
 
-/// All modes of a small scene by dense matrices, of each uncoupled part separately. With an orthonormal basis
-/// N of the tangent space in the mass metric, u = M^-1/2 N z,
-///
-///   z'' + C z' + K z = B^T y,    B z' + E z = 0     (nonholonomic rows)                            (1)
-///
-/// If there are no such rows, C = 0 and K is symmetric: K z = omega^2 z. Otherwise, with P a basis of the
-/// null space of B and z' = P c - B^+ E z,
-///
-///   z' = P c - B^+ E z,    c' = P^T (C B^+ E - K) z - P^T C P c,                                       (2)
-///
-/// in units of time in which |K| = 1. Its zero eigenvalues may be defective: those of the null space of [P^T
-/// K; E], and those of motions that go along them for ever, are deflated before the others are computed,
-/// however long their chains are. Each of these is known to the matrix's round-off times its condition 1/|y^H
-/// x|, and decides only what exceeds that; where it does not grow an energy u'.M u'/2 + u.K u/2 > 0 decides:
-/// for K symmetric, C dissipative, E = 0. Marks no mode as free. Throws EquationFault.
-[[nodiscard]] Modes dense_modes(const System& system, const LinearTerms& terms);
+/// All modes of a small scene by dense matrices, of each uncoupled part separately, see Tangent. Without
+/// nonholonomic rows, C = 0 and K symmetric they are those of K z = omega^2 z, else those of `solutions`. The
+/// error to which an eigenvalue is known decides whether it grows; where that does not tell, an energy u'.M
+/// u'/2 + u.K u/2 > 0: for K symmetric, C dissipative, E = 0; with momenta that symmetries of `motion`
+/// conserve. Marks no mode as free. Throws EquationFault.
+[[nodiscard]] Modes dense_modes(const System& system, const LinearTerms& terms,
+                                const UniformMotion* motion = nullptr);
 
-/// K on the tangent space, of each uncoupled part separately: its real eigenvalues, increasing, their shapes
-/// u = M^-1/2 N z of |z| = 1 as columns, and the covectors that give 1 for their own shape and 0 for the
-/// others. Where circulatory forces make K unsymmetric others may be complex.
+/// K on the tangent space (with nonholonomic rows: of what may move), of each uncoupled part separately: its
+/// real eigenvalues, increasing, their shapes u = M^-1/2 N z of |z| = 1 as columns, and the covectors that
+/// give 1 for their own shape and 0 for the others. Where circulatory forces make K unsymmetric others may be
+/// complex.
 struct TangentStiffness {
   Eigen::VectorXd values;
   Eigen::MatrixXd shapes, duals;
@@ -41,7 +33,8 @@ struct TangentStiffness {
 };
 [[nodiscard]] TangentStiffness tangent_stiffness(const System& system, const LinearTerms& terms);
 
-/// The eigenvalue of a vibration, Im s > 0, and the error to which it is known.
+/// The eigenvalue of a vibration, Im s > 0 (or of a motion that does not vibrate), and the error to which it
+/// is known.
 struct Vibration {
   std::complex<double> s;
   double error;
@@ -53,5 +46,10 @@ struct Vibration {
 /// is symmetric, and either C is or K is not negative along any shape: nothing that vibrates grows then
 /// (Kelvin, Tait; Chetaev). Without C, and without nonholonomic rows, -s^2 is an eigenvalue of K.
 [[nodiscard]] std::vector<Vibration> vibrations(const System& system, const LinearTerms& terms);
+
+/// All eigenvalues of the small motions about a steady motion that are not 0, real ones included, by
+/// decreasing real part.
+[[nodiscard]] std::vector<Vibration> all_vibrations(const System& system, const LinearTerms& terms,
+                                                    const UniformMotion& motion);
 
 }  // namespace dalembert

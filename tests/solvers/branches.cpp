@@ -198,11 +198,49 @@ TEST(Branches, RefuseOptionsAndScenesThatMakeNoSense) {
   const auto skate = [](double) {
     Scene<2> scene("skate");
     const auto blade = scene.add_particle({.mass = 1.0});
-    scene.add(nonholonomic(points(blade), [](auto, auto v) { return v.y(); }));
-    return Posed<2>{std::move(scene)};
+    scene.add(nonholonomic(points(blade), [](auto, auto v) { return v.y(); }), "edge");
+    return Posed<2>{std::move(scene), {.turning = {.rate = 1.0}}};
   };
   EXPECT_THAT([&] { (void)follow_branches<2>(skate, {.from = 0.0, .to = 1.0}); },
-              ThrowsMessage<InvalidScene>(HasSubstr("nonholonomic")));
+              ThrowsMessage<InvalidScene>(HasSubstr("follow_steady")));
+}
+
+TEST(Branches, OfASkateForkWhereTheSpringAlongItsBladeSoftens) {
+  // The blade at (x, y) points along x, held there by a spring that turns it. Along it p x + x^3 = 0: x = 0,
+  // and from p = 0 on x^2 = -p; across it the spring of y is taken up, at any y.
+  constexpr double arm = 0.4;
+  BodyPoint<2> blade;
+  Constraint<1> edge;
+  const auto diagram = follow_branches<2>(
+      [&](double p) {
+        Scene<2> scene("skate");
+        const auto body = add_body(scene, {.mass = 2.0, .inertia = 0.1, .centre = {arm, 0.3}}, "skate");
+        blade = body.point({-arm, 0.0});
+        edge = scene.add(Heading{blade, blade, body.centre()}, "blade");
+        scene.add(potential(points(blade, body.centre()), [p](auto b, auto c) {
+          const auto turned = c.y() - b.y(), square = b.x() * b.x();
+          return 0.5 * p * square + 0.25 * square * square + 0.5 * b.y() * b.y() + 20.0 * turned * turned;
+        }));
+        return Posed<2>{std::move(scene)};
+      },
+      {.from = 0.5, .to = -0.5});
+  ASSERT_EQ(diagram.bifurcations.size(), 1U);
+  EXPECT_NEAR(diagram.bifurcations[0].parameter, 0.0, 1e2 * located);
+  EXPECT_TRUE(diagram.folds.empty());
+  EXPECT_TRUE(diagram.flutters.empty());
+  ASSERT_EQ(diagram.branches.size(), 3U);
+  double sides = 0.0;
+  for (const auto& branch : diagram.branches) {
+    EXPECT_EQ(branch.end, BranchEnd::range) << branch.why;
+    for (const auto& point : branch.points) {
+      const auto at = point.state.sample();
+      const Vec<2> b = at.position(blade);
+      EXPECT_NEAR(b.x() * b.x(), branch.origin == no_bifurcation ? 0.0 : -point.parameter, 1e2 * on_branch);
+      EXPECT_NEAR(std::abs(at.multiplier(edge)), std::abs(b.y()), 1e2 * on_branch);
+    }
+    sides += branch.points.back().state.sample().position(blade).x();
+  }
+  EXPECT_NEAR(sides, 0.0, 1e2 * on_branch);
 }
 
 TEST(Branches, ThatForkWithinOneStepAreAllFollowed) {

@@ -1,0 +1,223 @@
+#include "dalembert/solvers/equilibrium/steady.h"
+
+#include <dalembert/solvers/base/numbers.h>
+#include <dalembert/solvers/equilibrium/balance.h>
+#include <dalembert/solvers/equilibrium/mass_metric.h>
+#include <dalembert/solvers/equilibrium/steady_equations.h>
+#include <dalembert/solvers/equilibrium/symmetries.h>
+#include <dalembert/solvers/equilibrium/tangent_modes.h>
+#include <dalembert/solvers/linear/dense.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace dalembert {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+std::span<const double> flat(const VectorXd& x) { return {x.data(), static_cast<std::size_t>(x.size())}; }
+VectorXd vector_of(std::span<const double> x) {
+  return Eigen::Map<const VectorXd>(x.data(), static_cast<Index>(x.size()));
+}
+
+/// Newton's iteration for (1) of the header.
+class SteadySearch {
+ public:
+  SteadySearch(const Problem& problem, const Start& stated, const Start& start, double time,
+               const std::vector<FlatKept>& keep)
+      : problem_(problem),
+        system_(&problem_.system()),
+        time_(time),
+        rows_(start.rows),
+        scales_(start.scales),
+        keep_(&keep),
+        symmetries_(problem, start, time),
+        q_(vector_of(start.q)),
+        lambda_(vector_of(start.lambda)) {
+    const VectorXd v = vector_of(start.v);
+    decompose(v);
+    require_symmetric(v);
+    for (const FlatKept& one : keep) kept_.push_back(value(one, vector_of(stated.q), vector_of(stated.v)));
+  }
+
+  FoundSteady find() {
+    constexpr int most_corrections = 50;
+    double before = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < most_corrections; ++i) {
+      const double size = correct();
+      if (!(size < std::numeric_limits<double>::infinity())) refuse("Newton's iteration diverges");
+      // It converges quadratically until round-off is left.
+      if (size < 1e-9 && size >= 0.5 * before) break;
+      if (size < epsilon) break;
+      before = size;
+    }
+    decompose(symmetries_.fields(q_) * y_);
+    return finished();
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw NoEquilibrium("Scene \"" + system_->layout()->scene + "\": no steady motion was found: " + why +
+                        "; start closer to one, or keep fewer quantities");
+  }
+
+  /// The coefficients of given velocities. Where several give the same, parts turn as little as they can.
+  void decompose(const VectorXd& v) {
+    const MatrixXd X = symmetries_.fields(q_);
+    y_ = VectorXd::Zero(symmetries_.size());
+    if (y_.size() == 0) return;
+    VectorXd root(q_.size());
+    for (Index i = 0; i < root.size(); ++i)
+      root[i] = std::sqrt(system_->masses()[static_cast<std::size_t>(i)]);
+    y_ = dense::least_squares(root.asDiagonal() * X, root.asDiagonal() * v, rank_threshold);
+    const MatrixXd same = dense::kernel(root.asDiagonal() * X, rank_threshold);
+    if (same.cols() == 0) return;
+    const MatrixXd turning = symmetries_.turning();
+    y_ -= same * dense::least_squares(turning * same, turning * y_, rank_threshold);
+  }
+
+  /// Names what moves otherwise: of its velocity more than half is no symmetry's, so that no steady motion is
+  /// near.
+  void require_symmetric(const VectorXd& v) const {
+    const VectorXd rest = v - symmetries_.fields(q_) * y_;
+    const double rounding = 1e-8 * v.cwiseAbs().maxCoeff();
+    const auto look = [&](const auto& all, int width) {
+      for (const auto& one : all) {
+        if (rest.segment(one.coordinate, width).norm() <=
+            0.5 * v.segment(one.coordinate, width).norm() + rounding)
+          continue;
+        throw NoEquilibrium(
+            "Scene \"" + system_->layout()->scene + "\": \"" + one.name +
+            "\" moves as no symmetry of the scene carries on: a body must be round about the axis "
+            "it spins about, with all that acts on it; ask for floquet multipliers of a motion "
+            "that is periodic");
+      }
+    };
+    look(system_->layout()->particles, system_->layout()->dimension);
+    look(system_->layout()->rotors, 1);
+  }
+
+  [[nodiscard]] double value(const FlatKept& one, const VectorXd& q, const VectorXd& v) const {
+    FlatSample at;
+    at.time = time_;
+    at.q = flat(q);
+    at.v = flat(v);
+    const double x = one.value(at);
+    if (!std::isfinite(x)) refuse("\"" + one.name + "\" is not a finite number");
+    return x;
+  }
+
+  /// One correction; its size, in units of the scene.
+  double correct() {
+    constexpr double longest = 0.2;
+    SteadyEquations equations(*system_, symmetries_, scales_, rows_, {time_, q_, lambda_, y_},
+                              static_cast<Index>(keep_->size()));
+    for (std::size_t k = 0; k < keep_->size(); ++k) {
+      const double now = value((*keep_)[k], q_, symmetries_.fields(q_) * y_);
+      equations.keep(static_cast<Index>(k), now - kept_[k], std::abs(now) + std::abs(kept_[k]),
+                     gradient((*keep_)[k]));
+    }
+    const auto step = equations.correction();
+    if (!std::isfinite(step.size)) return step.size;
+    const double part = step.size > longest ? longest / step.size : 1.0;
+    q_ += part * step.q;
+    y_ += part * step.y;
+    for (std::size_t a = 0; a < rows_.size(); ++a)
+      lambda_[static_cast<Index>(rows_.rows[a])] += part * step.lambda[static_cast<Index>(a)];
+    return step.size;
+  }
+
+  /// Of a kept quantity by q and y, by central differences.
+  [[nodiscard]] Eigen::RowVectorXd gradient(const FlatKept& one) const {
+    const Index n = q_.size();
+    const double h = std::cbrt(epsilon);
+    const auto at = [&](Index i, double by) {
+      VectorXd q = q_, y = y_;
+      (i < n ? q[i] : y[i - n]) += by;
+      return value(one, q, symmetries_.fields(q) * y);
+    };
+    Eigen::RowVectorXd slope(n + y_.size());
+    for (Index i = 0; i < slope.size(); ++i) {
+      const double step = h * (i < n ? scales_.unit(static_cast<std::size_t>(i)) : 1.0 / scales_.time);
+      slope[i] = (at(i, step) - at(i, -step)) / (2.0 * step);
+    }
+    return slope;
+  }
+
+  [[nodiscard]] FoundSteady finished() const {
+    // What moves by less than round-off of a position in the scene's time rests.
+    const bool rests = (symmetries_.fields(q_) * y_).cwiseAbs().maxCoeff() <=
+                       roundings_of_a_sum * epsilon * scales_.length / scales_.time;
+    const VectorXd y = rests ? VectorXd(VectorXd::Zero(y_.size())) : y_;
+    auto motion = std::make_shared<UniformMotion>(symmetries_.motion(y));
+    const MatrixXd same = symmetries_.commuting(q_, y), X = symmetries_.displacements(q_, same);
+    motion->symmetric = X;
+    const MatrixXd fixing = same * dense::kernel(X, rank_threshold);
+    for (Index k = 0; k < fixing.cols(); ++k) motion->fixing.push_back(symmetries_.motion(fixing.col(k)).A);
+    const Balance balance(problem_, flat(q_), time_, RotatingFrame(*motion));
+    Balance::State s = balance.start();
+    std::ranges::copy(flat(lambda_), s.lambda.begin());
+    balance.evaluate(s);
+    if (!balance.settled(s, 1e-8)) refuse("forces do not balance");
+    balance.require_lasting(s);
+    const VectorXd v = vector_of(s.v);
+    for (std::size_t k = 0; k < kept_.size(); ++k) {
+      const double now = value((*keep_)[k], q_, v);
+      if (std::abs(now - kept_[k]) > 1e-8 * std::max(1.0, std::abs(kept_[k])))
+        refuse("\"" + (*keep_)[k].name + "\" cannot be kept");
+    }
+    return {balance.record(s), std::move(motion)};
+  }
+
+  Problem problem_;
+  const System* system_;
+  double time_;
+  ActiveRows rows_;
+  Scales scales_;
+  const std::vector<FlatKept>* keep_;
+  Symmetries symmetries_;
+  VectorXd q_, lambda_, y_;
+  std::vector<double> kept_;
+};
+
+void require_suited_to_steady(const System& system) {
+  const std::string scene = "Steady motions of scene \"" + system.layout()->scene + "\": ";
+  if (system.coordinates() > most_dense)
+    throw InvalidScene(scene + "they are found up to " + std::to_string(most_dense) + " coordinates");
+  if (system.rheonomic())
+    throw InvalidScene(scene +
+                       "a constraint changes with time; let what it drives turn freely, with its rate as "
+                       "stated, or ask for floquet multipliers");
+  if (const auto label = system.conditional_label(); !label.empty())
+    throw InvalidScene(scene + label + " does not always hold; state it as a bilateral one");
+  if (system.frictional()) throw InvalidScene(scene + system.force_of_friction(0) + " reads a multiplier");
+}
+
+}  // namespace
+
+FoundSteady find_steady(System system, std::span<const double> q, std::span<const double> v, double time,
+                        const std::vector<FlatKept>& keep, std::span<const double> beside) {
+  if (!std::isfinite(time)) throw InvalidArgument("Option time of a steady motion must be finite");
+  require_suited_to_steady(system);
+  try {
+    const Problem problem(std::move(system));
+    const auto start_at = [&](std::span<const double> at, std::span<const double> rates) {
+      return consistent_start(problem, at, rates, {.t_end = time + 1.0, .t_start = time, .assemble = true});
+    };
+    const Start stated = start_at(q, v);
+    if (beside.empty()) return SteadySearch(problem, stated, stated, time, keep).find();
+    VectorXd there = vector_of(stated.q) + vector_of(beside.first(q.size())),
+             rates = vector_of(stated.v) + vector_of(beside.subspan(q.size()));
+    return SteadySearch(problem, stated, start_at(flat(there), flat(rates)), time, keep).find();
+  } catch (const EquationFault& fault) {
+    throw NoEquilibrium(fault.what());
+  }
+}
+
+}  // namespace dalembert

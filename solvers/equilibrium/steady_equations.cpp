@@ -1,0 +1,152 @@
+#include "dalembert/solvers/equilibrium/steady_equations.h"
+
+#include <dalembert/solvers/base/numbers.h>
+#include <dalembert/solvers/equilibrium/linear_terms.h>
+#include <dalembert/solvers/equilibrium/mass_metric.h>
+#include <dalembert/solvers/linear/dense.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dalembert {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+std::span<const double> numbers(const VectorXd& x) { return {x.data(), static_cast<std::size_t>(x.size())}; }
+VectorXd as_vector(std::span<const double> x) {
+  return Eigen::Map<const VectorXd>(x.data(), static_cast<Index>(x.size()));
+}
+
+}  // namespace
+
+SteadyEquations::SteadyEquations(const System& system, const Symmetries& symmetries, const Scales& scales,
+                                 const ActiveRows& rows, const State& at, Index kept)
+    : n_(at.q.size()),
+      m_(static_cast<Index>(rows.size())),
+      p_(at.y.size()),
+      masses_(as_vector(system.masses())),
+      units_(n_ + p_),
+      X_(symmetries.fields(at.q)),
+      J_(MatrixXd::Zero(n_ + m_ + kept, n_ + p_)),
+      J_terms_(J_),
+      L_(MatrixXd::Zero(J_.rows(), m_)),
+      r_(VectorXd::Zero(J_.rows())),
+      r_terms_(r_) {
+  v_ = X_ * at.y;
+  const double most = v_.size() > 0 ? v_.cwiseAbs().maxCoeff() : 0.0;
+  for (Index i = 0; i < n_; ++i) units_[i] = scales.unit(static_cast<std::size_t>(i));
+  units_.tail(p_).setConstant(std::max(most / scales.length, 1e-3 / scales.time));
+  still_ = symmetries.displacements(at.q, symmetries.commuting(at.q, at.y));
+  add_equations(system, symmetries, rows, at, most);
+}
+
+void SteadyEquations::add_equations(const System& system, const Symmetries& symmetries,
+                                    const ActiveRows& rows, const State& at, double most) {
+  const RotatingFrame frame(symmetries.motion(at.y));
+  const Instant now{at.time, numbers(at.q), numbers(v_)};
+  const LinearTerms terms = linear_terms(system, frame, now, numbers(at.lambda));
+  auto e = system.evaluation();
+  system.evaluate(now, e);
+  const VectorXd force = as_vector(e.force), inertia = masses_.cwiseProduct(frame.matrix() * v_);
+  r_.head(n_) = force - inertia;
+  r_terms_.head(n_) = force.cwiseAbs() + inertia.cwiseAbs();
+  const MatrixXd AX = frame.matrix() * X_, Xv = symmetries.images(v_);
+  J_.block(0, n_, n_, p_) = masses_.asDiagonal() * (AX - Xv);
+  J_terms_.block(0, n_, n_, p_) = masses_.asDiagonal() * (AX.cwiseAbs() + Xv.cwiseAbs());
+  for (const auto& k : terms.stiffness) {
+    J_(static_cast<Index>(k.row()), static_cast<Index>(k.col())) -= k.value();
+    J_terms_(static_cast<Index>(k.row()), static_cast<Index>(k.col())) += std::abs(k.value());
+  }
+  for (const auto& c : terms.damping)
+    J_.block(static_cast<Index>(c.row()), n_, 1, p_) -= c.value() * X_.row(static_cast<Index>(c.col()));
+  for (Index a = 0; a < m_; ++a) {
+    const std::size_t row = rows.rows[static_cast<std::size_t>(a)];
+    const double lambda = at.lambda[static_cast<Index>(row)];
+    const bool holonomic = row < system.holonomic_rows();
+    r_[n_ + a] = holonomic ? system.law(row).residual(e.g[row], lambda) : e.psi[row];
+    if (holonomic) L_(n_ + a, a) = system.law(row).compliance;
+    for (const std::size_t k : system.row(row)) {
+      const auto i = static_cast<Index>(system.w_columns()[k]);
+      const double w = terms.w[k];
+      r_[i] += w * lambda;
+      r_terms_[i] += std::abs(w * lambda);
+      r_terms_[n_ + a] += std::abs(w) * (holonomic ? std::max(std::abs(at.q[i]), units_[i]) : most);
+      L_(i, a) += w;
+      J_(n_ + a, i) += holonomic ? w : terms.e[k];
+      if (!holonomic) J_.block(n_ + a, n_, 1, p_) += w * X_.row(i);
+    }
+  }
+  for (const auto& particle : system.layout()->particles) {  // round-off has any direction
+    auto own = r_terms_.segment(particle.coordinate, system.layout()->dimension);
+    own.setConstant(own.maxCoeff());
+  }
+}
+
+void SteadyEquations::keep(Index k, double off, double terms, const Eigen::RowVectorXd& gradient) {
+  r_[n_ + m_ + k] = off;
+  r_terms_[n_ + m_ + k] = terms;
+  J_.row(n_ + m_ + k) = gradient;
+}
+
+void SteadyEquations::divide_row(Index i, double by) {
+  r_[i] /= by;
+  r_terms_[i] /= by;
+  J_.row(i) /= by;
+  J_terms_.row(i) /= by;
+  L_.row(i) /= by;
+}
+
+/// Forces over the roots of the masses, other rows of length 1. Along symmetries that commute with the motion
+/// no equation changes, exactly: what is left of their derivative is round-off.
+void SteadyEquations::weigh() {
+  for (Index i = 0; i < n_; ++i) divide_row(i, std::sqrt(masses_[i]));
+  J_ = (J_ * units_.asDiagonal()).eval();
+  J_terms_ = J_.cwiseAbs().cwiseMax(J_terms_ * units_.asDiagonal());
+  const MatrixXd still =
+      orthogonal_complement(orthogonal_complement(units_.head(n_).cwiseInverse().asDiagonal() * still_));
+  auto by_q = J_.topLeftCorner(n_ + m_, n_);
+  by_q -= (by_q * still * still.transpose()).eval();
+  for (Index i = n_; i < J_.rows(); ++i)
+    if (const double length = J_.row(i).norm(); length > 0.0) divide_row(i, length);
+}
+
+/// Whether what multipliers do not take up is round-off of its terms. It stays as it is then: beside a fast
+/// spin a correction of round-off displaces what is soft.
+bool SteadyEquations::balances(const MatrixXd& free) const {
+  constexpr double roundings = 10.0;  // of a sum of some dozens of terms
+  const MatrixXd across = free * free.transpose();
+  const VectorXd unbalanced = (across * r_).cwiseAbs(), terms = across.cwiseAbs() * r_terms_;
+  return (unbalanced.array() <= roundings * epsilon * terms.array()).all();
+}
+
+/// Forces in units of the stiffness that they change by. What is round-off of its terms changes by nothing.
+VectorXd SteadyEquations::least_change(const MatrixXd& free) const {
+  MatrixXd left = free.transpose() * J_;
+  VectorXd right = free.transpose() * r_;
+  const VectorXd least =
+      roundings_of_a_sum * epsilon * free.cwiseAbs().transpose() * J_terms_.rowwise().maxCoeff();
+  for (Index i = 0; i < left.rows(); ++i) {
+    const double length = left.row(i).norm(), unit = length > least[i] ? 1.0 / length : 0.0;
+    left.row(i) *= unit;
+    right[i] *= unit;
+  }
+  return dense::least_squares(left, -right, rank_threshold);
+}
+
+SteadyEquations::Correction SteadyEquations::correction() {
+  weigh();
+  const MatrixXd free = m_ > 0 ? orthogonal_complement(L_) : MatrixXd::Identity(J_.rows(), J_.rows());
+  const VectorXd x = balances(free) ? VectorXd(VectorXd::Zero(n_ + p_)) : least_change(free);
+  Correction found{units_.head(n_).cwiseProduct(x.head(n_)), units_.tail(p_).cwiseProduct(x.tail(p_)),
+                   VectorXd::Zero(m_), x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.0};
+  if (!x.allFinite()) found.size = std::numeric_limits<double>::infinity();
+  if (m_ > 0 && x.allFinite()) found.lambda = dense::least_squares(L_, -r_ - J_ * x, rank_threshold);
+  return found;
+}
+
+}  // namespace dalembert

@@ -1,0 +1,329 @@
+#include "dalembert/solvers/equilibrium/symmetries.h"
+
+#include <dalembert/core/analysis/disjoint_sets.h>
+#include <dalembert/core/analysis/rank.h>
+#include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/numbers.h>
+#include <dalembert/solvers/equilibrium/equilibrium.h>
+#include <dalembert/solvers/equilibrium/linear_terms.h>
+#include <dalembert/solvers/equilibrium/mass_metric.h>
+#include <dalembert/solvers/linear/dense.h>
+#include <dalembert/solvers/manifold/manifold.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace dalembert {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+Eigen::Matrix3d cross_matrix(const Vector3d& w) {
+  Eigen::Matrix3d m;
+  m << 0.0, -w.z(), w.y(), w.z(), 0.0, -w.x(), -w.y(), w.x(), 0.0;
+  return m;
+}
+
+Vector3d place(const Start& start, int coordinate, int dimension) {
+  Vector3d r = Vector3d::Zero();
+  for (int i = 0; i < dimension; ++i) r[i] = start.q[static_cast<std::size_t>(coordinate + i)];
+  return r;
+}
+
+/// The axes about which something rotates in a space of this dimension.
+std::vector<Vector3d> axes_of_rotation(int dimension) {
+  if (dimension == 2) return {Vector3d::UnitZ()};
+  return {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
+}
+
+/// Particles that internal constraints hold together, body by body.
+std::vector<std::vector<const Layout::Particle*>> bodies_of(const System& system) {
+  const Layout& layout = *system.layout();
+  DisjointSets sets(system.coordinates());
+  std::vector<char> held(system.coordinates(), 0);
+  for (const auto& constraint : layout.constraints) {
+    if (!constraint.internal) continue;
+    for (const std::size_t r : constraint.own_rows()) {
+      for (const std::size_t k : system.row(r)) {
+        held[system.w_columns()[k]] = 1;
+        sets.join(system.w_columns()[system.row(r).front()], system.w_columns()[k]);
+      }
+    }
+  }
+  std::map<std::size_t, std::vector<const Layout::Particle*>> by_root;
+  for (const auto& particle : layout.particles) {
+    const auto i = static_cast<std::size_t>(particle.coordinate);
+    if (held[i]) by_root[sets.root(i)].push_back(&particle);
+  }
+  std::vector<std::vector<const Layout::Particle*>> all;
+  for (auto& [root, body] : by_root) all.push_back(std::move(body));
+  return all;
+}
+
+/// Weights S with sum_j S_ij r_j = axis x (r_i - c), sum_j S_ij = 0: c the centre of mass. A lamina's are
+/// found in its plane, for its normal only; a plane body's need the rotation beside the weights.
+MatrixXd spin_weights(const MatrixXd& arms, const Vector3d& axis) {
+  MatrixXd augmented(4, arms.cols());
+  augmented << arms, VectorXd::Constant(arms.cols(), arms.norm()).transpose();
+  MatrixXd turned = MatrixXd::Zero(4, arms.cols());
+  turned.topRows(3) = cross_matrix(axis) * arms;
+  return dense::least_squares(augmented, turned, rank_threshold).transpose();
+}
+
+}  // namespace
+
+Symmetries::Symmetries(const Problem& problem, const Start& start, double time) {
+  add_parts(problem, start);
+  add_bodies(problem.system(), start);
+  // Generic states: each gives as many conditions as the scene is free. The first at rest, where fast spins
+  // do not hide what is soft.
+  constexpr int samples = 4;
+  const auto count = static_cast<Index>(generators_.size());
+  MatrixXd all(0, count);
+  for (int sample = 0; sample < samples; ++sample) {
+    const MatrixXd own = conditions(problem, start, time, sample);
+    MatrixXd both(all.rows() + own.rows(), count);
+    both << all, own;
+    all = std::move(both);
+  }
+  const auto [values, vectors] = dense::symmetric_eigen(all.transpose() * all);
+  // Squares: what is 1e-9 of its terms, of a condition whose terms are 1.
+  Index zero = 0;
+  while (zero < count && values[zero] < rank_threshold * rank_threshold * static_cast<double>(all.rows()))
+    ++zero;
+  // Once more at the precision of the conditions, not of their squares.
+  basis_ = dense::kernel(all, rank_threshold);
+  if (basis_.cols() != zero && basis_.cols() == 0) basis_ = vectors.leftCols(zero);
+  if (basis_.cols() > 0) basis_ = orthogonal_complement(orthogonal_complement(basis_));
+}
+
+void Symmetries::add_parts(const Problem& problem, const Start& start) {
+  const System& system = problem.system();
+  const Layout& layout = *system.layout();
+  const Islands& parts = problem.islands();
+  const auto n = static_cast<Index>(system.coordinates());
+  const int d = layout.dimension;
+  const auto part_of = [&](int coordinate) {
+    return parts.of_coordinate[static_cast<std::size_t>(coordinate)];
+  };
+  for (std::size_t part = 0; part < parts.count; ++part) {
+    Vector3d centre = Vector3d::Zero();
+    double many = 0.0;
+    for (const auto& p : layout.particles) {
+      if (part_of(p.coordinate) != part) continue;
+      centre += place(start, p.coordinate, d);
+      many += 1.0;
+    }
+    if (many == 0.0) continue;
+    centre /= many;
+    for (int i = 0; i < d; ++i) {
+      Generator x{{n, n}, VectorXd::Zero(n), false, false};
+      for (const auto& p : layout.particles)
+        if (part_of(p.coordinate) == part) x.b[p.coordinate + i] = 1.0;
+      generators_.push_back(std::move(x));
+    }
+    for (const Vector3d& axis : axes_of_rotation(d)) {
+      Generator x{{n, n}, VectorXd::Zero(n), true, true};
+      const Eigen::Matrix3d cross = cross_matrix(axis);
+      const Vector3d drift = -cross * centre;
+      Triplets entries;
+      for (const auto& p : layout.particles) {
+        if (part_of(p.coordinate) != part) continue;
+        for (int i = 0; i < d; ++i) {
+          x.b[p.coordinate + i] = drift[i];
+          for (int k = 0; k < d; ++k)
+            if (cross(i, k) != 0.0) entries.emplace_back(p.coordinate + i, p.coordinate + k, cross(i, k));
+        }
+      }
+      x.A.setFromTriplets(entries.begin(), entries.end());
+      generators_.push_back(std::move(x));
+    }
+  }
+  for (const auto& rotor : layout.rotors) {
+    Generator x{{n, n}, VectorXd::Zero(n), false, true};
+    x.b[rotor.coordinate] = 1.0;
+    generators_.push_back(std::move(x));
+  }
+}
+
+void Symmetries::add_bodies(const System& system, const Start& start) {
+  const auto n = static_cast<Index>(system.coordinates());
+  const int d = system.layout()->dimension;
+  for (const auto& body : bodies_of(system)) {
+    const auto count = static_cast<Index>(body.size());
+    if (count < d) continue;  // a rod in space: it does not turn in itself
+    MatrixXd arms(3, count);
+    VectorXd share(count);
+    for (Index i = 0; i < count; ++i) {
+      arms.col(i) = place(start, body[static_cast<std::size_t>(i)]->coordinate, d);
+      share[i] = body[static_cast<std::size_t>(i)]->mass;
+    }
+    share /= share.sum();
+    const Vector3d centre = arms * share;
+    arms.colwise() -= centre;
+    const auto add = [&](const MatrixXd& S, const Eigen::Matrix3d& R) {
+      Triplets entries;
+      for (Index i = 0; i < count; ++i) {
+        for (Index j = 0; j < count; ++j) {
+          for (int k = 0; k < d; ++k) {
+            for (int l = 0; l < d; ++l)
+              if (R(k, l) != 0.0)
+                entries.emplace_back(body[static_cast<std::size_t>(i)]->coordinate + k,
+                                     body[static_cast<std::size_t>(j)]->coordinate + l, S(i, j) * R(k, l));
+          }
+        }
+      }
+      Generator x{{n, n}, VectorXd::Zero(n), false, true};
+      x.A.setFromTriplets(entries.begin(), entries.end());
+      generators_.push_back(std::move(x));
+    };
+    if (d == 2) {
+      add(MatrixXd::Identity(count, count) - VectorXd::Ones(count) * share.transpose(),
+          cross_matrix(Vector3d::UnitZ()));
+    } else if (count == 3) {
+      add(spin_weights(
+              arms,
+              Vector3d(arms.col(1) - arms.col(0)).cross(Vector3d(arms.col(2) - arms.col(0))).normalized()),
+          Eigen::Matrix3d::Identity());
+    } else if (count == 4) {
+      for (const Vector3d& axis : axes_of_rotation(d))
+        add(spin_weights(arms, axis), Eigen::Matrix3d::Identity());
+    }
+  }
+}
+
+/// (2) of the header at a state near the start. Each row is divided by the sum of its terms' sizes.
+MatrixXd Symmetries::conditions(const Problem& problem, const Start& start, double time, int sample) const {
+  const System& system = problem.system();
+  const auto n = static_cast<Index>(system.coordinates()), count = static_cast<Index>(generators_.size());
+  const double L = start.scales.length, T = start.scales.time;
+  const auto noise = [&](std::size_t i, int which) {
+    return std::sin(static_cast<double>(i + 1) * (1.0 + 0.37 * which) + 2.0 * sample);
+  };
+  std::vector<double> q, v, a(start.q.size()), lambda;
+  // Far enough for what is not symmetric to show, near enough to be brought onto the constraints.
+  for (double way = 0.05;; way *= 0.25) {
+    if (way < 1e-4)
+      throw NoEquilibrium(
+          "Scene \"" + system.layout()->scene +
+          "\": its symmetries were not found, since no states near the start satisfy its constraints");
+    q = start.q;
+    v.assign(q.size(), 0.0);
+    lambda.assign(system.rows(), 0.0);
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      q[i] += way * start.scales.unit(i) * noise(i, 0);
+      if (sample > 0) v[i] = start.v[i] + way * start.scales.unit(i) / T * noise(i, 1);
+    }
+    try {
+      Manifold manifold(problem, start.rows, start.scales.lengths());
+      const double close = 1e-13 * L + start.scales.rounding(q);
+      if (manifold.project_positions(time, q, v, close).size > 1e-10 * L) continue;
+      if (manifold.solve_motion(time, q, v, a, lambda)) break;
+    } catch (const EquationFault&) {
+      continue;
+    }
+  }
+  const UniformMotion rest{{n, n}, VectorXd::Zero(n)};
+  const LinearTerms terms = linear_terms(system, RotatingFrame(rest), {time, q, v}, lambda);
+  std::vector<std::size_t> all(system.coordinates()), rows(system.rows());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  const MassMetric metric(system, terms, all, rows);
+  const MatrixXd N = orthogonal_complement(metric.W.transpose());
+  const VectorXd at = Eigen::Map<const VectorXd>(q.data(), n),
+                 speed = Eigen::Map<const VectorXd>(v.data(), n),
+                 acceleration = Eigen::Map<const VectorXd>(a.data(), n), to = metric.root.cwiseInverse();
+  const Index m = metric.W.rows(), h = metric.holonomic;
+  MatrixXd value(m + N.cols(), count), size = value;
+  for (Index k = 0; k < count; ++k) {
+    const Generator& g = generators_[static_cast<std::size_t>(k)];
+    const VectorXd X = to.cwiseProduct(g.A * at + g.b), u = to.cwiseProduct(g.A * speed),
+                   w = to.cwiseProduct(g.A * acceleration);
+    value.col(k) << metric.W.topRows(h) * X, metric.E.bottomRows(m - h) * X + metric.W.bottomRows(m - h) * u,
+        -N.transpose() * (metric.K * X + metric.C * u + w);
+    const VectorXd X1 = X.cwiseAbs(), u1 = u.cwiseAbs(), w1 = w.cwiseAbs();
+    size.col(k) << metric.W.topRows(h).cwiseAbs() * X1,
+        metric.E.bottomRows(m - h).cwiseAbs() * X1 + metric.W.bottomRows(m - h).cwiseAbs() * u1,
+        N.transpose().cwiseAbs() * (metric.K.cwiseAbs() * X1 + metric.C.cwiseAbs() * u1 + w1);
+  }
+  for (Index r = 0; r < value.rows(); ++r) {
+    const double most = size.row(r).maxCoeff();
+    if (most > 0.0) value.row(r) /= most;
+  }
+  return value;
+}
+
+UniformMotion Symmetries::motion(const VectorXd& y) const {
+  const VectorXd c = basis_ * y;
+  const Index n = generators_.empty() ? 0 : generators_.front().b.size();
+  UniformMotion sum{{n, n}, VectorXd::Zero(n)};
+  for (Index k = 0; k < c.size(); ++k) {
+    const Generator& g = generators_[static_cast<std::size_t>(k)];
+    if (c[k] == 0.0) continue;
+    sum.A += c[k] * g.A;
+    sum.b += c[k] * g.b;
+    if (g.rotates) sum.rate = std::max(sum.rate, std::abs(c[k]));
+  }
+  return sum;
+}
+
+MatrixXd Symmetries::commuting(const VectorXd& q, const VectorXd& y) const {
+  const UniformMotion all = motion(y);
+  const VectorXd v = all.A * q + all.b, a = all.A * v;
+  const MatrixXd X = fields(q), Av = images(v), AX = all.A * X, AAv = all.A * Av, Aa = images(a);
+  MatrixXd value(2 * q.size(), size());
+  value << Av - AX, Aa - AAv;
+  MatrixXd terms(value.rows(), value.cols());
+  const RotatingFrame::Sparse size_of_A = all.A.cwiseAbs();
+  terms << Av.cwiseAbs() + size_of_A * X.cwiseAbs(), Aa.cwiseAbs() + size_of_A * Av.cwiseAbs();
+  // Rows of one kind have one unit: a row of round-off is measured by the largest.
+  for (const Index first : {Index{0}, q.size()}) {
+    const double most = q.size() > 0 && size() > 0 ? terms.middleRows(first, q.size()).maxCoeff() : 0.0;
+    if (most > 0.0) value.middleRows(first, q.size()) /= most;
+  }
+  return dense::kernel_within(value, rank_threshold);
+}
+
+MatrixXd Symmetries::displacements(const VectorXd& q, const MatrixXd& some) const {
+  const MatrixXd X = fields(q) * some, coefficients = basis_ * some;
+  VectorXd sizes = VectorXd::Zero(q.size());
+  for (const Generator& g : generators_)
+    sizes += RotatingFrame::Sparse(g.A.cwiseAbs()) * q.cwiseAbs() + g.b.cwiseAbs();
+  MatrixXd least = MatrixXd::Zero(X.rows(), X.cols());
+  for (Index k = 0; k < X.cols(); ++k)
+    least.col(k) = rank_threshold * coefficients.col(k).cwiseAbs().maxCoeff() * sizes;
+  return (X.array().abs() > least.array()).select(X, 0.0);
+}
+
+MatrixXd Symmetries::fields(const VectorXd& q) const {
+  MatrixXd all(q.size(), static_cast<Index>(generators_.size()));
+  for (Index k = 0; k < all.cols(); ++k) {
+    const Generator& g = generators_[static_cast<std::size_t>(k)];
+    all.col(k) = g.A * q + g.b;
+  }
+  return all * basis_;
+}
+
+MatrixXd Symmetries::images(const VectorXd& x) const {
+  MatrixXd all(x.size(), static_cast<Index>(generators_.size()));
+  for (Index k = 0; k < all.cols(); ++k) all.col(k) = generators_[static_cast<std::size_t>(k)].A * x;
+  return all * basis_;
+}
+
+MatrixXd Symmetries::turning() const {
+  MatrixXd all = MatrixXd::Zero(static_cast<Index>(generators_.size()), basis_.cols());
+  for (Index k = 0; k < all.rows(); ++k)
+    if (generators_[static_cast<std::size_t>(k)].turns) all.row(k) = basis_.row(k);
+  return all;
+}
+
+}  // namespace dalembert
