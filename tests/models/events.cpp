@@ -44,8 +44,8 @@ std::size_t struck(const Trajectory<D>& run, Constraint<1> contact, int k = 0) {
 TEST_P(ModelsWithEvents, HaveThemAtTheTimesOfTheClosedForms) {
   for (const EventModel& model : models_with_events()) {
     for (const double each : {1e-6, 1e-8, 1e-10}) {
-      for (const Timed& row : model.events(GetParam(), each))
-        EXPECT_NEAR(row.time, row.reference, row.limit * row.reference)
+      for (const Timed& row : model.events({GetParam(), each}))
+        EXPECT_NEAR(row.time.time, row.reference, row.limit * row.reference)
             << model.name << ", " << row.event << " at " << each;
     }
   }
