@@ -210,7 +210,7 @@ void add_impulses_by(Stepper stepper, double tolerance, Certified& all) {
     const double difference =
         std::abs(impulse - certificate.reference().impulse(built.floor, its.counterpart));
     const Estimate one{std::abs(impulse - due), certificate.impulse_error(built.floor, k),
-                       certificate.runs().round_off(difference, due, its)};
+                       certificate.runs().round_off(difference, std::abs(impulse), its)};
     all.add_event(how, "impulse " + std::to_string(k + 1), one);
     most.take(one);
     u *= ball.restitution;

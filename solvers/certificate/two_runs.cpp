@@ -47,7 +47,9 @@ TwoRuns::TwoRuns(std::shared_ptr<const Record> run, std::shared_ptr<const Record
                "the more accurate run stopped: " + stopped);
   }
   find_horizon();
-  if (better.accuracy > most_of_better * run_->statistics.accuracy) {
+  const double q = better.accuracy / run_->statistics.accuracy;
+  if (q > most_of_better && q <= 1.0 - most_of_better) bound_ = 1.0 / (1.0 - q);
+  if (q > 1.0 - most_of_better) {
     std::ostringstream why;
     why << "there is no more accurate run: it claims an accuracy of " << better.accuracy << ", this one of "
         << run_->statistics.accuracy << "; double precision, or the least tolerance, gives no more";
@@ -190,7 +192,7 @@ double TwoRuns::round_off(double difference, double magnitude, const Certainty& 
 
 double TwoRuns::error(double difference, double magnitude, const Certainty& its) const {
   if (its.doubt != Doubt::none || std::isnan(difference)) return unknown;
-  return std::max(difference, round_off(difference, magnitude, its));
+  return std::max(bound_ * difference, round_off(difference, magnitude, its));
 }
 
 double TwoRuns::round_off_of_time(std::size_t k) const {
@@ -204,7 +206,7 @@ double TwoRuns::error_of_time(std::size_t k) const {
   const Certainty& its = events_[k];
   if (its.doubt != Doubt::none) return unknown;
   const double apart = std::abs(run_->events[k].time - reference_->events[its.counterpart].time);
-  return std::max(apart, round_off_of_time(k));
+  return std::max(bound_ * apart, round_off_of_time(k));
 }
 
 }  // namespace dalembert

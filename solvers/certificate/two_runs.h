@@ -39,7 +39,8 @@ struct Certainty {
 /// estimate of e is e'/e at most. What is known of that, before the motion makes errors grow or decay, is the
 /// ratio of what the two runs claim (Statistics::accuracy): the motion does the same to both. So
 ///
-///   claims in a ratio below `most_of_better` = 1/5 make an estimate right to that part,
+///   claims in a ratio q below `most_of_better` = 1/5 make an estimate right to that part; up to 4/5, where
+///   double precision allows no better run, e <= |difference| + q e is a bound, |difference|/(1 - q),
 ///   round-off (Statistics::round_off) is told from it by the same part, and
 ///   the growth is measured by the difference itself until that is of the size of the motion.
 ///
@@ -105,6 +106,7 @@ class TwoRuns {
   std::vector<double> unit_;          ///< of each coordinate: the scene's length, 1 of an angle
   double length_ = 1.0, time_ = 1.0;  ///< the scene's
   double largest_force_ = 0.0;
+  double bound_ = 1.0;  ///< 1/(1 - q) where that is due
   bool complete_ = true;
 };
 
