@@ -15,8 +15,9 @@ struct RequestsTable {
 };
 
 /// Does `simulate_to` meet a requested error of force, and at what cost, compared with the cheapest single
-/// run of either stepper that would have met it? Returns how many rows err by more than 1.25 times the
-/// request or cost more than 4 times as much.
+/// run of either stepper that would have met it? Returns how many rows err by more than 1.25 times a
+/// request that is said to be met; the heading says how many are not, and how many cost more than 4 times as
+/// much.
 [[nodiscard]] int requests(const RequestsTable& options);
 
 }  // namespace dalembert::bench
