@@ -37,7 +37,12 @@ std::string statement(const TwoRuns& runs, const LargestErrors& errors) {
               error_in("force of constraint", errors.force), error_in("impulse", errors.impulse),
               error_in("the time of an event", errors.event_time)});
   out << (known.empty() ? "no error is known" : "errors of at most " + known);
-  if (!runs.reservation().empty()) out << "; " << runs.reservation();
+  if (!runs.reservation().empty()) {
+    out << "; " << runs.reservation();
+  } else if (errors.beyond > 0) {
+    out << "; nothing is known at " << errors.beyond
+        << " samples and events that the more accurate run does not have";
+  }
   if (errors.beside_jumps > 0)
     out << "; velocities and forces are not known at " << errors.beside_jumps
         << " samples, as near to an impact or change as the time of that is known";
