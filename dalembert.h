@@ -52,6 +52,10 @@
 #include <dalembert/constraints/upright_rolling.h>
 /// running it;
 #include <dalembert/solvers/simulation.h>
+/// with the errors of all that it gives;
+#include <dalembert/solvers/certificate/report.h>
+#include <dalembert/solvers/certificate/simulate_to.h>
+#include <dalembert/solvers/certificate/work_precision.h>
 /// the same from a Lagrangian, and each checked by the other;
 #include <dalembert/solvers/lagrange/cross_check.h>
 /// and where it stays, and how it moves about there.

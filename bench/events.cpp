@@ -19,16 +19,16 @@ int events(const EventsTable& options) {
   for (const auto& model : all) {
     for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
       for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
-        for (const models::Timed& row : model.events(stepper, tolerance)) {
-          const double error = std::abs(row.time - row.reference) / row.reference;
+        for (const models::Timed& row : model.events({stepper, tolerance})) {
+          const double error = std::abs(row.time.time - row.reference) / row.reference;
           if (!(error <= row.limit)) {  // nor is what did not happen
             ++wrong;
             std::cerr << "events: " << model.name << ", " << row.event << " by " << name(stepper) << " at "
                       << tolerance << " is not within its limit\n";
           }
           table.rows.push_back({model.name, row.event, name(stepper), shortest_power(tolerance),
-                                scientific(row.time, 15), scientific(row.reference, 15), scientific(error),
-                                scientific(row.limit)});
+                                scientific(row.time.time, 15), scientific(row.reference, 15),
+                                scientific(error), scientific(row.limit)});
         }
       }
     }

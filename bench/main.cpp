@@ -1,4 +1,5 @@
 #include <dalembert/bench/audit.h>
+#include <dalembert/bench/certificates.h>
 #include <dalembert/bench/diagrams.h>
 #include <dalembert/bench/events.h>
 #include <dalembert/bench/extremes.h>
@@ -6,6 +7,7 @@
 #include <dalembert/bench/modes.h>
 #include <dalembert/bench/own_constraint.h>
 #include <dalembert/bench/ratios.h>
+#include <dalembert/bench/requests.h>
 #include <dalembert/bench/scaling.h>
 #include <dalembert/bench/table.h>
 #include <dalembert/bench/work_precision.h>
@@ -204,6 +206,36 @@ void add_events(CLI::App& app, int& failures) {
   command->callback([options, &failures] { failures = bench::events(*options); });
 }
 
+void add_certificates(CLI::App& app, int& failures) {
+  const auto options = std::make_shared<bench::CertificatesTable>();
+  CLI::App* command = app.add_subcommand(
+      "certificates", "Errors that certify estimates against the true ones, in all models and events");
+  command->add_option("--tolerance", options->tolerances, "Between 1e-13 and 0.1")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_flag("--quick", options->quick, "Two tolerances only");
+  add_report_options(*command, options->report);
+  command->callback([options, &failures] { failures = bench::certificates(*options); });
+}
+
+void add_requests(CLI::App& app, int& failures) {
+  const auto options = std::make_shared<bench::RequestsTable>();
+  CLI::App* command = app.add_subcommand(
+      "requests", "Errors of force that simulate_to is asked for, what it gives, and at what cost");
+  command->add_option("--model", options->models, "all, or names as in `list`")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--error", options->errors, "Of force, relative to the model's")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--repeat", options->repeats, "Runs of which the median time counts")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  add_report_options(*command, options->report);
+  command->callback([options, &failures] { failures = bench::requests(*options); });
+}
+
 void add_diagrams(CLI::App& app) {
   const auto options = std::make_shared<bench::Diagrams>();
   CLI::App* command = app.add_subcommand(
@@ -252,6 +284,8 @@ int main(int argc, char** argv) try {
   add_audit(app, failures);
   add_modes(app, failures);
   add_events(app, failures);
+  add_certificates(app, failures);
+  add_requests(app, failures);
   add_diagrams(app);
   add_sensitivity(app);
   CLI11_PARSE(app, argc, argv);

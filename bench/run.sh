@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 case ${1:-} in
   '')
     work_precision=(--repeat 5) scaling=(--size 10,100,1000,10000) ratios=() leave_out=() extremes=() audit=()
-    sensitivity=() chart=()
+    sensitivity=() chart=() certificates=() requests=(--repeat 5)
     kernels=(--benchmark_min_time=0.2) products=20000
     ;;
   --quick)
@@ -14,6 +14,7 @@ case ${1:-} in
     ratios=(--scene plane-pendulum,cone,double-pendulum --repeat 1) leave_out=(--size 10 --repeat 1)
     extremes=(--quick) audit=(--quick --repeat 1 --tolerance 1e-6)
     sensitivity=(--constant safety,share_of_a_step) chart=(--points 20)
+    certificates=(--quick) requests=(--model plane-pendulum,cone,andrews --repeat 1)
     kernels=(--benchmark_min_time=0.001) products=20
     ;;
   *) echo "usage: bench/run.sh [--quick]" >&2 && exit 2 ;;
@@ -45,6 +46,8 @@ gnuplot -e "csv='$report/extremes.csv'; report='$report'" bench/extremes.gp
 $bench audit --csv $report/audit.csv "${audit[@]}" || status=$?
 $bench modes --csv $report/modes.csv || status=$?
 $bench events --csv $report/events.csv || status=$?
+$bench certificates --csv $report/certificates.csv "${certificates[@]}" || status=$?
+$bench requests --csv $report/requests.csv "${requests[@]}" || status=$?
 $bench diagrams --directory $report "${chart[@]}"
 gnuplot -e "report='$report'" bench/diagrams.gp
 

@@ -1,7 +1,6 @@
 #include "dalembert/bench/work_precision.h"
 
 #include <dalembert/bench/contest.h>
-#include <dalembert/bench/median.h>
 #include <dalembert/bench/methods.h>
 #include <dalembert/bench/progress.h>
 #include <dalembert/models/catalogue.h>
@@ -39,12 +38,6 @@ std::vector<std::string> row(const std::string& model, Contender stepper, double
           entry.outcome.name};
 }
 
-/// One tolerance of a curve.
-struct Tried {
-  Entry entry;
-  std::vector<double> run_times = {};
-};
-
 /// The curves of one model, added to the table; the reference is computed once.
 class Curves {
  public:
@@ -66,27 +59,32 @@ class Curves {
   void add(const Contest<D>& contest, Contender stepper, Options run,
            std::span<const models::Observation<D>> reference) {
     const std::string& model = contest.model.name;
-    std::vector<Tried> runs(options_.tolerances.size());
-    // The whole curve again and again, so that what disturbs the machine for a while hits each
-    // tolerance once and not one always.
-    for (int i = 1; i <= options_.repeats; ++i) {
-      progress_.next(model + ", " + name(stepper) + ", run " + std::to_string(i));
-      for (std::size_t k = 0; k < runs.size(); ++k) {
-        if (!runs[k].entry.outcome.ok()) continue;
-        run.tolerance = options_.tolerances[k];
-        runs[k].entry = contest.measure(stepper, run, reference);
-        runs[k].run_times.push_back(runs[k].entry.measured.statistics.run_time);
-      }
-    }
-    for (std::size_t k = 0; k < runs.size(); ++k) add_row(model, stepper, options_.tolerances[k], runs[k]);
+    std::vector<Entry> entries;
+    int round = 0;
+    const auto points =
+        detail::work_precision_curve(options_.tolerances, options_.repeats, [&](double tolerance) {
+          if (tolerance == options_.tolerances.front())
+            progress_.next(model + ", " + name(stepper) + ", run " + std::to_string(++round));
+          run.tolerance = tolerance;
+          entries.push_back(contest.measure(stepper, run, reference));
+          const models::Measurement& m = entries.back().measured;
+          return WorkPrecisionPoint{name(stepper),
+                                    tolerance,
+                                    m.error_position,
+                                    m.error_force,
+                                    {},
+                                    m.statistics,
+                                    entries.back().outcome.said};
+        });
+    for (std::size_t k = 0; k < points.size(); ++k) add_row(model, stepper, points[k], entries[k]);
   }
-  void add_row(const std::string& model, Contender stepper, double tolerance, Tried& run) {
-    if (run.entry.outcome.ok()) {
-      run.entry.measured.statistics.run_time = median(run.run_times);
+  void add_row(const std::string& model, Contender stepper, const WorkPrecisionPoint& point, Entry entry) {
+    if (entry.outcome.ok()) {
+      entry.measured.statistics.run_time = point.statistics.run_time;
     } else {
-      tell(model + ", " + name(stepper) + " at tolerance " + shortest_power(tolerance), run.entry.outcome);
+      tell(model + ", " + name(stepper) + " at tolerance " + shortest_power(point.tolerance), entry.outcome);
     }
-    table_.rows.push_back(row(model, stepper, tolerance, run.entry));
+    table_.rows.push_back(row(model, stepper, point.tolerance, entry));
   }
 
   const WorkPrecision& options_;

@@ -12,6 +12,8 @@ namespace dalembert {
 template <Point A, Point B>
 struct Coincident {
   static constexpr std::string_view kind = "Coincident";
+  static constexpr std::string_view meaning =
+      "force on the second point, by components; the first feels the opposite";
   A a;
   B b;
 

@@ -23,6 +23,7 @@ template <class Rigid>
 struct Compliant {
   static constexpr std::string_view kind = detail::kind_of<Rigid>("Holonomic");
   static constexpr std::string_view singular = detail::singular_hint_of<Rigid>();
+  static constexpr std::string_view meaning = detail::meaning_of<Rigid>();
   Rigid rigid;
   double compliance;  ///< C, finite and >= 0
 

@@ -28,6 +28,8 @@ template <class Slip>
 struct Coulomb {
   static constexpr std::string_view kind = "Coulomb";
   static constexpr std::string_view singular = detail::singular_hint_of<Slip>();
+  static constexpr std::string_view meaning =
+      "friction, > 0 as the slip velocity is measured; sticking and sliding alike";
   static constexpr bool velocity_level = true;
   Slip slip;
   Constraint<1> pressing;

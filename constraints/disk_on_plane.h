@@ -54,6 +54,7 @@ template <Point C, Point A, Point B>
 struct DiskContact {
   static_assert(C::dimension == 3, "DiskContact is spatial; in the plane use LineOffset");
   static constexpr std::string_view kind = "DiskContact";
+  static constexpr std::string_view meaning = "normal force on the disk; > 0 away from the plane";
   static constexpr std::string_view singular = "the disk lies flat";
   C centre;
   A a;
@@ -85,6 +86,8 @@ template <Point C, Point A, Point B>
 struct DiskRolling {
   static_assert(C::dimension == 3, "DiskRolling is spatial; in the plane use Rolling");
   static constexpr std::string_view kind = "DiskRolling";
+  static constexpr std::string_view meaning =
+      "friction on the disk along its heading, and across it to the side its axis leans to";
   static constexpr std::string_view singular = "the disk lies flat";
   static constexpr bool velocity_level = true;
   C centre;

@@ -19,6 +19,8 @@ namespace dalembert {
 template <Point A, Point B>
 struct Distance {
   static constexpr std::string_view kind = "Distance";
+  static constexpr std::string_view meaning =
+      "force in the rod: < 0 pulls its ends together, tension is -lambda";
   static constexpr std::string_view singular =
       "its two points coincide; to hold two points together use Coincident";
   A a;

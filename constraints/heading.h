@@ -16,6 +16,7 @@ template <Point P, Point From, Point To>
 struct Heading {
   static_assert(P::dimension == 2, "Heading is planar");
   static constexpr std::string_view kind = "Heading";
+  static constexpr std::string_view meaning = "sideways force on the point; > 0 to the left";
   static constexpr std::string_view singular = "the two points of its direction coincide";
   static constexpr bool velocity_level = true;
   P point;

@@ -18,6 +18,7 @@ template <Point P, class Angle>
 struct InPlane {
   static_assert(P::dimension == 3, "InPlane is spatial; in the plane a turning line is a LineOffset");
   static constexpr std::string_view kind = "InPlane";
+  static constexpr std::string_view meaning = "force that carries the point round; > 0 ahead";
   P point;
   Axis axis;
   Angle angle;  ///< of time [rad]: `[](auto t) { return 2.0 * t; }`

@@ -17,6 +17,7 @@ template <Point P, Point A, Point B>
 struct LineOffset {
   static_assert(P::dimension == 2, "LineOffset is planar; in space use OnSurface with a Plane");
   static constexpr std::string_view kind = "LineOffset";
+  static constexpr std::string_view meaning = "force on the point across the line; > 0 pushes to its left";
   static constexpr std::string_view singular = "the two points of its line coincide";
   P point;
   A a;

@@ -17,6 +17,8 @@ struct OnCurve {
                 "OnCurve is planar; in space a curve is the intersection of two OnSurface");
   static_assert(detail::written_for_any_scalar<std::tuple<P>, Curve>());
   static constexpr std::string_view kind = "OnCurve";
+  static constexpr std::string_view meaning =
+      "normal force on the point, over |grad g|; > 0 pushes towards g > 0";
   static constexpr std::string_view singular = "the curve has no normal there";
   P point;
   Curve curve;

@@ -28,6 +28,7 @@ template <Point P, class Surface>
 struct OnSurface {
   static_assert(detail::written_for_any_scalar<std::tuple<P>, Surface>());
   static constexpr std::string_view kind = "OnSurface";
+  static constexpr std::string_view meaning = "normal force on the point; > 0 pushes towards g > 0";
   static constexpr std::string_view singular =
       "the surface has no normal there (an apex, a centre or an axis)";
   P point;

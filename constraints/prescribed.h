@@ -15,6 +15,7 @@ namespace dalembert {
 template <Point P, class Motion>
 struct Prescribed {
   static constexpr std::string_view kind = "Prescribed";
+  static constexpr std::string_view meaning = "force, of a rotor torque, that drives it, by components";
   P point;
   Motion motion;
 

@@ -19,6 +19,7 @@ template <Point P, Point Prey>
 struct Pursuit {
   static_assert(P::dimension == 2, "Pursuit is planar");
   static constexpr std::string_view kind = "Pursuit";
+  static constexpr std::string_view meaning = "sideways force on the pursuer; > 0 to the left";
   static constexpr std::string_view singular = "the pursuer has caught its prey";
   static constexpr bool velocity_level = true;
   P pursuer;

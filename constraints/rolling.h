@@ -18,6 +18,8 @@ template <Point P, Point A, Point B>
 struct Rolling {
   static_assert(P::dimension == 2, "Rolling is planar; for a disk upright on a plane use UprightRolling");
   static constexpr std::string_view kind = "Rolling";
+  static constexpr std::string_view meaning =
+      "friction on the disk along the track; the disk feels the torque radius lambda";
   static constexpr std::string_view singular = "the two points of its track coincide";
   static constexpr bool velocity_level = true;
   P centre;

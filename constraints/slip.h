@@ -41,6 +41,7 @@ template <class T>
 template <Point P, class Surface>
 struct Slip {
   static constexpr std::string_view kind = "Slip";
+  static constexpr std::string_view meaning = "force on the particle along the surface";
   static constexpr std::string_view singular = "the surface has no normal there";
   static constexpr bool velocity_level = true;
   P point;

@@ -26,6 +26,7 @@ template <class Bilateral>
 struct Unilateral {
   static constexpr std::string_view kind = detail::kind_of<Bilateral>("Unilateral");
   static constexpr std::string_view singular = detail::singular_hint_of<Bilateral>();
+  static constexpr std::string_view meaning = detail::meaning_of<Bilateral>();
   Bilateral bilateral;
   Contact contact;
 

@@ -16,6 +16,7 @@ template <Point P>
 struct UprightRolling {
   static_assert(P::dimension == 2, "UprightRolling is seen from above: use it in a planar scene");
   static constexpr std::string_view kind = "UprightRolling";
+  static constexpr std::string_view meaning = "friction along the heading, and across it to the left";
   static constexpr bool velocity_level = true;
   P centre;
   Rotor heading;

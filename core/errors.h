@@ -60,6 +60,8 @@ class IntegrationFailure : public Error {
   /// The samples before the failure. D is the dimension of the scene; throws InvalidArgument if not.
   template <int D>
   [[nodiscard]] Trajectory<D> trajectory() const;
+  /// The same as flat arrays.
+  [[nodiscard]] const std::shared_ptr<const Record>& record() const { return record_; }
 
  private:
   double time_;

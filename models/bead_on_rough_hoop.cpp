@@ -83,22 +83,19 @@ std::vector<BeadOnRoughHoop::Turn> BeadOnRoughHoop::turns() const {
 }
 
 EventModel BeadOnRoughHoop::event_model() const {
-  return {
-      .name = "bead-on-rough-hoop", .notes = "", .events = [*this](Stepper stepper, double tolerance) {
-        const Built built = scene();
-        const auto theory = turns();
-        const auto run = simulate(
-            built.scene,
-            {.t_end = 1.1 * theory.back().time, .samples = 2, .tolerance = tolerance, .stepper = stepper});
-        std::vector<Timed> all;
-        for (std::size_t k = 0; k < theory.size(); ++k) {
-          const auto what = theory[k].sticks ? Happened::sticks : Happened::slides;
-          all.push_back({theory[k].sticks ? "sticks" : numbered("turns ", k + 1),
-                         time_of(run, built.rough, what, theory[k].sticks ? 0 : static_cast<int>(k)),
-                         theory[k].time, time_limit(tolerance)});
-        }
-        return all;
-      }};
+  return {.name = "bead-on-rough-hoop", .notes = "", .events = [*this](const EventRun& how) {
+            const Built built = scene();
+            const auto theory = turns();
+            const auto run = how.run(built.scene, {.t_end = 1.1 * theory.back().time, .samples = 2});
+            std::vector<Timed> all;
+            for (std::size_t k = 0; k < theory.size(); ++k) {
+              const auto what = theory[k].sticks ? Happened::sticks : Happened::slides;
+              all.push_back({theory[k].sticks ? "sticks" : numbered("turns ", k + 1),
+                             time_of(run, built.rough, what, theory[k].sticks ? 0 : static_cast<int>(k)),
+                             theory[k].time, time_limit(how.tolerance)});
+            }
+            return all;
+          }};
 }
 
 }  // namespace dalembert::models

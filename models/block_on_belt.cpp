@@ -43,14 +43,12 @@ double BlockOnBelt::heat_of_period() const {
 }
 
 EventModel BlockOnBelt::event_model() const {
-  return {.name = "block-on-belt", .notes = "", .events = [*this](Stepper stepper, double tolerance) {
+  return {.name = "block-on-belt", .notes = "", .events = [*this](const EventRun& how) {
             constexpr int periods = 5;
             const Built built = scene();
-            const double limit = time_limit(tolerance);
-            const auto run = simulate(built.scene, {.t_end = slipping_time(periods) + 0.1 * slip_time(),
-                                                    .samples = 2,
-                                                    .tolerance = tolerance,
-                                                    .stepper = stepper});
+            const double limit = time_limit(how.tolerance);
+            const auto run =
+                how.run(built.scene, {.t_end = slipping_time(periods) + 0.1 * slip_time(), .samples = 2});
             std::vector<Timed> all;
             for (int k = 0; k <= periods; ++k) {
               all.push_back({numbered("sticks ", k + 1), time_of(run, built.rough, Happened::sticks, k),

@@ -32,16 +32,13 @@ double BouncingBall::rest_time() const {
 EventModel BouncingBall::event_model() const {
   std::ostringstream name;
   name << "bouncing-ball-" << restitution;
-  return {.name = name.str(), .notes = "", .events = [*this](Stepper stepper, double tolerance) {
+  return {.name = name.str(), .notes = "", .events = [*this](const EventRun& how) {
             const bool rests = restitution < 1.0;
             const int impacts = rests ? 1 + static_cast<int>(std::log(0.01) / std::log(restitution)) : 10;
             const Built built = scene();
-            const auto run =
-                simulate(built.scene, {.t_end = 1.1 * (rests ? rest_time() : impact_time(impacts - 1)),
-                                       .samples = 2,
-                                       .tolerance = tolerance,
-                                       .stepper = stepper});
-            const double limit = time_limit(tolerance);
+            const auto run = how.run(
+                built.scene, {.t_end = 1.1 * (rests ? rest_time() : impact_time(impacts - 1)), .samples = 2});
+            const double limit = time_limit(how.tolerance);
             std::vector<Timed> all;
             for (int k = 0; k < impacts; ++k)
               all.push_back({numbered("impact ", k + 1), time_of(run, built.floor, Happened::struck, k),

@@ -94,25 +94,23 @@ double ChainOverEdge::energy_lost() const {
 
 namespace {
 
-Timed timed(const ChainOverEdge& system, Stepper stepper, double tolerance) {
+Timed timed(const ChainOverEdge& system, const EventRun& how) {
   const GuidedChain chain = system.scene();
   const double time = system.time();
-  const auto run =
-      simulate(chain.scene, {.t_end = 2.0 * time, .samples = 2, .tolerance = tolerance, .stepper = stepper},
-               {system.leaves(chain)});
+  const auto run = how.run(chain.scene, {.t_end = 2.0 * time, .samples = 2}, {system.leaves(chain)});
   const auto& events = run.events();
   return {.event = "leaves, N = " + std::to_string(system.links),
-          .time = events.empty() ? std::numeric_limits<double>::quiet_NaN() : events.front().time,
+          .time = events.empty() ? HappenedAt{} : HappenedAt{events.front().time, 0},
           .reference = time,
           .limit = 1.5 * (system.time_of_links() / time - 1.0)};
 }
 
 EventModel model(std::string name, std::string notes, double friction) {
-  const auto events = [friction](Stepper stepper, double tolerance) {
+  const auto events = [friction](const EventRun& how) {
     std::vector<Timed> all;
     // The implicit stepper takes ten times as many steps, in proportion to N.
-    for (int links = 50; links <= (stepper == Stepper::erk ? 400 : 200); links *= 2)
-      all.push_back(timed({.links = links, .friction = friction}, stepper, tolerance));
+    for (int links = 50; links <= (how.stepper == Stepper::erk ? 400 : 200); links *= 2)
+      all.push_back(timed({.links = links, .friction = friction}, how));
     return all;
   };
   return {.name = std::move(name), .notes = std::move(notes), .events = events};

@@ -2,7 +2,6 @@
 
 #include <dalembert/models/event_model.h>
 
-#include <limits>
 #include <string>
 
 namespace dalembert::models {
@@ -10,15 +9,16 @@ namespace dalembert::models {
 /// A run of a few seconds errs by some tens of its tolerance, and so do the times at which it gets anywhere.
 [[nodiscard]] constexpr double time_limit(double tolerance) { return 100.0 * tolerance; }
 
-/// When something happened to a constraint for the k-th time, k from 0; NaN if it did not.
+/// When something happened to a constraint for the k-th time, k from 0.
 template <int D, int Rows>
-[[nodiscard]] double time_of(const Trajectory<D>& run, Constraint<Rows> constraint, Happened what,
-                             int k = 0) {
-  for (const Occurrence& its : run.events()) {
+[[nodiscard]] HappenedAt time_of(const Trajectory<D>& run, Constraint<Rows> constraint, Happened what,
+                                 int k = 0) {
+  for (std::size_t number = 0; number < run.events().size(); ++number) {
+    const Occurrence& its = run.events()[number];
     if (its.event != static_cast<std::size_t>(constraint.index) || its.what != what) continue;
-    if (k-- == 0) return its.time;
+    if (k-- == 0) return {its.time, number};
   }
-  return std::numeric_limits<double>::quiet_NaN();
+  return {};
 }
 
 }  // namespace dalembert::models

@@ -52,14 +52,11 @@ double NewtonsCradle::impact_time(int k) const {
 
 EventModel NewtonsCradle::event_model() const {
   const std::string name = gap == 0.0 ? "newtons-cradle" : "newtons-cradle-with-gaps";
-  return {.name = name, .notes = "", .events = [*this](Stepper stepper, double tolerance) {
+  return {.name = name, .notes = "", .events = [*this](const EventRun& how) {
             const bool touch = gap == 0.0;
             const int impacts = touch ? 4 : balls;
             const Built built = scene();
-            const auto run = simulate(built.scene, {.t_end = impact_time(impacts - 1) + 0.1,
-                                                    .samples = 2,
-                                                    .tolerance = tolerance,
-                                                    .stepper = stepper});
+            const auto run = how.run(built.scene, {.t_end = impact_time(impacts - 1) + 0.1, .samples = 2});
             std::vector<Timed> all;
             for (int k = 0; k < impacts; ++k) {
               // With gaps the contacts are struck in their order, and the last one again.
@@ -68,7 +65,7 @@ EventModel NewtonsCradle::event_model() const {
               all.push_back(
                   {numbered("impact ", k + 1),
                    time_of(run, built.contacts[static_cast<std::size_t>(contact)], Happened::struck, which),
-                   impact_time(k), time_limit(tolerance)});
+                   impact_time(k), time_limit(how.tolerance)});
             }
             return all;
           }};

@@ -49,13 +49,11 @@ Vec<2> ParticleOffSphere::landing_velocity() const {
 }
 
 EventModel ParticleOffSphere::event_model() const {
-  return {.name = "particle-off-sphere", .notes = "", .events = [*this](Stepper stepper, double tolerance) {
+  return {.name = "particle-off-sphere", .notes = "", .events = [*this](const EventRun& how) {
             const double leaves = leaving_time(), lands = leaves + falling_time();
             const Built built = scene();
-            const auto run =
-                simulate(built.scene,
-                         {.t_end = 1.1 * lands, .samples = 2, .tolerance = tolerance, .stepper = stepper});
-            const double limit = time_limit(tolerance);
+            const auto run = how.run(built.scene, {.t_end = 1.1 * lands, .samples = 2});
+            const double limit = time_limit(how.tolerance);
             return std::vector<Timed>{
                 {"leaves the sphere", time_of(run, built.sphere, Happened::opened), leaves, limit},
                 {"lands", time_of(run, built.floor, Happened::struck), lands, limit}};

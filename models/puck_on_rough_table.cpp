@@ -28,13 +28,11 @@ double PuckOnRoughTable::speed_along(double psi) const {
 }
 
 EventModel PuckOnRoughTable::event_model() const {
-  return {.name = "puck-on-rough-table", .notes = "", .events = [*this](Stepper stepper, double tolerance) {
+  return {.name = "puck-on-rough-table", .notes = "", .events = [*this](const EventRun& how) {
             const Built built = scene();
-            const auto run = simulate(
-                built.scene,
-                {.t_end = 1.1 * rest_time(), .samples = 2, .tolerance = tolerance, .stepper = stepper});
-            return std::vector<Timed>{
-                {"sticks", time_of(run, built.rough, Happened::sticks), rest_time(), time_limit(tolerance)}};
+            const auto run = how.run(built.scene, {.t_end = 1.1 * rest_time(), .samples = 2});
+            return std::vector<Timed>{{"sticks", time_of(run, built.rough, Happened::sticks), rest_time(),
+                                       time_limit(how.tolerance)}};
           }};
 }
 

@@ -89,12 +89,10 @@ double RockingBlock::rest_time() const {
 
 EventModel RockingBlock::event_model() const {
   const std::string name = floor == Floor::rough ? "rocking-block" : "rocking-block-on-ice";
-  return {.name = name, .notes = "", .events = [*this](Stepper stepper, double tolerance) {
+  return {.name = name, .notes = "", .events = [*this](const EventRun& how) {
             const Built built = scene();
-            const double rests = rest_time(), limit = time_limit(tolerance);
-            const auto run =
-                simulate(built.scene,
-                         {.t_end = 1.1 * rests, .samples = 2, .tolerance = tolerance, .stepper = stepper});
+            const double rests = rest_time(), limit = time_limit(how.tolerance);
+            const auto run = how.run(built.scene, {.t_end = 1.1 * rests, .samples = 2});
             std::vector<Timed> all;
             for (int k = 0; impact_rate(k) > 0.01 * impact_rate(0); ++k)
               all.push_back({numbered("impact ", k + 1),
@@ -102,7 +100,7 @@ EventModel RockingBlock::event_model() const {
                              impact_time(k), limit});
             // By ida their limit, rest, is known to hundreds of tolerances only: the smaller impacts are, the
             // fewer digits of their speeds are above the tolerance of the run.
-            if (stepper == Stepper::erk)
+            if (how.stepper == Stepper::erk)
               all.push_back({"rests", time_of(run, built.left, Happened::rested), rests, limit});
             return all;
           }};

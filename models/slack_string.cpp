@@ -50,12 +50,10 @@ Vec<2> SlackString::catch_velocity() const {
 }
 
 EventModel SlackString::event_model() const {
-  return {.name = "slack-string", .notes = "", .events = [*this](Stepper stepper, double tolerance) {
+  return {.name = "slack-string", .notes = "", .events = [*this](const EventRun& how) {
             const Built built = scene();
-            const double caught = catch_time(), limit = time_limit(tolerance);
-            const auto run =
-                simulate(built.scene,
-                         {.t_end = 1.1 * caught, .samples = 2, .tolerance = tolerance, .stepper = stepper});
+            const double caught = catch_time(), limit = time_limit(how.tolerance);
+            const auto run = how.run(built.scene, {.t_end = 1.1 * caught, .samples = 2});
             return std::vector<Timed>{
                 {"goes slack", time_of(run, built.string, Happened::opened), slack_time(), limit},
                 {"is caught", time_of(run, built.string, Happened::struck), caught, limit}};

@@ -54,11 +54,10 @@ double SlidingLadder::lying_time() const {
 }
 
 EventModel SlidingLadder::event_model() const {
-  return {.name = "sliding-ladder", .notes = "", .events = [*this](Stepper stepper, double tolerance) {
+  return {.name = "sliding-ladder", .notes = "", .events = [*this](const EventRun& how) {
             const Built built = scene();
-            const double lies = lying_time(), limit = time_limit(tolerance);
-            const auto run = simulate(
-                built.scene, {.t_end = 1.1 * lies, .samples = 2, .tolerance = tolerance, .stepper = stepper});
+            const double lies = lying_time(), limit = time_limit(how.tolerance);
+            const auto run = how.run(built.scene, {.t_end = 1.1 * lies, .samples = 2});
             return std::vector<Timed>{
                 {"leaves the wall", time_of(run, built.wall, Happened::opened), leaving_time(), limit},
                 {"lies down", time_of(run, built.lies_down, Happened::struck), lies, limit}};

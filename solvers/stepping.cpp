@@ -306,9 +306,11 @@ Statistics Stepping::statistics() const {
   stretch_->stepper->count(s);
   stretch_->reader.count(s);
   if (stretch_->by != options_.stepper) s.advice.clear();
-  if (s.steps > 0)
+  if (s.steps > 0) {
     s.accuracy =
         std::max({options_.tolerance, error_.position() / s.length, error_.velocity() * s.time / s.length});
+    s.round_off = std::max(error_.position_noise() / s.length, error_.velocity_noise() * s.time / s.length);
+  }
   return s;
 }
 

@@ -15,6 +15,8 @@ template <class A, class B>
 struct Cylindrical {
   static_assert(A::dimension == 3, "Cylindrical is spatial; in the plane a slide is a Prismatic");
   static constexpr std::string_view kind = "Cylindrical";
+  static constexpr std::string_view meaning =
+      "forces on the second body across the shaft, then torques about these directions";
   static constexpr bool slides = true;
   static constexpr bool turns = true;
   JointFrames<A, B> frames;

@@ -21,6 +21,8 @@ namespace dalembert {
 template <class A, class B, class Angle>
 struct AngleDrive {
   static constexpr std::string_view kind = "AngleDrive";
+  static constexpr std::string_view meaning =
+      "torque of the shaft on the second body about the axis, and torque that drives the armature";
   JointFrames<A, B> frames;
   Rotor rotor;
   Angle angle;  ///< of time [rad]; bodies and rotor start where it does
@@ -47,6 +49,7 @@ AngleDrive(const J&, Rotor, Angle) -> AngleDrive<detail::BodyA<J>, detail::BodyB
 template <class A, class B, class Path>
 struct PathDrive {
   static constexpr std::string_view kind = "PathDrive";
+  static constexpr std::string_view meaning = "force of the drive on the second body along the axis";
   JointFrames<A, B> frames;
   Path path;  ///< of time [length]
 

@@ -22,6 +22,7 @@ namespace dalembert {
 template <class A, class B>
 struct Gear {
   static constexpr std::string_view kind = "Gear";
+  static constexpr std::string_view meaning = "force of the teeth at the pitch point, on the second gear";
   static constexpr std::string_view singular = "the centres of its gears coincide";
   JointFrames<A, B> frames;  ///< at the centres, x along the line of centres
   double distance;           ///< of the centres across the axis [length]

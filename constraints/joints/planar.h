@@ -15,6 +15,8 @@ template <class A, class B>
 struct Planar {
   static_assert(A::dimension == 3, "Planar is spatial");
   static constexpr std::string_view kind = "Planar";
+  static constexpr std::string_view meaning =
+      "force on the second body along the normal, then torques about the two axes across it";
   static constexpr bool turns = true;
   JointFrames<A, B> frames;
 

@@ -15,6 +15,8 @@ namespace dalembert {
 template <class A, class B>
 struct Prismatic {
   static constexpr std::string_view kind = "Prismatic";
+  static constexpr std::string_view meaning =
+      "forces on the second body across the slide, then torques on it";
   static constexpr bool slides = true;
   JointFrames<A, B> frames;
 

@@ -18,6 +18,8 @@ namespace dalembert {
 template <class A, class B>
 struct RackAndPinion {
   static constexpr std::string_view kind = "RackAndPinion";
+  static constexpr std::string_view meaning =
+      "force of the teeth at the pitch point, on the pinion along the rack";
   JointFrames<A, B> frames;  ///< at the pinion's centre, x along the rack
   double radius;             ///< [length]
 

@@ -17,6 +17,8 @@ namespace dalembert {
 template <class A, class B>
 struct Revolute {
   static constexpr std::string_view kind = "Revolute";
+  static constexpr std::string_view meaning =
+      "force on the second body along the axes of space, then torques across the hinge";
   static constexpr bool turns = true;
   JointFrames<A, B> frames;
 

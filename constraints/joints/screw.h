@@ -21,6 +21,8 @@ template <class A, class B>
 struct Screw {
   static_assert(A::dimension == 3, "Screw is spatial");
   static constexpr std::string_view kind = "Screw";
+  static constexpr std::string_view meaning =
+      "forces on the second body across the axis, torques about these, and force along the axis";
   static constexpr bool slides = true;
   static constexpr bool turns = true;
   JointFrames<A, B> frames;

@@ -16,6 +16,8 @@ template <class A, class B>
 struct Universal {
   static_assert(A::dimension == 3, "Universal is spatial; in the plane a hinge is a Revolute");
   static constexpr std::string_view kind = "Universal";
+  static constexpr std::string_view meaning =
+      "force on the second body along the axes of space, then torque across the cross";
   static constexpr std::string_view singular = "its two pins are parallel";
   JointFrames<A, B> frames;
 

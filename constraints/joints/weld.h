@@ -16,6 +16,8 @@ namespace dalembert {
 template <class A, class B>
 struct Weld {
   static constexpr std::string_view kind = "Weld";
+  static constexpr std::string_view meaning =
+      "force on the second body along the axes of space, then torques on it";
   JointFrames<A, B> frames;
 
   /// The point is where it is in space when the bodies are added.

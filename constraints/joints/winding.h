@@ -21,6 +21,8 @@ namespace dalembert {
 template <class A, class B>
 struct Winding {
   static constexpr std::string_view kind = "Winding";
+  static constexpr std::string_view meaning =
+      "torque on the second body about the axis; the opposite is on the rotor";
   JointFrames<A, B> frames;
   Rotor rotor;
 

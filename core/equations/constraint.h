@@ -110,6 +110,20 @@ template <class C>
   }
 }
 
+/// What the multiplier of a constraint is, in words: `static constexpr std::string_view meaning`.
+template <class C>
+[[nodiscard]] constexpr std::string_view meaning_of() {
+  if constexpr (requires { C::meaning; }) {
+    return C::meaning;
+  } else if constexpr (VelocityLevel<C>) {
+    return "force along the gradient of the equation by velocities, where that has unit length; > 0 pushes "
+           "towards larger values of the equation";
+  } else {
+    return "force along the gradient of the equation, where that has unit length; > 0 pushes towards larger "
+           "values of the equation";
+  }
+}
+
 /// A value for an error message, with its leading digits whatever its size.
 [[nodiscard]] inline std::string text(double value) {
   std::ostringstream out;

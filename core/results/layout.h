@@ -42,7 +42,8 @@ struct Layout {
     int first_row;   ///< in lambda
     int first_slot;  ///< in the slots of constraint forces, `width` of them
     std::uint64_t scene;
-    Condition holds{};  ///< when, if not always
+    Condition holds{};      ///< when, if not always
+    std::string meaning{};  ///< what its multiplier is, with its direction and sign, in words
 
     /// Those of its multipliers, in lambda.
     [[nodiscard]] Places own_rows() const {

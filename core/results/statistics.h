@@ -15,6 +15,8 @@ struct Statistics {
   /// in velocity. The growth that a motion itself gives to errors is not in it, see core/README.md, but where
   /// the balance of work shows a larger error (see Options::audit) it is that.
   double accuracy = 0.0;
+  /// The part of it that round-off gives, which no tolerance makes smaller.
+  double round_off = 0.0;
   long steps = 0;                 ///< accepted steps
   long evaluations = 0;           ///< of the equations of motion
   long factorisations = 0;        ///< of a KKT matrix

@@ -161,6 +161,8 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   [[nodiscard]] const Ledger& ledger() const&;
   [[nodiscard]] const Statistics& statistics() const& { return record_->statistics; }
   [[nodiscard]] Statistics statistics() const&& { return record_->statistics; }
+  /// Its flat numbers, for code that knows no dimension.
+  [[nodiscard]] std::shared_ptr<const Record> record() const { return record_; }
 
   /// Of a particle at all times: D rows and a column per sample. Views, valid as long as a copy of this run
   /// lives. NaN where a force of constraint, and so an acceleration, is not determined.

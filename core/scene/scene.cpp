@@ -233,11 +233,12 @@ void Scene<D>::require_compliance(double compliance, const Label& label) {
 }
 
 template <int D>
-int Scene<D>::enter(Place place, const std::string& name, Surroundings around, const Condition& holds) {
+int Scene<D>::enter(Place place, const std::string& name, Surroundings around, const Condition& holds,
+                    std::string_view meaning) {
   const int number = static_cast<int>(layout_.constraints.size());
   const ConstraintShape shape = constraints_[place.group].batch->shape();
   layout_.constraints.push_back({std::string(shape.kind), name, shape.rows, shape.width, shape.inputs,
-                                 shape.internal, 0, 0, identity_.number(), holds});
+                                 shape.internal, 0, 0, identity_.number(), holds, std::string(meaning)});
   place.around = std::move(around);
   constraint_places_.push_back(std::move(place));
   names_.insert({name, {Kind::constraint, number}});

@@ -70,7 +70,8 @@ class Scene {
     const std::string own = unique_name(kind, name, layout_.constraints.size());
     Surroundings around = admit(constraint, {kind, own});
     const Place place = put(constraints_, constraint, layout_.constraints.size());
-    return {enter(place, own, std::move(around), detail::condition_of(constraint)), identity_.number()};
+    return {enter(place, own, std::move(around), detail::condition_of(constraint), detail::meaning_of<C>()),
+            identity_.number()};
   }
 
   /// Adds a force; throws like a constraint. One that reads a multiplier throws InvalidArgument also if the
@@ -281,7 +282,8 @@ class Scene {
     place.around = std::move(around);
   }
   /// Takes the element last put into the layout.
-  int enter(Place place, const std::string& name, Surroundings around, const Condition& holds);
+  int enter(Place place, const std::string& name, Surroundings around, const Condition& holds,
+            std::string_view meaning);
   Force enter_force(Place place, std::string_view kind, const std::string& name, Surroundings around);
 
   detail::Identity identity_;

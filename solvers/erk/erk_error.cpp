@@ -117,17 +117,20 @@ double ErkStepper::State::error(double step, double doubt) {
   return e;
 }
 
-/// What `difference`, the error of order 7, says of a step's error, and round-off does to it. The step, of
-/// order 8, errs by less, by its eighth root if the error constants are 1 in the scene's units, but by no
-/// less than `of_order_8` times that.
+/// What `difference`, the error of order 7, says of a step's error, and round-off does to it: the stages' own
+/// velocities are rounded, their accelerations at least so. The step, of order 8, errs by less, by its eighth
+/// root if the error constants are 1 in the scene's units, but by no less than `of_order_8` times that.
 void ErkStepper::State::estimate(double step, double of_order_8) {
   estimated = {.position_noise = noise_of_positions, .velocity_noise = noise_of_velocities};
   for (std::size_t i = 0; i < n; ++i) {
     const double length = lengths[i];
     estimated.position = std::max(estimated.position, std::abs(difference[i]) * length);
     estimated.velocity = std::max(estimated.velocity, std::abs(difference[n + i]) * length);
-    estimated.position_noise = std::max(estimated.position_noise, epsilon * std::abs(next.q[i]) * length);
-    estimated.velocity_noise = std::max(estimated.velocity_noise, of_step * step * noise[i] * length);
+    const double of_stages = of_step * step * length, of_sum = epsilon * length;
+    estimated.position_noise = std::max(
+        {estimated.position_noise, of_sum * std::abs(next.q[i]), epsilon * of_stages * std::abs(next.va[i])});
+    estimated.velocity_noise = std::max(estimated.velocity_noise,
+                                        of_stages * std::max(noise[i], epsilon * std::abs(next.va[n + i])));
   }
   const double of_order_7 = std::max(estimated.position / scales.length, estimated.velocity / scales.speed());
   const double less = std::max(std::pow(std::min(of_order_7, 1.0), 1.0 / pair.order), of_order_8);

@@ -27,13 +27,17 @@ class AccumulatedError {
     square_of_velocity_ += step.velocity_noise * step.velocity_noise;
     position_ += step.position + velocity() * h;
     square_of_position_ += step.position_noise * step.position_noise;
+    drift_ += velocity_noise() * h;
   }
   [[nodiscard]] double position() const { return position_ + std::sqrt(square_of_position_); }
-  [[nodiscard]] double velocity() const { return velocity_ + std::sqrt(square_of_velocity_); }
+  [[nodiscard]] double velocity() const { return velocity_ + velocity_noise(); }
+  /// What round-off adds to either.
+  [[nodiscard]] double position_noise() const { return drift_ + std::sqrt(square_of_position_); }
+  [[nodiscard]] double velocity_noise() const { return std::sqrt(square_of_velocity_); }
 
  private:
   double position_ = 0.0, velocity_ = 0.0;
-  double square_of_position_ = 0.0, square_of_velocity_ = 0.0;  // of round-off
+  double square_of_position_ = 0.0, square_of_velocity_ = 0.0, drift_ = 0.0;  // of round-off
 };
 
 }  // namespace dalembert

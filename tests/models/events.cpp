@@ -1,3 +1,4 @@
+#include <dalembert/models/bouncing_ball.h>
 #include <dalembert/models/bouncing_pendulum.h>
 #include <dalembert/models/event_model.h>
 #include <dalembert/models/newtons_cradle.h>
@@ -44,9 +45,27 @@ std::size_t struck(const Trajectory<D>& run, Constraint<1> contact, int k = 0) {
 TEST_P(ModelsWithEvents, HaveThemAtTheTimesOfTheClosedForms) {
   for (const EventModel& model : models_with_events()) {
     for (const double each : {1e-6, 1e-8, 1e-10}) {
-      for (const Timed& row : model.events(GetParam(), each))
-        EXPECT_NEAR(row.time, row.reference, row.limit * row.reference)
+      for (const Timed& row : model.events({GetParam(), each}))
+        EXPECT_NEAR(row.time.time, row.reference, row.limit * row.reference)
             << model.name << ", " << row.event << " at " << each;
+    }
+  }
+}
+
+/// The last step ends in an impact, and several samples lie within it: y = u t - g t^2/2 of the last flight.
+TEST_P(ModelsWithEvents, FlyUntilAnImpactAtTheEnd) {
+  const BouncingBall model{.restitution = 0.8};
+  const auto built = model.scene();
+  for (const double tolerance : {1e-5, 1e-9}) {
+    for (int last = 5; last < 10; ++last) {
+      const auto run = simulate(
+          built.scene, {.t_end = model.impact_time(last), .tolerance = tolerance, .stepper = GetParam()});
+      const double u = std::pow(0.8, last) * std::sqrt(2.0 * model.gravity * model.height);
+      for (const Sample<2>& now : run) {
+        const double t = now.time() - model.impact_time(last - 1);
+        if (t <= 0.0) continue;
+        EXPECT_NEAR(now.position(built.ball).y(), u * t - 0.5 * model.gravity * t * t, 100.0 * tolerance);
+      }
     }
   }
 }

@@ -168,6 +168,21 @@ TEST(Threads, TwoMayReadOneRunBetweenItsSamples) {
   expect_independent(in_turn, in_turn);
 }
 
+/// The two runs of a certificate, on two threads each.
+TEST(Threads, TwoMayCertifyAtOnce) {
+  const auto certified = [] {
+    Pendulum pendulum;
+    const auto certificate =
+        certify(pendulum.scene, {.t_end = 1.0, .samples = 11, .tolerance = 1e-6, .stepper = Stepper::erk});
+    auto all = numbers(certificate.run());
+    const auto better = numbers(certificate.reference());
+    all.insert(all.end(), better.begin(), better.end());
+    for (std::size_t i = 0; i < 11; ++i) all.push_back(certificate.position_error(pendulum.bob, i));
+    return all;
+  };
+  expect_independent(certified, certified);
+}
+
 /// An error of one thread stays in it.
 TEST(Threads, AFailureInOneThreadDoesNotReachTheOther) {
   const auto fails = [] {

@@ -1,0 +1,81 @@
+#include "dalembert/solvers/certificate/better_run.h"
+
+#include <dalembert/core/errors.h>
+
+#include <algorithm>
+#include <future>
+#include <utility>
+
+namespace dalembert {
+
+namespace {
+
+/// With it estimates are within 5 % of the true errors at 1.3 to 1.8 times the cost of the run; at a tenth
+/// they were 0.2 to 1.1 of them.
+constexpr double of_the_tolerance = 0.01;
+constexpr long steps_for_nothing = 100;  // take no longer than the start of a run
+
+FinishedRun explicit_or_implicit(const Run& run, const Options& options, long most_steps) {
+  Options own = options;
+  own.stepper = Stepper::erk;
+  own.max_steps = std::min(options.max_steps, most_steps);
+  FinishedRun found = finish(run, own);
+  if (found.stopped.empty()) return found;
+  own.stepper = Stepper::ida;
+  own.max_steps = options.max_steps;
+  return finish(run, own);
+}
+
+bool claims_enough(const Record& better, const Record& run) {
+  return better.statistics.accuracy <= TwoRuns::most_of_better * run.statistics.accuracy;
+}
+
+}  // namespace
+
+FinishedRun finish(const Run& run, const Options& options) {
+  try {
+    return {run(options), {}, {}, options.t_end};
+  } catch (const IntegrationFailure& failure) {
+    return {failure.record(), failure.what(), std::current_exception(), failure.time()};
+  }
+}
+
+std::pair<FinishedRun, FinishedRun> finish_both(const Run& run, const Options& a, const Options& b) {
+  auto second = std::async(std::launch::async, [&] { return finish(run, b); });
+  FinishedRun first = finish(run, a);
+  return {std::move(first), second.get()};
+}
+
+Options tighter(Options options, Stepper by) {
+  options.tolerance = std::max(of_the_tolerance * options.tolerance, smallest_tolerance);
+  options.stepper = by;
+  options.dense = options.ledger = false;
+  return options;
+}
+
+TwoRuns run_twice(const Run& run, const Options& asked) {
+  Options options = asked;
+  if (options.audit == Audited::off) options.audit = Audited::error;
+  validate(options);
+  Options next = tighter(options, Stepper::erk);
+  std::shared_ptr<const Record> own;
+  FinishedRun second;
+  if (options.stepper == Stepper::erk) {
+    auto other = std::async(std::launch::async, [&] { return finish(run, next); });
+    own = run(options);
+    second = other.get();
+  } else {
+    own = run(options);
+    const bool stiff = !own->statistics.advice.empty();
+    second = stiff ? finish(run, tighter(options, Stepper::ida))
+                   : explicit_or_implicit(run, next, own->statistics.steps + steps_for_nothing);
+  }
+  while (second.stopped.empty() && !claims_enough(*second.record, *own) &&
+         next.tolerance > smallest_tolerance) {
+    next = tighter(next, second.record->stepper == name(Stepper::erk) ? Stepper::erk : Stepper::ida);
+    second = finish(run, next);
+  }
+  return {std::move(own), std::move(second.record), std::move(second.stopped)};
+}
+
+}  // namespace dalembert

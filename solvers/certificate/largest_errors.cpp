@@ -1,0 +1,134 @@
+#include "dalembert/solvers/certificate/largest_errors.h"
+
+#include <dalembert/core/places.h>
+#include <dalembert/solvers/base/numbers.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <span>
+
+namespace dalembert {
+
+namespace {
+
+double distance(std::span<const double> a, std::span<const double> b) {
+  double square = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) square += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(square);
+}
+
+double norm_of_state(std::span<const double> a) {
+  double square = 0.0;
+  for (const double x : a) square += x * x;
+  return std::sqrt(square);
+}
+
+/// Goes through samples or events, and keeps the largest error of each kind.
+class Search {
+ public:
+  explicit Search(const TwoRuns& runs) : runs_(runs), layout_(*runs.run()->layout) {}
+
+  void compare(const FlatSample& a, const FlatSample& b, const Certainty& its) {
+    Certainty of_positions = its;
+    if (its.doubt == Doubt::at_a_jump) {
+      of_positions.doubt = Doubt::none;  // positions do not jump
+      ++found.beside_jumps;
+    } else if (its.doubt != Doubt::none) {
+      ++found.beyond;
+      return;
+    }
+    const auto dimension = static_cast<std::size_t>(layout_.dimension);
+    for (const auto& p : layout_.particles) {
+      const auto own = Places::from(static_cast<std::size_t>(p.coordinate), dimension);
+      keep(found.position, a.time, p.name, own.in(a.q), own.in(b.q), runs_.length(), of_positions);
+      keep(found.velocity, a.time, p.name, own.in(a.v), own.in(b.v), runs_.speed(), its);
+    }
+    for (const auto& r : layout_.rotors) {
+      const auto own = Places::from(static_cast<std::size_t>(r.coordinate), 1);
+      keep(found.angle, a.time, r.name, own.in(a.q), own.in(b.q), 1.0, of_positions);
+      keep(found.angular_velocity, a.time, r.name, own.in(a.v), own.in(b.v), runs_.speed() / runs_.length(),
+           its);
+    }
+    compare_forces(a, b, its);
+  }
+
+  void compare_impulses(std::size_t k) {
+    const Certainty& its = runs_.event(k);
+    const Record &run = *runs_.run(), &other = *runs_.reference();
+    if (its.doubt != Doubt::none || run.impulses.empty() || other.impulses.empty()) return;
+    const auto of = [](const Record& record, std::size_t event) {
+      return std::span(record.impulses).subspan(event * record.rows, record.rows);
+    };
+    for (const auto& c : layout_.constraints)
+      if (!c.internal)
+        keep(found.impulse, run.events[k].time, c.label(), c.own_rows().in(of(run, k)),
+             c.own_rows().in(of(other, its.counterpart)), 0.0, its);
+  }
+
+  void compare_time(std::size_t k) {
+    if (runs_.event(k).doubt != Doubt::none) return;
+    const Occurrence& one = runs_.run()->events[k];
+    take(found.event_time, runs_.error_of_time(k), one.time,
+         one.what == Happened::event ? "event " + std::to_string(one.event)
+                                     : layout_.constraints[one.event].label());
+  }
+
+  LargestErrors found;
+
+ private:
+  void compare_forces(const FlatSample& a, const FlatSample& b, const Certainty& its) {
+    bool undetermined = false;
+    for (const auto& c : layout_.constraints) {
+      if (c.internal) continue;
+      const auto own = c.own_rows().in(a.lambda), other = c.own_rows().in(b.lambda);
+      const double apart = distance(own, other);
+      if (std::isnan(apart)) {
+        undetermined = true;
+        continue;
+      }
+      if (its.doubt == Doubt::none)
+        take(found.force, runs_.error(apart, runs_.largest_force(), its), a.time, c.label());
+    }
+    if (undetermined) ++found.undetermined;
+  }
+
+  void keep(LargestError& most, double time, const std::string& of, std::span<const double> a,
+            std::span<const double> b, double unit, const Certainty& its) {
+    if (its.doubt == Doubt::none)
+      take(most, runs_.error_of_state(distance(a, b), norm_of_state(a), unit, its), time, of);
+  }
+  static void take(LargestError& most, double error, double time, const std::string& of) {
+    if (!(error <= most.error)) most = {error, time, of};
+  }
+
+  const TwoRuns& runs_;
+  const Layout& layout_;
+};
+
+}  // namespace
+
+LargestErrors largest_errors(const TwoRuns& runs) {
+  Search search(runs);
+  const Record &run = *runs.run(), &other = *runs.reference();
+  for (std::size_t i = 0; i < run.times.size(); ++i) {
+    const Certainty& its = runs.sample(i);
+    const bool there = its.counterpart < other.times.size();
+    search.compare(run.sample(i), there ? other.sample(its.counterpart) : run.sample(i), its);
+  }
+  for (std::size_t k = 0; k < run.events.size(); ++k) {
+    const Certainty& its = runs.event(k);
+    if (its.doubt != Doubt::none) {
+      ++search.found.beyond;
+      continue;
+    }
+    search.compare(run.at_events->sample(k), other.at_events->sample(its.counterpart), its);
+    if (run.after_events && other.after_events)
+      search.compare(run.after_events->sample(k), other.after_events->sample(its.counterpart), its);
+    search.compare_impulses(k);
+    search.compare_time(k);
+  }
+  return search.found;
+}
+
+}  // namespace dalembert

@@ -1,0 +1,107 @@
+#include "dalembert/solvers/certificate/matching_events.h"
+
+#include <dalembert/solvers/base/numbers.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <utility>
+
+namespace dalembert {
+
+namespace {
+
+using Numbers = std::vector<std::size_t>;
+/// An event that was asked for, or a constraint, and its number.
+using Element = std::pair<bool, std::size_t>;
+
+std::map<Element, std::pair<Numbers, Numbers>> by_element(const Record& run, const Record& reference) {
+  std::map<Element, std::pair<Numbers, Numbers>> all;
+  const auto of = [](const Occurrence& one) { return Element(one.what == Happened::event, one.event); };
+  for (std::size_t k = 0; k < run.events.size(); ++k) all[of(run.events[k])].first.push_back(k);
+  for (std::size_t k = 0; k < reference.events.size(); ++k) all[of(reference.events[k])].second.push_back(k);
+  return all;
+}
+
+const char* verb(Happened what) {
+  switch (what) {
+    case Happened::opened:
+      return "opens";
+    case Happened::struck:
+      return "is struck";
+    case Happened::rested:
+      return "comes to rest";
+    case Happened::sticks:
+      return "sticks";
+    case Happened::slides:
+      return "slides";
+    default:
+      return "happens";
+  }
+}
+
+}  // namespace
+
+MatchingEvents::MatchingEvents(const Record& run, const Record& reference)
+    : run_(&run), reference_(&reference), counterparts_(run.events.size()) {
+  for (const auto& [element, numbers] : by_element(run, reference)) match_one(numbers.first, numbers.second);
+  require_order();
+}
+
+std::string MatchingEvents::label(const Occurrence& one) const {
+  std::ostringstream out;
+  out.precision(8);
+  if (one.what == Happened::event) {
+    out << "event " << one.event;
+  } else {
+    out << run_->layout->constraints[one.event].label();
+  }
+  out << ' ' << verb(one.what) << " at t = " << one.time;
+  return out.str();
+}
+
+void MatchingEvents::part(double time, const std::string& difference) {
+  if (time >= part_at_) return;
+  part_at_ = time;
+  difference_ = difference;
+}
+
+void MatchingEvents::match_one(const Numbers& own, const Numbers& others) {
+  auto i = own.begin();
+  auto j = others.begin();
+  while (i != own.end() && j != others.end()) {
+    const Occurrence &a = run_->events[*i], &b = reference_->events[*j];
+    if (a.what == b.what) {
+      counterparts_[*i++] = *j++;
+    } else if (a.what == Happened::rested && b.what == Happened::struck) {
+      ++j;
+    } else if (a.what == Happened::struck && b.what == Happened::rested) {
+      ++i;
+    } else {
+      break;
+    }
+  }
+  if (i != own.end())
+    part(run_->events[*i].time, label(run_->events[*i]) + ", but not in the more accurate run");
+  if (j != others.end())
+    part(reference_->events[*j].time, label(reference_->events[*j]) + " in the more accurate run only");
+}
+
+void MatchingEvents::require_order() {
+  std::size_t last = 0;
+  bool any = false;
+  for (std::size_t k = 0; k < counterparts_.size(); ++k) {
+    if (!counterparts_[k]) continue;
+    const std::size_t other = *counterparts_[k];
+    const Occurrence &a = run_->events[k], &before = reference_->events[last], &b = reference_->events[other];
+    const double same = 64.0 * epsilon * std::max(std::abs(b.time), run_->statistics.time);
+    if (any && other < last && before.time - b.time > same)
+      part(std::min(a.time, b.time), label(b) + " in the more accurate run, before " + label(before) +
+                                         ": in another order than in this one");
+    if (!any || other > last) last = other;
+    any = true;
+  }
+}
+
+}  // namespace dalembert

@@ -1,0 +1,245 @@
+#include "dalembert/solvers/certificate/simulate_to.h"
+
+#include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/numbers.h>
+#include <dalembert/solvers/certificate/better_run.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+namespace dalembert {
+
+namespace {
+
+/// Explicit runs of the catalogue err by 1 to 700 tolerances in force, one in three by more than this. Twice
+/// as many, or half, cost a sixth more or less where the first runs serve.
+constexpr double usual_error = 20.0;
+constexpr double loosest = 1e-2;
+/// What a tolerance is chosen for, as a part of the request: errors follow it to a factor of 2.
+constexpr double aim = 0.5;
+constexpr int most_attempts = 8;
+/// A run that one at the least tolerance of all still certifies.
+constexpr double least = 2.0 * smallest_tolerance / TwoRuns::most_of_better;
+/// An explicit run of more steps is looked at: whether an implicit one takes fewer.
+constexpr long telling_steps = 1000;
+
+void require_request(const Request& r) {
+  const auto require = [](bool good, const char* what, double value) {
+    if (good) return;
+    std::ostringstream out;
+    out << "Request " << what << " = " << value << ": must be finite and > 0, or 0 if it is not asked for";
+    throw InvalidArgument(out.str());
+  };
+  const auto sensible = [](double x) { return std::isfinite(x) && x >= 0.0; };
+  require(sensible(r.force_error), "force_error", r.force_error);
+  require(sensible(r.position_error), "position_error", r.position_error);
+  require(sensible(r.event_error), "event_error", r.event_error);
+  if (r.force_error == 0.0 && r.position_error == 0.0 && r.event_error == 0.0)
+    throw InvalidArgument("simulate_to: ask for a force_error, position_error or event_error");
+}
+
+Options options_of(const Request& request) {
+  Options options = request.options;
+  options.t_end = request.t_end;
+  options.t_start = request.t_start;
+  options.samples = request.samples;
+  options.times = request.times;
+  options.sample_interval = 0.0;
+  options.stepper = Stepper::erk;
+  if (options.audit == Audited::off) options.audit = Audited::error;
+  return options;
+}
+
+/// What errors are relative to.
+struct Sizes {
+  double length = 1.0, time = 1.0, force = 1.0;
+};
+
+template <int D>
+Sizes sizes_at_start(const Scene<D>& scene, const Options& options) {
+  const Simulation<D> start(scene, options);
+  const Statistics statistics = start.statistics();
+  Sizes sizes{statistics.length, statistics.time, 0.0};
+  const Sample<D> now = start.sample();
+  for (const double lambda : now.flat().lambda)
+    if (std::isfinite(lambda)) sizes.force = std::max(sizes.force, std::abs(lambda));
+  for (const auto& particle : now.layout().particles)
+    sizes.force = std::max(sizes.force, particle.mass * sizes.length / (sizes.time * sizes.time));
+  return sizes;
+}
+
+/// Runs, each by the errors of those before it, until a certificate meets the request.
+class Approach {
+ public:
+  Approach(Run run, const Request& request, const Sizes& sizes)
+      : run_(std::move(run)), request_(request), sizes_(sizes), options_(options_of(request)) {}
+
+  [[nodiscard]] TwoRuns find() {
+    begin();
+    while (keep_if_best() > 1.0 && attempts_++ < most_attempts && refine()) {
+    }
+    outcome.met = best_excess_ <= 1.0;
+    outcome.words = words();
+    return std::move(*best_);
+  }
+
+  RequestOutcome outcome;
+
+ private:
+  [[nodiscard]] double first_tolerance() const {
+    double part = std::numeric_limits<double>::infinity();
+    const auto ask = [&](double error, double unit) {
+      if (error > 0.0) part = std::min(part, error / unit);
+    };
+    const bool relative = request_.relative;
+    ask(request_.force_error, relative ? 1.0 : sizes_.force);
+    ask(request_.position_error, relative ? 1.0 : sizes_.length);
+    ask(request_.event_error, sizes_.time / (relative ? request_.t_end - request_.t_start : 1.0));
+    return std::clamp(part / usual_error, least, loosest);
+  }
+
+  void begin() {
+    options_.tolerance = first_tolerance();
+    Options first = options_, second = tighter(options_, options_.stepper);
+    first.max_steps = second.max_steps = std::min(telling_steps, options_.max_steps);
+    take(finish_both(run_, first, second));
+    const bool stopped = !run_of_first_.stopped.empty();
+    if (!stopped && better_.stopped.empty()) return;
+    if (is_stiff(stopped ? run_of_first_ : better_)) options_.stepper = Stepper::ida;
+    begin_pair();
+    if (run_of_first_.failure) std::rethrow_exception(run_of_first_.failure);
+  }
+
+  /// Whether an explicit run, which was cut short, would take more steps than an implicit one.
+  [[nodiscard]] bool is_stiff(const FinishedRun& cut) {
+    const long steps = cut.record->statistics.steps;
+    if (steps < telling_steps) return true;  // something else stopped it
+    const double part = (cut.reached - options_.t_start) / (options_.t_end - options_.t_start);
+    const double all = static_cast<double>(steps) / std::max(part, 1e-6);
+    Options implicit = options_;
+    implicit.stepper = Stepper::ida;
+    implicit.max_steps = static_cast<long>(std::min(all, static_cast<double>(options_.max_steps)));
+    return count(finish(run_, implicit)).stopped.empty();
+  }
+
+  /// A run at the tolerance of the options, and one to certify it.
+  void begin_pair() { take(finish_both(run_, options_, tighter(options_, options_.stepper))); }
+
+  void take(std::pair<FinishedRun, FinishedRun> pair) {
+    run_of_first_ = count(std::move(pair.first));
+    better_ = count(std::move(pair.second));
+  }
+  FinishedRun count(FinishedRun finished) {
+    ++outcome.runs;
+    outcome.processor_time += finished.record->statistics.run_time;
+    return finished;
+  }
+
+  /// The largest error over what it may be, infinite where one is not known.
+  [[nodiscard]] double excess(const TwoRuns& runs) const {
+    const LargestErrors errors = largest_errors(runs);
+    const bool no_force_known = errors.force.of.empty() && runs.largest_force() > 0.0;
+    if (!run_of_first_.stopped.empty() || errors.beyond > 0 || (request_.force_error > 0.0 && no_force_known))
+      return std::numeric_limits<double>::infinity();
+    double most = 0.0;
+    const auto ask = [&](double error, double wanted, double unit) {
+      if (wanted > 0.0) most = std::max(most, error / (wanted * (request_.relative ? unit : 1.0)));
+    };
+    ask(errors.force.error, request_.force_error, runs.largest_force() > 0.0 ? runs.largest_force() : 1.0);
+    ask(errors.position.error, request_.position_error, runs.reference()->statistics.length);
+    ask(errors.event_time.error, request_.event_error, request_.t_end - request_.t_start);
+    return most;
+  }
+
+  double keep_if_best() {
+    TwoRuns runs(run_of_first_.record, better_.record,
+                 run_of_first_.stopped.empty() ? better_.stopped : run_of_first_.stopped);
+    excess_ = excess(runs);
+    if (!best_ || excess_ < best_excess_) {
+      best_excess_ = excess_;
+      best_.emplace(std::move(runs));
+    }
+    return excess_;
+  }
+
+  [[nodiscard]] bool claims_are_too_close() const {
+    return better_.stopped.empty() && run_of_first_.stopped.empty() &&
+           better_.record->statistics.accuracy >
+               TwoRuns::most_of_better * run_of_first_.record->statistics.accuracy;
+  }
+
+  /// Whether the more accurate run is so of one at another tolerance too, by half the ratio to be sure.
+  [[nodiscard]] bool serves_at(double tolerance) const {
+    const double claim = run_of_first_.record->statistics.accuracy * tolerance / options_.tolerance;
+    return 2.0 * better_.record->statistics.accuracy <= TwoRuns::most_of_better * claim;
+  }
+
+  /// The next runs; false if there are none more accurate.
+  bool refine() {
+    const double of_better = better_.record->tolerance;
+    if (claims_are_too_close() && of_better > smallest_tolerance) {
+      Options next = options_;
+      next.tolerance = of_better;
+      better_ = count(finish(run_, tighter(next, options_.stepper)));
+      return true;
+    }
+    if (options_.tolerance <= least) return false;
+    const double wanted = std::isfinite(excess_) ? std::max(aim / excess_, 1e-4) : 1e-2;
+    const double next = std::max(wanted * options_.tolerance, least);
+    if (better_.stopped.empty() && serves_at(next)) {
+      options_.tolerance = next;  // the more accurate run still is
+      run_of_first_ = count(finish(run_, options_));
+    } else if (next >= of_better && better_.stopped.empty()) {
+      options_.tolerance = of_better;
+      run_of_first_ = std::exchange(better_, count(finish(run_, tighter(options_, options_.stepper))));
+    } else {
+      options_.tolerance = next;
+      begin_pair();
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::string words() const {
+    const Record& run = *best_->run();
+    std::ostringstream out;
+    out.precision(3);
+    out << (outcome.met ? "The request is met" : "The request is not met") << " by " << run.stepper
+        << " at tolerance " << run.tolerance << ", after " << outcome.runs << " runs";
+    if (outcome.met) return out.str();
+    if (std::isfinite(best_excess_)) out << ": the error is " << best_excess_ << " times as large";
+    if (!best_->reservation().empty()) out << ": " << best_->reservation();
+    out << "; no tighter tolerance gives less";
+    return out.str();
+  }
+
+  Run run_;
+  const Request& request_;
+  Sizes sizes_;
+  Options options_;
+  FinishedRun run_of_first_, better_;
+  std::optional<TwoRuns> best_;
+  double excess_ = 0.0, best_excess_ = 0.0;
+  int attempts_ = 0;
+};
+
+}  // namespace
+
+template <int D>
+SimulatedTo<D> simulate_to(const Scene<D>& scene, const Request& request,
+                           const std::vector<Event<D>>& events) {
+  require_request(request);
+  const Options options = options_of(request);
+  (void)sample_times(options);
+  Approach approach([&](const Options& own) { return simulate(scene, own, events).record(); }, request,
+                    sizes_at_start(scene, options));
+  TwoRuns found = approach.find();
+  return {Certificate<D>(std::move(found)), approach.outcome};
+}
+
+template SimulatedTo<2> simulate_to(const Scene<2>&, const Request&, const std::vector<Event<2>>&);
+template SimulatedTo<3> simulate_to(const Scene<3>&, const Request&, const std::vector<Event<3>>&);
+
+}  // namespace dalembert

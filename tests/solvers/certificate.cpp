@@ -1,0 +1,255 @@
+#include <dalembert/dalembert.h>
+#include <dalembert/models/bouncing_ball.h>
+#include <dalembert/models/double_pendulum.h>
+#include <dalembert/models/four_bar.h>
+#include <dalembert/models/particle_off_sphere.h>
+#include <dalembert/models/plane_pendulum.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace dalembert::certificate_test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// An estimate is the difference from a run that is at least five times as accurate.
+void expect_within_a_fifth(double estimated, double truth, const std::string& what) {
+  EXPECT_GE(estimated, 0.8 * truth) << what;
+  EXPECT_LE(estimated, 1.25 * truth) << what;
+}
+
+class CertificateBy : public testing::TestWithParam<Stepper> {};
+
+std::string stepper_name(const testing::TestParamInfo<Stepper>& info) { return name(info.param); }
+INSTANTIATE_TEST_SUITE_P(BothSteppers, CertificateBy, testing::Values(Stepper::ida, Stepper::erk),
+                         stepper_name);
+
+/// Against sin(phi/2) = k sn(K - omega0 t).
+TEST_P(CertificateBy, TellsTheErrorsOfAPendulum) {
+  const models::PlanePendulum model;
+  const auto built = model.scene();
+  const auto bead = built.beads.front();
+  const auto rod = built.rods.front();
+  for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {
+    const auto certificate =
+        certify(built.scene, {.t_end = 10.0, .tolerance = tolerance, .stepper = GetParam()});
+    ASSERT_TRUE(certificate.complete()) << certificate.statement();
+    double position = 0.0, tension = 0.0, position_error = 0.0, tension_error = 0.0;
+    for (std::size_t i = 0; i < certificate.run().size(); ++i) {
+      const auto due = model.reference(certificate.run().times()[i]);
+      position = std::max(position, (certificate.run().position(bead, i) - due.positions[0]).norm());
+      tension = std::max(tension, std::abs(-certificate.run().multiplier(rod, i) - due.forces[0]));
+      position_error = std::max(position_error, certificate.position_error(bead, i));
+      tension_error = std::max(tension_error, certificate.multiplier_error(rod, i));
+    }
+    expect_within_a_fifth(position_error, position, "position");
+    expect_within_a_fifth(tension_error, tension, "tension");
+    EXPECT_EQ(certificate.largest().position.error, position_error);
+    EXPECT_EQ(certificate.largest().force.error, tension_error);
+  }
+}
+
+TEST_P(CertificateBy, HandsOutTheRunThatWasAskedFor) {
+  const auto built = models::PlanePendulum{}.scene();
+  const Options options{.t_end = 1.0, .tolerance = 1e-6, .stepper = GetParam()};
+  const auto certificate = certify(built.scene, options);
+  const auto run = simulate(built.scene, options);
+  ASSERT_EQ(certificate.run().size(), run.size());
+  for (std::size_t i = 0; i < run.size(); ++i)
+    EXPECT_EQ(certificate.run().position(built.beads[0], i), run.position(built.beads[0], i));
+  EXPECT_LT(certificate.reference().statistics().accuracy, 0.2 * run.statistics().accuracy);
+}
+
+TEST_P(CertificateBy, IsTheSameTwice) {
+  const auto built = models::PlanePendulum{}.scene();
+  const Options options{.t_end = 1.0, .tolerance = 1e-6, .stepper = GetParam()};
+  EXPECT_EQ(certify(built.scene, options).statement(), certify(built.scene, options).statement());
+}
+
+/// t_k and m (1 + e) u_k, a geometric series each.
+TEST_P(CertificateBy, TellsTheErrorsOfImpacts) {
+  const models::BouncingBall model{.restitution = 0.8};
+  const auto built = model.scene();
+  const auto certificate = certify(built.scene, {.t_end = 0.5 * (model.impact_time(4) + model.impact_time(5)),
+                                                 .tolerance = 1e-5,
+                                                 .stepper = GetParam()});
+  const auto& run = certificate.run();
+  ASSERT_GE(run.events().size(), 5U);
+  for (std::size_t k = 0; k < 5; ++k) {
+    const double u = std::pow(0.8, static_cast<double>(k)) * std::sqrt(2.0 * model.gravity * model.height);
+    const double time = std::abs(run.events()[k].time - model.impact_time(static_cast<int>(k))),
+                 impulse = std::abs(run.impulse(built.floor, k) - model.mass * 1.8 * u);
+    // By erk a parabola is exact: then the error is said to be round-off, five times the 1e4 roundings to
+    // which impacts are told from none.
+    constexpr double round_off = 5e4 * std::numeric_limits<double>::epsilon();
+    EXPECT_GE(certificate.event_time_error(k), 0.8 * time);
+    EXPECT_LE(certificate.event_time_error(k), std::max(1.25 * time, round_off * 4.0));
+    EXPECT_GE(certificate.impulse_error(built.floor, k), 0.8 * impulse);
+    EXPECT_LE(certificate.impulse_error(built.floor, k), std::max(1.25 * impulse, round_off * 20.0));
+  }
+}
+
+/// A ball that rests after infinitely many impacts, of which the better run lists more.
+TEST_P(CertificateBy, FollowsABallToRest) {
+  const models::BouncingBall model{.restitution = 0.5};
+  const auto built = model.scene();
+  const auto certificate =
+      certify(built.scene,
+              {.t_end = 1.5 * model.rest_time(), .samples = 11, .tolerance = 1e-6, .stepper = GetParam()});
+  EXPECT_GT(certificate.reference().events().size(), certificate.run().events().size());
+  ASSERT_TRUE(certificate.complete()) << certificate.statement();
+  ASSERT_EQ(certificate.run().events().back().what, Happened::rested);
+  EXPECT_GE(certificate.event_time_error(certificate.run().events().size() - 1),
+            0.8 * std::abs(certificate.run().events().back().time - model.rest_time()));
+}
+
+/// Of a sample at an impact nobody knows the velocity: it depends on which comes first.
+TEST(Certificate, DoesNotKnowVelocitiesWhereAnImpactMayBeBeforeOrAfter) {
+  const models::PlanePendulum model;
+  const auto hung = model.scene();
+  Scene<2> scene = hung.scene;
+  const auto bead = hung.beads[0];
+  scene.add(unilateral(holonomic(points(bead), [](auto r) { return r.x(); }), {.restitution = 0.9}), "wall");
+  const double impact = model.period() / 4.0;
+  const auto certificate = certify(
+      scene, {.t_end = 1.5 * impact, .times = {0.5 * impact, impact, 1.2 * impact}, .tolerance = 1e-5});
+  EXPECT_EQ(certificate.doubt(1), Doubt::at_a_jump);
+  EXPECT_EQ(certificate.velocity_error(bead, 1), infinity);
+  EXPECT_LT(certificate.position_error(bead, 1), 1e-2);
+  EXPECT_LT(certificate.velocity_error(bead, 0), 1e-2);
+  EXPECT_LT(certificate.velocity_error(bead, 2), 1e-2);
+  EXPECT_THAT(certificate.statement(), HasSubstr("not known at 1 samples"));
+}
+
+/// A double pendulum from high up, at a loose tolerance: neighbouring motions part by e in about a tenth of a
+/// second, so that the difference is of the size of the motion long before the end.
+TEST(Certificate, SaysHowFarAChaoticMotionIsKnown) {
+  const models::DoublePendulum model{.angle1 = 3.0, .angle2 = 3.0};
+  const auto built = model.scene();
+  const Options options{.t_end = 40.0, .samples = 401, .tolerance = 1e-5, .stepper = Stepper::erk};
+  const auto certificate = certify(built.scene, options);
+  EXPECT_FALSE(certificate.complete());
+  const double until = certificate.runs().known_until();
+  EXPECT_GT(until, 1.0);
+  EXPECT_LT(until, 39.0);
+  EXPECT_THAT(certificate.statement(), HasSubstr("the runs have parted"));
+  const std::size_t last = certificate.run().size() - 1;
+  EXPECT_EQ(certificate.doubt(last), Doubt::horizon);
+  EXPECT_EQ(certificate.position_error(built.beads[1], last), infinity);
+  // Before that its estimates are those of a much tighter run.
+  const auto tight =
+      simulate(built.scene, {.t_end = 40.0, .samples = 401, .tolerance = 1e-12, .stepper = Stepper::erk});
+  double truth = 0.0, estimated = 0.0;
+  for (std::size_t i = 0; certificate.run().times()[i] < until; ++i) {
+    truth = std::max(
+        truth, (certificate.run().position(built.beads[1], i) - tight.position(built.beads[1], i)).norm());
+    estimated = std::max(estimated, certificate.position_error(built.beads[1], i));
+  }
+  expect_within_a_fifth(estimated, truth, "before the horizon");
+}
+
+/// A free fall is exact to round-off in every explicit run: no difference tells its error.
+TEST(Certificate, IsNeverSmallerThanRoundOff) {
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -9.81}});
+  const auto stone = scene.add_particle({.mass = 1.0, .velocity = {1.0, 2.0}});
+  const auto certificate = certify(scene, {.t_end = 10.0, .tolerance = 1e-8, .stepper = Stepper::erk});
+  const auto& run = certificate.run();
+  for (std::size_t i = 1; i < run.size(); ++i) {
+    const double t = run.times()[i];
+    const double truth = (run.position(stone, i) - Vec<2>(t, 2.0 * t - 0.5 * 9.81 * t * t)).norm();
+    EXPECT_GE(certificate.position_error(stone, i), 0.2 * truth);  // errors by chance may be alike
+    EXPECT_GT(certificate.position_error(stone, i), 0.0);
+  }
+}
+
+TEST(Certificate, SaysWhereThereIsNoBetterRun) {
+  const auto built = models::PlanePendulum{}.scene();
+  const auto certificate = certify(built.scene, {.t_end = 10.0, .tolerance = 1e-13, .stepper = Stepper::erk});
+  EXPECT_FALSE(certificate.complete());
+  EXPECT_EQ(certificate.doubt(50), Doubt::no_better_run);
+  EXPECT_THAT(certificate.statement(), HasSubstr("there is no more accurate run"));
+}
+
+/// A pendulum released at the height of its pivot rises to it again. In a run that errs it rises higher, or
+/// less high: by more than 1e-7 at so loose a tolerance.
+TEST(Certificate, SaysWhereSomethingHappensInOneRunOnly) {
+  const models::PlanePendulum model;
+  const auto built = model.scene();
+  const auto bead = built.beads[0];
+  const std::vector<Event<2>> events{
+      {"is up", [=](const auto& now) { return now.position(bead).y() + 1e-7; }, Crossing::rising},
+      {"is higher", [=](const auto& now) { return now.position(bead).y() - 1e-7; }, Crossing::rising}};
+  const auto certificate = certify(built.scene, {.t_end = 0.8 * model.period(), .tolerance = 1e-3}, events);
+  EXPECT_FALSE(certificate.complete());
+  EXPECT_EQ(certificate.doubt(100), Doubt::other_events);
+  EXPECT_EQ(certificate.position_error(bead, 100), infinity);
+  EXPECT_LT(certificate.position_error(bead, 50), 0.1);
+  EXPECT_THAT(certificate.statement(), HasSubstr(" happens at t = "));
+}
+
+/// Vibrations of a spring of 1e8 N/m: explicit steps would have to follow them.
+TEST(Certificate, OfAStiffSceneIsByTwoImplicitRuns) {
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -9.81}});
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
+  scene.add(compliant(Distance{Fixed<2>{{0.0, 0.0}}, bob, 1.0}, 1e-8), "rod");
+  const auto certificate = certify(scene, {.t_end = 1.0, .tolerance = 1e-6});
+  EXPECT_THAT(certificate.statement(), HasSubstr("by ida at tolerance 1e-06, against ida at 1e-08"));
+  EXPECT_TRUE(certificate.complete()) << certificate.statement();
+}
+
+/// The N-four-bar's rods are all in line at an instant, and their forces not determined.
+TEST(Certificate, DoesNotKnowAForceThatIsNotDetermined) {
+  Scene<2> scene;
+  const auto stone = scene.add_particle({.mass = 1.0});
+  scene.add(UniformGravity<2>{{0.0, -9.81}});
+  const auto left = scene.add(Distance{Fixed<2>{{-1.0, 0.0}}, stone, 1.0}, "left");
+  const auto certificate = certify(scene, {.t_end = 1.0});
+  const auto undetermined = [](const Sample<2>&) -> double { throw UndeterminedForce("not now"); };
+  EXPECT_EQ(certificate.error(undetermined, 3), infinity);
+  EXPECT_LT(certificate.multiplier_error(left, 3), 1e-3);
+}
+
+TEST(Certificate, RefusesWhatMakesNoSense) {
+  const auto built = models::PlanePendulum{}.scene();
+  EXPECT_THROW((void)certify(built.scene, {.t_end = -1.0}), InvalidArgument);
+  EXPECT_THROW((void)certify(built.scene, {.t_end = 1.0, .tolerance = 0.0}), InvalidArgument);
+  const auto certificate = certify(built.scene, {.t_end = 1.0});
+  const auto other = models::PlanePendulum{}.scene();
+  EXPECT_THROW((void)certificate.position_error(built.beads[0], 101), InvalidArgument);
+  EXPECT_THROW((void)certificate.position_error(other.beads[0], 0), InvalidArgument);
+  EXPECT_THROW((void)certificate.event_time_error(0), InvalidArgument);
+  EXPECT_THROW((void)certificate.impulse_error(built.rods[0], 0), InvalidArgument);
+}
+
+/// What stops the run that was asked for stops the certificate.
+TEST(Certificate, StopsWithTheRun) {
+  const auto built = models::PlanePendulum{}.scene();
+  EXPECT_THROW((void)certify(built.scene, {.t_end = 10.0, .max_steps = 5}), IntegrationFailure);
+}
+
+/// A bob at rest below its pivot pulls with its weight; of a door on two hinges one above the other only the
+/// sum of the vertical forces is determined.
+TEST(ForceReport, NamesEveryConstraintWithItsLargestForceAndMeaning) {
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -10.0}});
+  const auto bob = scene.add_particle({.mass = 2.0, .position = {0.0, -1.0}}, "bob");
+  scene.add(Distance{Fixed<2>{{0.0, 0.0}}, bob, 1.0}, "rod");
+  const Options options{.t_end = 1.0};
+  EXPECT_EQ(report(simulate(scene, options)),
+            "Distance \"rod\": largest 20 at t = 0, unique; force in the rod: < 0 pulls its ends together, "
+            "tension is -lambda\n");
+  EXPECT_THAT(report(certify(scene, options)), HasSubstr("largest 20 +- "));
+  scene.add(Distance{Fixed<2>{{0.0, 0.0}}, bob, 1.0}, "another");
+  EXPECT_THAT(report(simulate(scene, options)), HasSubstr("\"rod\": largest 10 at t = 0, not unique"));
+}
+
+}  // namespace
+}  // namespace dalembert::certificate_test
