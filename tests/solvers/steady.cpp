@@ -1,14 +1,14 @@
 #include <dalembert/dalembert.h>
+#include <dalembert/models/heavy_top.h>
+#include <dalembert/models/whipple_bicycle.h>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 namespace dalembert::steady_test {
 namespace {
@@ -38,44 +38,20 @@ TEST(Steady, OfAConicalPendulumIsThatOfItsHeight) {
   EXPECT_NEAR(modes.frequency(1), std::sqrt(Omega2 * (1.0 + 3.0 * 0.64)), 10 * rounding);
 }
 
-/// A top of mass 1 whose centre is 0.5 above its point: about that A = 0.3, C = 0.02.
-struct Top {
-  Scene<3> scene{"top"};
-  RigidBody<3> body;
-
-  Top(double lean, double precession, double spin) {
-    scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
-    const Vec<3> axis(std::sin(lean), 0.0, std::cos(lean)), y(0.0, 1.0, 0.0);
-    Eigen::Matrix3d axes;
-    axes << y.cross(axis), y, axis;
-    const Vec<3> rate = precession * Vec<3>::UnitZ() + spin * axis, centre = 0.5 * axis;
-    body = add_body(scene,
-                    {.mass = 1.0,
-                     .inertia = {0.05, 0.05, 0.02},
-                     .centre = centre,
-                     .axes = axes,
-                     .velocity = rate.cross(centre),
-                     .angular_velocity = rate},
-                    "top");
-    scene.add(Coincident{body.point({0.0, 0.0, -0.5}), Fixed<3>{}}, "point");
-  }
-};
-
 TEST(Steady, PrecessionOfATopIsARootOfItsQuadratic) {
-  // A p^2 cos t - C n p + m g l = 0 with n the whole rate about the axis, t and n kept.
-  constexpr double lean = 0.5, n = 300.0, A = 0.3, C = 0.02;
-  const double mgl = g * 0.5, root = std::sqrt(C * C * n * n - 4.0 * A * std::cos(lean) * mgl);
-  for (const double sign : {-1.0, 1.0}) {
-    const double p = (C * n + sign * root) / (2.0 * A * std::cos(lean));
-    const Top top(lean, 1.03 * p, n - 1.03 * p * std::cos(lean));
+  models::HeavyTop top{.lean = 0.5, .spin = 300.0};
+  for (const double p : top.steady_precessions()) {
+    top.precession = 1.03 * p;  // a guess
+    const auto built = top.scene();
+    const RigidBody<3> body = built.top;
     const auto at =
-        steady(top.scene, {.keep = {{"lean", [=](const auto& now) { return top.body.axes(now).col(2).z(); }},
-                                    {"spin", [=](const auto& now) {
-                                       return angular_velocity(now, top.body).dot(top.body.axes(now).col(2));
-                                     }}}});
-    const Vec<3> rate = angular_velocity(at.sample(), top.body), axis = top.body.axes(at.sample()).col(2);
-    EXPECT_NEAR(axis.z(), std::cos(lean), rounding);
-    EXPECT_NEAR(rate.dot(axis), n, n * rounding);
+        steady(built.scene, {.keep = {{"lean", [=](const auto& now) { return body.axes(now).col(2).z(); }},
+                                      {"spin", [=](const auto& now) {
+                                         return angular_velocity(now, body).dot(body.axes(now).col(2));
+                                       }}}});
+    const Vec<3> rate = angular_velocity(at.sample(), body), axis = body.axes(at.sample()).col(2);
+    EXPECT_NEAR(axis.z(), std::cos(top.lean), rounding);
+    EXPECT_NEAR(rate.dot(axis), top.spin, top.spin * rounding);
     // What turns the axis is the precession: across it.
     const double across = (rate - rate.dot(axis) * axis).norm() / std::sqrt(1.0 - axis.z() * axis.z());
     EXPECT_NEAR(across, std::abs(p), 1e3 * rounding * std::abs(p));
@@ -83,15 +59,14 @@ TEST(Steady, PrecessionOfATopIsARootOfItsQuadratic) {
 }
 
 TEST(Steady, TopAsleepVibratesOrFallsByItsSpin) {
-  // A th'' - i C n th' - m g l th = 0 for th = x + i y: s = i (C n +- sqrt(C^2 n^2 - 4 A m g l))/(2 A).
-  constexpr double A = 0.3, C = 0.02;
-  const double mgl = g * 0.5;
   for (const double n : {100.0, 150.0}) {
-    const Top top(0.0, 0.0, n);
-    const auto modes = normal_modes(top.scene, steady(top.scene));
-    const std::complex<double> root = std::sqrt(std::complex<double>(C * C * n * n - 4.0 * A * mgl));
+    const models::HeavyTop top{.spin = n};
+    const Scene<3> scene = top.scene().scene;
+    const auto modes = normal_modes(scene, steady(scene));
+    const std::complex<double> root = std::sqrt(std::complex<double>(top.discriminant()));
     for (const double sign : {-1.0, 1.0}) {
-      const std::complex<double> s = std::complex<double>(0.0, 1.0) * (C * n + sign * root) / (2.0 * A);
+      const std::complex<double> s =
+          std::complex<double>(0.0, 1.0) * (top.along * n + sign * root) / (2.0 * top.across);
       double nearest = 1e9;
       for (std::size_t k = 0; k < modes.size(); ++k)
         nearest = std::min(nearest, std::abs(modes.eigenvalue(k) - s));
@@ -103,77 +78,12 @@ TEST(Steady, TopAsleepVibratesOrFallsByItsSpin) {
   }
 }
 
-/// The benchmark bicycle of Meijaard, Papadopoulos, Ruina, Schwab, Proc. R. Soc. A 463 (2007) 1955, table 1,
-/// upright, with its wheels as they roll. (There z is down: products of inertia change their sign.)
-Scene<3> whipple(double v) {
-  constexpr double base = 1.02, trail = 0.08, tilt = std::numbers::pi / 10.0, rear_radius = 0.3,
-                   front_radius = 0.35;
-  Scene<3> scene("bicycle");
-  scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
-  const auto wheel = [&](double x, double mass, double across, double about, double r, const char* name) {
-    const auto body = add_body(scene,
-                               {.mass = mass,
-                                .inertia = {across, about, across},
-                                .centre = {x, 0.0, r},
-                                .velocity = {v, 0.0, 0.0},
-                                .angular_velocity = {0.0, v / r, 0.0}},
-                               name);
-    const auto a = body.point({r, 0.0, 0.0}), b = body.point({0.0, 0.0, r});
-    scene.add(DiskContact{body.centre(), a, b, r});
-    scene.add(DiskRolling{body.centre(), a, b, r});
-    return body;
-  };
-  const auto part = [&](double mass, double x, double z, const Eigen::Matrix2d& I, double about_y,
-                        const char* name) {
-    const double angle = 0.5 * std::atan2(2.0 * I(0, 1), I(0, 0) - I(1, 1));
-    Eigen::Matrix2d turned;
-    turned << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-    const Eigen::Matrix2d principal = turned.transpose() * I * turned;
-    Eigen::Matrix3d axes;
-    axes << turned(0, 0), 0.0, turned(0, 1), 0.0, 1.0, 0.0, turned(1, 0), 0.0, turned(1, 1);
-    return add_body(scene,
-                    {.mass = mass,
-                     .inertia = {principal(0, 0), about_y, principal(1, 1)},
-                     .centre = {x, 0.0, z},
-                     .axes = axes,
-                     .velocity = {v, 0.0, 0.0}},
-                    name);
-  };
-  const auto rear = wheel(0.0, 2.0, 0.0603, 0.12, rear_radius, "rear"),
-             front = wheel(base, 3.0, 0.1405, 0.28, front_radius, "front");
-  Eigen::Matrix2d of_frame, of_fork;
-  of_frame << 9.2, -2.4, -2.4, 2.8;
-  of_fork << 0.05892, 0.00756, 0.00756, 0.00708;
-  const auto frame = part(85.0, 0.3, 0.9, of_frame, 11.0, "frame"),
-             fork = part(4.0, 0.9, 0.7, of_fork, 0.06, "fork");
-  const Vec<3> across(0.0, 1.0, 0.0), head(-std::sin(tilt), 0.0, std::cos(tilt));
-  add_joint(scene, Revolute{frame, rear, {0.0, 0.0, rear_radius}, across}, "rear hub");
-  add_joint(scene, Revolute{fork, front, {base, 0.0, front_radius}, across}, "front hub");
-  add_joint(scene, Revolute{frame, fork, Vec<3>(base + trail, 0.0, 0.0) + head * (0.9 / head.z()), head},
-            "head");
-  return scene;
-}
-
-/// Eigenvalues s of the paper's linear equations M s^2 + v C1 s + g K0 + v^2 K2, with its numbers of the
-/// benchmark, of the companion matrix.
-Eigen::VectorXcd published(double v) {
-  Eigen::Matrix2d M, C, K0, K2;
-  M << 80.81722, 2.31941332208709, 2.31941332208709, 0.29784188199686;
-  C << 0.0, 33.86641391492494, -0.85035641456978, 1.68540397397560;
-  K0 << -80.95, -2.59951685249872, -2.59951685249872, -0.80329488458618;
-  K2 << 0.0, 76.59734589573222, 0.0, 2.65431523794604;
-  Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
-  A.topRightCorner<2, 2>().setIdentity();
-  A.bottomLeftCorner<2, 2>() = -M.inverse() * (g * K0 + v * v * K2);
-  A.bottomRightCorner<2, 2>() = -M.inverse() * (v * C);
-  return A.eigenvalues();
-}
-
 TEST(Steady, BicycleHasItsPublishedEigenvalues) {
   for (int v = 0; v <= 10; ++v) {
-    const Scene<3> scene = whipple(v);
+    const models::WhippleBicycle bicycle{.speed = static_cast<double>(v)};
+    const Scene<3> scene = bicycle.scene().scene;
     const auto modes = normal_modes(scene, steady(scene));
-    const Eigen::VectorXcd expected = published(v);
+    const Eigen::Vector4cd expected = bicycle.published().eigenvalues();
     std::size_t zeros = 0;
     for (std::size_t k = 0; k < modes.size(); ++k) zeros += modes.eigenvalue(k) == 0.0 ? 1U : 0U;
     EXPECT_GE(zeros, 3U);
