@@ -10,7 +10,7 @@ namespace dalembert::models {
 struct WhippleScene {
   Scene<3> scene;
   RigidBody<3> frame;  ///< the rear one, with its rider
-  Joint<Revolute<RigidBody<3>, RigidBody<3>>> head;
+  ::dalembert::Joint<Revolute<RigidBody<3>, RigidBody<3>>> head;
 
   [[nodiscard]] double lean(const Sample<3>& at) const;   ///< of the frame, to the right [rad]
   [[nodiscard]] double steer(const Sample<3>& at) const;  ///< of the fork, to the right [rad]
