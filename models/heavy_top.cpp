@@ -25,8 +25,14 @@ HeavyTopScene HeavyTop::scene() const {
   return {std::move(scene), top, point};
 }
 
-double HeavyTop::discriminant() const {
-  return along * along * spin * spin - 4.0 * across * mass * gravity * arm;
+double HeavyTop::critical_spin() { return std::sqrt(4.0 * across * mass * gravity * arm) / along; }
+
+std::array<std::complex<double>, 2> HeavyTop::asleep() const {
+  const double momentum = along * spin, critical = along * critical_spin();
+  const std::complex<double> root =
+                                 std::sqrt(std::complex<double>(momentum * momentum - critical * critical)),
+                             i(0.0, 1.0);
+  return {i * (momentum + root) / (2.0 * across), i * (momentum - root) / (2.0 * across)};
 }
 
 std::array<double, 2> HeavyTop::steady_precessions() const {

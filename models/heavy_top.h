@@ -3,6 +3,7 @@
 #include <dalembert/dalembert.h>
 
 #include <array>
+#include <complex>
 
 namespace dalembert::models {
 
@@ -34,8 +35,9 @@ struct HeavyTop {
   [[nodiscard]] HeavyTopScene scene() const;
   [[nodiscard]] std::array<double, 2> steady_precessions() const;  ///< of this lean and spin, the slow first
   [[nodiscard]] double nutation() const;                           ///< omega [rad / time]
-  /// C^2 n^2 - 4 A m g l: asleep it is stable where that is positive.
-  [[nodiscard]] double discriminant() const;
+  /// The s above with + and -, of a top that sleeps; stable if the spin is above the critical one.
+  [[nodiscard]] std::array<std::complex<double>, 2> asleep() const;
+  [[nodiscard]] static double critical_spin();
 };
 
 }  // namespace dalembert::models

@@ -48,7 +48,15 @@ void add_stable(Rows& rows, const std::string& where, const NormalModes<3>& mode
   rows.add("largest growth" + where, largest_growth(modes), 0.0);
 }
 
-const char* name_of(std::complex<double> s, double lowest) {
+/// The verdict.
+void add_verdict(Rows& rows, const std::string& where, const NormalModes<3>& modes, bool stable) {
+  rows.add("stable (1) or not " + where, modes.stability() == Stability::stable ? 1.0 : 0.0,
+           stable ? 1.0 : 0.0, 0.0);
+}
+
+/// The paper's names, where they are told apart: not at rest.
+std::string name_of(std::complex<double> s, double lowest, int speed) {
+  if (speed == 0) return "mode";
   if (s.imag() > 0.0) return "weave";
   return s.real() == lowest ? "castering" : "capsize";
 }
@@ -60,17 +68,16 @@ void bicycle(std::vector<Compared>& all) {
     const Scene<3> scene = p.scene().scene;
     const auto modes = normal_modes(scene, steady(scene));
     const Eigen::Vector4cd published = p.published().eigenvalues();
-    const std::string where = " at " + std::to_string(v) + " m/s";
+    const std::string where = "at " + std::to_string(v) + " m/s";
     for (const std::complex<double>& s : published) {
       if (s.imag() < 0.0) continue;
       const std::complex<double> found = nearest(modes, s);
-      const std::string name = (v == 0 ? "mode" : name_of(s, published.real().minCoeff())) + where;
+      const std::string name = name_of(s, published.real().minCoeff(), v) + ' ' + where;
       rows.add("growth of " + name, found.real(), s.real());
       if (s.imag() > 0.0) rows.add("omega of " + name, found.imag(), s.imag());
     }
     const bool stable = p.weave_speed < v && v < p.capsize_speed;
-    rows.add("stable (1) or not" + where, modes.stability() == Stability::stable ? 1.0 : 0.0,
-             stable ? 1.0 : 0.0, 0.0);
+    add_verdict(rows, where, modes, stable);
   }
 }
 
@@ -86,25 +93,51 @@ void rolling(std::vector<Compared>& all) {
     add_mode(rows, where, modes, straight.frequency_squared());
     if (times > 1.0) add_stable(rows, ' ' + where, modes);
   }
+  SpinningDisk leaning;
+  leaning.spin = leaning.steady_spin();
+  const Scene<3> scene = leaning.scene().scene;
+  const auto modes = normal_modes(scene, steady(scene));
+  add_mode(rows, "leaning", modes, leaning.frequency_squared());
+  add_stable(rows, " leaning", modes);
+}
+
+void precessing_top(std::vector<Compared>& all) {
+  Rows rows(all, "heavy-top");
+  HeavyTop top{.lean = 0.5, .spin = 300.0};
+  for (const bool fast : {false, true}) {
+    const std::string which = fast ? "fast " : "slow ";
+    const double p = top.steady_precessions()[fast ? 1 : 0];
+    top.precession = 1.03 * p;  // a guess
+    const auto built = top.scene();
+    const auto axis = [body = built.top](const auto& at) { return Vec<3>(body.axes(at).col(2)); };
+    const auto found = steady(built.scene, {.keep = {{"lean", [=](const auto& at) { return axis(at).z(); }},
+                                                     {"spin", [axis, body = built.top](const auto& at) {
+                                                        return angular_velocity(at, body).dot(axis(at));
+                                                      }}}});
+    top.precession = p;
+    const Vec<3> force = found.sample().multiplier(built.point);
+    const double across = (angular_velocity(found.sample(), built.top).cross(axis(found.sample()))).norm();
+    rows.add(which + "precession", across / std::sin(top.lean), p);
+    rows.add(which + "precession, force across", force.head<2>().norm(),
+             top.mass * top.arm * p * p * std::sin(top.lean));
+    const auto modes = normal_modes(built.scene, found);
+    add_mode(rows, "of nutation, " + which + "precession", modes, top.nutation() * top.nutation());
+    add_stable(rows, " in " + which + "precession", modes);
+  }
 }
 
 void sleeping_top(std::vector<Compared>& all) {
   Rows rows(all, "heavy-top-asleep");
-  const HeavyTop still{};
-  const double critical = std::sqrt(-still.discriminant()) / still.along, twice = 2.0 * still.across;
-  for (const double times : {0.5, 0.8}) {
-    const HeavyTop top{.spin = times * critical};
-    const auto built = top.scene();
-    const auto spin = [body = built.top](const auto& at) {
-      return angular_velocity(at, body).dot(body.axes(at).col(2));
-    };
-    const auto modes = normal_modes(built.scene, steady(built.scene, {.keep = {{"spin", spin}}}));
+  for (const double times : {0.8, 0.99, 1.01, 1.25, 5.0}) {
+    const HeavyTop top{.spin = times * HeavyTop::critical_spin()};
+    const Scene<3> scene = top.scene().scene;
+    const auto modes = normal_modes(scene, steady(scene));
     const std::string where = "at " + std::to_string(times).substr(0, 4) + " of the critical spin";
-    const double root = std::sqrt(std::abs(top.discriminant())) / twice,
-                 middle = top.along * top.spin / twice;
-    const auto s = nearest(modes, {root, middle});
-    rows.add("growth " + where, s.real(), root);
-    rows.add("omega " + where, s.imag(), middle);
+    const auto [plus, minus] = top.asleep();
+    if (times > 1.0) rows.add("slow omega " + where, nearest(modes, minus).imag(), minus.imag());
+    rows.add((times > 1.0 ? "fast omega " : "omega ") + where, nearest(modes, plus).imag(), plus.imag());
+    rows.add("growth " + where, largest_growth(modes), std::max(plus.real(), minus.real()));
+    add_verdict(rows, where, modes, times > 1.0);
   }
 }
 
@@ -156,11 +189,9 @@ void gyrostat(std::vector<Compared>& all) {
 }  // namespace
 
 std::vector<Appending> steady_motions() {
-  return {{"bicycle", bicycle},
-          {"spinning-disk", rolling},
-          {"heavy-top-asleep", sleeping_top},
-          {"rotor-in-bearings", rotor},
-          {"gyrostat", gyrostat}};
+  return {{"bicycle", bicycle},          {"spinning-disk", rolling},
+          {"heavy-top", precessing_top}, {"heavy-top-asleep", sleeping_top},
+          {"rotor-in-bearings", rotor},  {"gyrostat", gyrostat}};
 }
 
 }  // namespace dalembert::models

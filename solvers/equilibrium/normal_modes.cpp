@@ -232,8 +232,8 @@ void require_constant(const System& system, const Balance& balance, const FlatSa
   then.lambda.assign(at.lambda.begin(), at.lambda.end());
   balance.evaluate(then);
   // The rods of a body that spins carry its loads by turns.
-  if (frame.moves() && !balance.settled(then, 1e-8) && !balance.project(then))
-    then.lambda = balance.start().lambda;
+  const bool same_loads = system.rheonomic() || then.round_off;  // drives turn with the whole scene
+  if (frame.moves() && !same_loads && !balance.project(then)) then.lambda = balance.start().lambda;
   const auto found =
       response(system, linear_terms(system, frame, {at.time + later, q, v}, then.lambda), s, u);
   double difference = 0.0, size = 0.0;
@@ -290,7 +290,7 @@ Modes find_modes(const System& system, const FlatSample& at, const Turning<3>& t
   require_constant(system, balance, at, terms);
   Modes found;
   if (system.coordinates() <= most_dense) {
-    found = dense_modes(system, terms, motion ? motion->symmetric : Eigen::MatrixXd());
+    found = dense_modes(system, terms, motion);
   } else {
     found = lowest_modes(system, terms, options.lowest);
     if (!found.modes.empty() && found.modes.back().eigenvalue == 0.0)

@@ -115,7 +115,8 @@ extern template class NormalModes<3>;
 /// Verdict: unstable if an eigenvalue has a positive real part; stable if all but those of free motions
 /// decay, or vibrate with an energy u'.M u'/2 + u.(H + M A^2).u/2 > 0, which is then a Lyapunov function;
 /// otherwise undecided: an eigenvalue 0 that is no free motion (a bifurcation), or a vibration of negative
-/// energy that is stabilised by gyroscopic forces only.
+/// energy that is stabilised by gyroscopic forces only. About a steady motion an energy > 0 in any frame in
+/// which the state rests will do: of a top that sleeps, in one that turns about its axis.
 ///
 /// Up to 600 coordinates by dense matrices: all modes. Beyond that the `lowest`, by shift and invert with
 /// memory in proportion to the size of the scene: Lanczos' method if (1) is symmetric and undamped, else

@@ -19,7 +19,7 @@ Index size_of(std::span<const double> x) { return static_cast<Index>(x.size()); 
 UniformMotion motion_of(const Layout& layout, const Turning<3>& turning) {
   const auto n = static_cast<Index>(layout.particles.size() * static_cast<std::size_t>(layout.dimension) +
                                     layout.rotors.size());
-  UniformMotion motion{{n, n}, Eigen::VectorXd::Zero(n), turning.rate.norm(), {}};
+  UniformMotion motion{{n, n}, Eigen::VectorXd::Zero(n), turning.rate.norm()};
   if (motion.rate == 0.0) return motion;
   const Vec<3>& w = turning.rate;
   Eigen::Matrix3d cross;

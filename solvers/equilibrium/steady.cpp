@@ -113,6 +113,7 @@ class SteadySearch {
 
   /// One correction; its size, in units of the scene.
   double correct() {
+    constexpr double roundings = 10.0;  // of a sum of some dozens of terms
     const RotatingFrame frame(symmetries_.motion(y_));
     const MatrixXd X = symmetries_.fields(q_);
     const VectorXd v = X * y_;
@@ -126,14 +127,18 @@ class SteadySearch {
     const double fast = std::max(v.cwiseAbs().maxCoeff() / scales_.length, 1e-3 / scales_.time);
     for (Index i = 0; i < n; ++i) units[i] = scales_.unit(static_cast<std::size_t>(i));
     units.tail(p).setConstant(fast);
-    MatrixXd J = MatrixXd::Zero(n + m + kept, n + p), Jl = MatrixXd::Zero(J.rows(), m);
-    VectorXd r(J.rows());
+    MatrixXd J = MatrixXd::Zero(n + m + kept, n + p), J_terms = J, Jl = MatrixXd::Zero(J.rows(), m);
+    VectorXd r(J.rows()), terms_of_r = VectorXd::Zero(J.rows());
     // Forces, over the roots of the masses.
     r.head(n) = vector_of(e.force) - masses.cwiseProduct(frame.matrix() * v);
+    terms_of_r.head(n) = vector_of(e.force).cwiseAbs() + masses.cwiseProduct(frame.matrix() * v).cwiseAbs();
     const MatrixXd AX = frame.matrix() * X, Xv = symmetries_.images(v);
     J.block(0, n, n, p) = masses.asDiagonal() * (AX - Xv);
-    for (const auto& k : terms.stiffness)
+    J_terms.block(0, n, n, p) = masses.asDiagonal() * (AX.cwiseAbs() + Xv.cwiseAbs());
+    for (const auto& k : terms.stiffness) {
       J(static_cast<Index>(k.row()), static_cast<Index>(k.col())) -= k.value();
+      J_terms(static_cast<Index>(k.row()), static_cast<Index>(k.col())) += std::abs(k.value());
+    }
     for (const auto& c : terms.damping)
       J.block(static_cast<Index>(c.row()), n, 1, p) -= c.value() * X.row(static_cast<Index>(c.col()));
     for (Index a = 0; a < m; ++a) {
@@ -143,40 +148,56 @@ class SteadySearch {
           holonomic ? system_->law(row).residual(e.g[row], lambda_[static_cast<Index>(row)]) : e.psi[row];
       for (const std::size_t k : system_->row(row)) {
         const auto i = static_cast<Index>(system_->w_columns()[k]);
-        r[i] += terms.w[k] * lambda_[static_cast<Index>(row)];
+        const double Z = terms.w[k] * lambda_[static_cast<Index>(row)];
+        r[i] += Z;
+        terms_of_r[i] += std::abs(Z);
+        terms_of_r[n + a] += std::abs(terms.w[k] * (holonomic ? q_[i] : v[i]));
         Jl(i, a) += terms.w[k];
         J(n + a, i) += holonomic ? terms.w[k] : terms.e[k];
         if (!holonomic) J.block(n + a, n, 1, p) += terms.w[k] * X.row(i);
       }
       if (holonomic) Jl(n + a, a) = system_->law(row).compliance;
     }
-    for (Index k = 0; k < kept; ++k) add_kept(k, r, J, n + m + k);
+    for (Index k = 0; k < kept; ++k) add_kept(k, n + m + k, r, terms_of_r, J);
     for (Index i = 0; i < n; ++i) {
       const double root = 1.0 / std::sqrt(masses[i]);
       r[i] *= root;
+      terms_of_r[i] *= root;
       J.row(i) *= root;
+      J_terms.row(i) *= root;
       Jl.row(i) *= root;
     }
     J = (J * units.asDiagonal()).eval();
+    J_terms = J.cwiseAbs().cwiseMax(J_terms * units.asDiagonal());
+    rest_along(units.head(n).cwiseInverse().asDiagonal() *
+                   symmetries_.displacements(q_, symmetries_.commuting(q_, y_)),
+               J.topLeftCorner(n + m, n));
     for (Index i = n; i < J.rows(); ++i) {
       const double length = J.row(i).norm();
       if (length == 0.0) continue;
       J.row(i) /= length;
+      J_terms.row(i) /= length;
       Jl.row(i) /= length;
       r[i] /= length;
+      terms_of_r[i] /= length;
     }
     const MatrixXd free = m > 0 ? orthogonal_complement(Jl) : MatrixXd::Identity(J.rows(), J.rows());
     MatrixXd left = free.transpose() * J;
     VectorXd right = free.transpose() * r;
-    // Forces in units of the stiffness that they change by.
-    const double most = left.cwiseAbs().maxCoeff();
+    // What balances to round-off stays as it is: beside a fast spin that displaces what is soft.
+    const bool balances =
+        ((free * right).cwiseAbs().array() <= roundings * epsilon * terms_of_r.array()).all();
+    // Forces in units of the stiffness that they change by. What is round-off of its terms changes by
+    // nothing.
+    const VectorXd least =
+        roundings_of_a_sum * epsilon * free.cwiseAbs().transpose() * J_terms.rowwise().maxCoeff();
     for (Index i = 0; i < left.rows(); ++i) {
-      const double length = left.row(i).norm();
-      if (length <= roundings_of_a_sum * epsilon * most) continue;
-      left.row(i) /= length;
-      right[i] /= length;
+      const double length = left.row(i).norm(), unit = length > least[i] ? 1.0 / length : 0.0;
+      left.row(i) *= unit;
+      right[i] *= unit;
     }
-    const VectorXd x = dense::least_squares(left, -right, rank_threshold);
+    const VectorXd x = balances ? VectorXd(VectorXd::Zero(n + p))
+                                : VectorXd(dense::least_squares(left, -right, rank_threshold));
     const double size = x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.0;
     const double part = size > 0.2 ? 0.2 / size : 1.0;
     if (!x.allFinite()) return std::numeric_limits<double>::infinity();
@@ -190,14 +211,23 @@ class SteadySearch {
     return size;
   }
 
+  /// Equations do not change along symmetries that commute with the motion, exactly: what is left of their
+  /// derivative is round-off of fast spins.
+  static void rest_along(const MatrixXd& symmetric, Eigen::Ref<MatrixXd> J) {
+    const MatrixXd still = orthogonal_complement(orthogonal_complement(symmetric));
+    J -= J * still * still.transpose();
+  }
+
   /// A kept quantity's row, by central differences.
-  void add_kept(Index k, VectorXd& r, MatrixXd& J, Index row) const {
+  void add_kept(Index k, Index row, VectorXd& r, VectorXd& terms, MatrixXd& J) const {
     const FlatKept& one = (*keep_)[static_cast<std::size_t>(k)];
     const Index n = q_.size();
     const auto at = [&](const VectorXd& q, const VectorXd& y) {
       return value(one, q, symmetries_.fields(q) * y);
     };
-    r[row] = at(q_, y_) - kept_[static_cast<std::size_t>(k)];
+    const double now = at(q_, y_);
+    r[row] = now - kept_[static_cast<std::size_t>(k)];
+    terms[row] = std::abs(now) + std::abs(kept_[static_cast<std::size_t>(k)]);
     const double h = std::cbrt(epsilon);
     for (Index i = 0; i < J.cols(); ++i) {
       VectorXd q1 = q_, q2 = q_, y1 = y_, y2 = y_;
@@ -219,9 +249,12 @@ class SteadySearch {
     // What moves by less than round-off of a position in the scene's time rests.
     const bool rests = (symmetries_.fields(q_) * y_).cwiseAbs().maxCoeff() <=
                        roundings_of_a_sum * epsilon * scales_.length / scales_.time;
-    auto motion =
-        std::make_shared<UniformMotion>(symmetries_.motion(rests ? VectorXd(VectorXd::Zero(y_.size())) : y_));
-    motion->symmetric = symmetries_.fields(q_);
+    const VectorXd y = rests ? VectorXd(VectorXd::Zero(y_.size())) : y_;
+    auto motion = std::make_shared<UniformMotion>(symmetries_.motion(y));
+    const MatrixXd same = symmetries_.commuting(q_, y), X = symmetries_.displacements(q_, same);
+    motion->symmetric = X;
+    const MatrixXd fixing = same * dense::kernel(X, rank_threshold);
+    for (Index k = 0; k < fixing.cols(); ++k) motion->fixing.push_back(symmetries_.motion(fixing.col(k)).A);
     const Balance balance(problem_, flat(q_), time_, RotatingFrame(*motion));
     Balance::State s = balance.start();
     std::ranges::copy(flat(lambda_), s.lambda.begin());

@@ -84,7 +84,9 @@ MatrixXd spin_weights(const MatrixXd& arms, const Vector3d& axis) {
 Symmetries::Symmetries(const Problem& problem, const Start& start, double time) {
   add_parts(problem, start);
   add_bodies(problem.system(), start);
-  constexpr int samples = 3;  // generic states: each gives as many conditions as the scene is free
+  // Generic states: each gives as many conditions as the scene is free. The first at rest, where fast spins
+  // do not hide what is soft.
+  constexpr int samples = 4;
   const auto count = static_cast<Index>(generators_.size());
   MatrixXd all(0, count);
   for (int sample = 0; sample < samples; ++sample) {
@@ -219,7 +221,7 @@ MatrixXd Symmetries::conditions(const Problem& problem, const Start& start, doub
     lambda.assign(system.rows(), 0.0);
     for (std::size_t i = 0; i < q.size(); ++i) {
       q[i] += way * start.scales.unit(i) * noise(i, 0);
-      v[i] = start.v[i] + way * start.scales.unit(i) / T * noise(i, 1);
+      if (sample > 0) v[i] = start.v[i] + way * start.scales.unit(i) / T * noise(i, 1);
     }
     try {
       Manifold manifold(problem, start.rows, start.scales.lengths());
@@ -230,7 +232,7 @@ MatrixXd Symmetries::conditions(const Problem& problem, const Start& start, doub
       continue;
     }
   }
-  const UniformMotion rest{{n, n}, VectorXd::Zero(n), 0.0, {}};
+  const UniformMotion rest{{n, n}, VectorXd::Zero(n)};
   const LinearTerms terms = linear_terms(system, RotatingFrame(rest), {time, q, v}, lambda);
   std::vector<std::size_t> all(system.coordinates()), rows(system.rows());
   std::iota(all.begin(), all.end(), std::size_t{0});
@@ -263,7 +265,7 @@ MatrixXd Symmetries::conditions(const Problem& problem, const Start& start, doub
 UniformMotion Symmetries::motion(const VectorXd& y) const {
   const VectorXd c = basis_ * y;
   const Index n = generators_.empty() ? 0 : generators_.front().b.size();
-  UniformMotion sum{{n, n}, VectorXd::Zero(n), 0.0, {}};
+  UniformMotion sum{{n, n}, VectorXd::Zero(n)};
   for (Index k = 0; k < c.size(); ++k) {
     const Generator& g = generators_[static_cast<std::size_t>(k)];
     if (c[k] == 0.0) continue;
@@ -272,6 +274,34 @@ UniformMotion Symmetries::motion(const VectorXd& y) const {
     if (g.rotates) sum.rate = std::max(sum.rate, std::abs(c[k]));
   }
   return sum;
+}
+
+MatrixXd Symmetries::commuting(const VectorXd& q, const VectorXd& y) const {
+  const UniformMotion all = motion(y);
+  const VectorXd v = all.A * q + all.b, a = all.A * v;
+  const MatrixXd X = fields(q), Av = images(v), AX = all.A * X, AAv = all.A * Av, Aa = images(a);
+  MatrixXd value(2 * q.size(), size());
+  value << Av - AX, Aa - AAv;
+  MatrixXd terms(value.rows(), value.cols());
+  const RotatingFrame::Sparse size_of_A = all.A.cwiseAbs();
+  terms << Av.cwiseAbs() + size_of_A * X.cwiseAbs(), Aa.cwiseAbs() + size_of_A * Av.cwiseAbs();
+  // Rows of one kind have one unit: a row of round-off is measured by the largest.
+  for (const Index first : {Index{0}, q.size()}) {
+    const double most = q.size() > 0 && size() > 0 ? terms.middleRows(first, q.size()).maxCoeff() : 0.0;
+    if (most > 0.0) value.middleRows(first, q.size()) /= most;
+  }
+  return dense::kernel_within(value, rank_threshold);
+}
+
+MatrixXd Symmetries::displacements(const VectorXd& q, const MatrixXd& some) const {
+  const MatrixXd X = fields(q) * some, coefficients = basis_ * some;
+  VectorXd sizes = VectorXd::Zero(q.size());
+  for (const Generator& g : generators_)
+    sizes += RotatingFrame::Sparse(g.A.cwiseAbs()) * q.cwiseAbs() + g.b.cwiseAbs();
+  MatrixXd least = MatrixXd::Zero(X.rows(), X.cols());
+  for (Index k = 0; k < X.cols(); ++k)
+    least.col(k) = rank_threshold * coefficients.col(k).cwiseAbs().maxCoeff() * sizes;
+  return (X.array().abs() > least.array()).select(X, 0.0);
 }
 
 MatrixXd Symmetries::fields(const VectorXd& q) const {

@@ -30,6 +30,13 @@ class Symmetries {
   [[nodiscard]] Eigen::Index size() const { return basis_.cols(); }
   /// The motion of some coefficients.
   [[nodiscard]] UniformMotion motion(const Eigen::VectorXd& y) const;
+  /// Coefficients, as columns, of all that commute with the motion of y in the state q: what they carry a
+  /// state of that motion to is one of the same motion,
+  ///
+  ///   A_k v = A X_k(q),   A_k A v = A A_k v,   v = A q + b.                                          (3)
+  [[nodiscard]] Eigen::MatrixXd commuting(const Eigen::VectorXd& q, const Eigen::VectorXd& y) const;
+  /// X(q) of some coefficients, columns, with 0 for what is no more than `rank_threshold` of its terms.
+  [[nodiscard]] Eigen::MatrixXd displacements(const Eigen::VectorXd& q, const Eigen::MatrixXd& some) const;
   /// X_k(q) and A_k x of each, columns.
   [[nodiscard]] Eigen::MatrixXd fields(const Eigen::VectorXd& q) const;
   [[nodiscard]] Eigen::MatrixXd images(const Eigen::VectorXd& x) const;

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <vector>
+
 namespace dalembert {
 
 /// A motion along a symmetry of a scene, in its flat coordinates: every state of it is the first one, carried
@@ -16,8 +18,12 @@ namespace dalembert {
 struct UniformMotion {
   Eigen::SparseMatrix<double, Eigen::RowMajor> A;
   Eigen::VectorXd b;
-  double rate = 0.0;          ///< of the fastest part [rad / time]
-  Eigen::MatrixXd symmetric;  ///< columns: displacements by symmetries, along which nothing changes
+  double rate = 0.0;  ///< of the fastest part [rad / time]
+  /// Columns: displacements by symmetries that carry the motion's states into others of the same motion.
+  Eigen::MatrixXd symmetric{};
+  /// Symmetries u -> A u of the same kind that leave the state as it is: a top that sleeps turned about its
+  /// axis and back in itself.
+  std::vector<Eigen::SparseMatrix<double, Eigen::RowMajor>> fixing{};
 };
 
 }  // namespace dalembert

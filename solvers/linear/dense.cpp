@@ -72,4 +72,9 @@ MatrixXd kernel(const MatrixXd& A, double threshold) {
   return lu.kernel();
 }
 
+MatrixXd kernel_within(const MatrixXd& A, double round_off) {
+  const double most = A.size() > 0 ? A.cwiseAbs().maxCoeff() : 0.0;
+  return most > round_off ? kernel(A, round_off / most) : MatrixXd::Identity(A.cols(), A.cols());
+}
+
 }  // namespace dalembert::dense

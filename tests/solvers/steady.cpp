@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 
 namespace dalembert::steady_test {
 namespace {
@@ -58,23 +59,56 @@ TEST(Steady, PrecessionOfATopIsARootOfItsQuadratic) {
   }
 }
 
-TEST(Steady, TopAsleepVibratesOrFallsByItsSpin) {
-  for (const double n : {100.0, 150.0}) {
+/// The distance of the nearest eigenvalue.
+double off(const NormalModes<3>& modes, std::complex<double> s) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < modes.size(); ++k)
+    nearest = std::min(nearest, std::abs(modes.eigenvalue(k) - s));
+  return nearest;
+}
+
+TEST(Steady, TopAsleepIsStableAboveItsCriticalSpin) {
+  // K is known to round-off of n^2, of which K keeps nothing. Critical: n = sqrt(4 A m g l)/C = 121.3.
+  for (const double n : {20.0, 100.0, 120.0, 122.0, 150.0, 300.0, 3000.0}) {
     const models::HeavyTop top{.spin = n};
     const Scene<3> scene = top.scene().scene;
     const auto modes = normal_modes(scene, steady(scene));
-    const std::complex<double> root = std::sqrt(std::complex<double>(top.discriminant()));
-    for (const double sign : {-1.0, 1.0}) {
-      const std::complex<double> s =
-          std::complex<double>(0.0, 1.0) * (top.along * n + sign * root) / (2.0 * top.across);
-      double nearest = 1e9;
-      for (std::size_t k = 0; k < modes.size(); ++k)
-        nearest = std::min(nearest, std::abs(modes.eigenvalue(k) - s));
-      EXPECT_LT(nearest, 1e3 * rounding) << n;
-    }
-    // Critical: n = sqrt(4 A m g l)/C = 121. (Above it the verdict is not tested: zeros of the spin, a chain
-    // of two, are still known to a root of round-off only.)
-    if (n < 121.0) EXPECT_EQ(modes.stability(), Stability::unstable) << modes.describe();
+    ASSERT_EQ(modes.size(), 3U) << n;
+    EXPECT_TRUE(modes.is_free(0));
+    EXPECT_EQ(modes.eigenvalue(0), 0.0);
+    for (const auto s : top.asleep()) EXPECT_LT(off(modes, s), 1e2 * rounding) << n << ' ' << s;
+    EXPECT_EQ(modes.stability(), n < 121.3 ? Stability::unstable : Stability::stable) << modes.describe();
+  }
+}
+
+TEST(Steady, TopAsleepIsJudgedBesideAPendulum) {
+  for (const double n : {100.0, 150.0, 300.0}) {
+    const models::HeavyTop top{.spin = n};
+    Scene<3> scene = top.scene().scene;
+    const auto bob = scene.add_particle({.mass = 2.0, .position = {5.0, 0.0, -1.0}}, "bob");
+    scene.add(Distance{Fixed<3>{{5.0, 0.0, 0.0}}, bob, 1.0});
+    const auto modes = normal_modes(scene, steady(scene));
+    ASSERT_EQ(modes.size(), 5U);
+    for (const auto s : top.asleep()) EXPECT_LT(off(modes, s), 1e2 * rounding) << n;
+    EXPECT_LT(off(modes, {0.0, std::sqrt(g)}), rounding);
+    EXPECT_EQ(modes.stability(), n < 121.3 ? Stability::unstable : Stability::stable) << modes.describe();
+  }
+}
+
+TEST(Steady, PrecessionNutatesAboutItsLean) {
+  for (const double n : {150.0, 300.0}) {
+    models::HeavyTop top{.lean = 0.5, .spin = n};
+    top.precession = top.steady_precessions()[0];
+    const auto built = top.scene();
+    const RigidBody<3> body = built.top;
+    const auto at =
+        steady(built.scene, {.keep = {{"lean", [=](const auto& now) { return body.axes(now).col(2).z(); }}}});
+    const auto modes = normal_modes(built.scene, at);
+    ASSERT_EQ(modes.size(), 3U);
+    EXPECT_TRUE(modes.is_free(0));
+    EXPECT_TRUE(modes.is_free(1));
+    EXPECT_NEAR(modes.frequency(2), top.nutation(), 1e2 * rounding) << n;
+    EXPECT_EQ(modes.stability(), Stability::stable) << modes.describe();
   }
 }
 
