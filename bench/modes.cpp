@@ -1,5 +1,7 @@
 #include "dalembert/bench/modes.h"
 
+#include <dalembert/bench/bicycle_in_time.h>
+#include <dalembert/bench/stability_limits.h>
 #include <dalembert/dalembert.h>
 #include <dalembert/models/hanging_rods.h>
 #include <dalembert/models/small_motions.h>
@@ -11,7 +13,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <functional>
 #include <iostream>
 #include <limits>
 #include <sstream>
@@ -77,96 +78,6 @@ void damped_line(int rotors, std::vector<models::Compared>& all) {
   }
 }
 
-/// The first bifurcation, or flutter, of a branch.
-double first_of(const std::vector<BranchPoint<Equilibrium<2>>>& points) {
-  return points.empty() ? std::numeric_limits<double>::quiet_NaN() : points.front().parameter;
-}
-
-/// Two rotors of unit inertia under -K(p) x - x^3.
-Diagram<Equilibrium<2>> follow_linear(const std::function<Eigen::Matrix2d(double)>& stiffness,
-                                      const BranchOptions& options) {
-  return follow_branches<2>(
-      [&](double p) {
-        Scene<2> scene("linear");
-        const auto a = scene.add_rotor({.inertia = 1.0}), b = scene.add_rotor({.inertia = 1.0});
-        const Eigen::Matrix2d K = stiffness(p);
-        scene.add(force_law(points(a, b), [K](auto x, auto y, auto, auto) {
-          return std::make_tuple(vec(-K(0, 0) * x[0] - K(0, 1) * y[0] - x[0] * x[0] * x[0]),
-                                 vec(-K(1, 0) * x[0] - K(1, 1) * y[0] - y[0] * y[0] * y[0]));
-        }));
-        return Posed<2>{std::move(scene)};
-      },
-      options);
-}
-
-/// Ziegler's column: links and springs of 1, masses 2 and 1, a load along the last link; it flutters from
-/// 7/2 - sqrt(2) on.
-Diagram<Equilibrium<2>> ziegler() {
-  return follow_branches<2>(
-      [](double P) {
-        Scene<2> scene("Ziegler");
-        const auto knee = scene.add_particle({.mass = 2.0, .position = {0.0, 1.0}}),
-                   tip = scene.add_particle({.mass = 1.0, .position = {0.0, 2.0}});
-        scene.add(Distance{Fixed<2>{}, knee, 1.0});
-        scene.add(Distance{knee, tip, 1.0});
-        scene.add(potential(points(knee, tip), [](auto a, auto b) {
-          const auto first = atan2(a.x(), a.y()), second = atan2(b.x() - a.x(), b.y() - a.y());
-          return 0.5 * (first * first + (second - first) * (second - first));
-        }));
-        scene.add(force_law(points(knee, tip), [P](auto a, auto b, auto, auto) {
-          const auto along = ((b - a) / (b - a).norm()).eval();
-          return std::make_tuple((0.0 * along).eval(), (-P * along).eval());
-        }));
-        return Posed<2>{std::move(scene)};
-      },
-      {.from = 0.5, .to = 3.0});
-}
-
-/// A mass on two bars from (+-1, 0), at rest at (0, 3): it moves sideways at l^3 - l0 l^2 + l0 = 0, l < l0.
-Diagram<Equilibrium<2>> steep_truss(double to) {
-  return follow_branches<2>(
-      [](double load) {
-        Scene<2> scene("truss");
-        scene.add(UniformGravity<2>{{0.0, -load}});
-        const auto top = scene.add_particle({.mass = 1.0, .position = {0.0, 3.0}});
-        for (const double side : {1.0, -1.0})
-          scene.add(Spring{Fixed<2>{{side, 0.0}}, top, 100.0, std::sqrt(10.0)});
-        return Posed<2>{std::move(scene)};
-      },
-      {.from = 0.0, .to = to});
-}
-
-/// Where equilibria lose their stability. Points are located to some 1e-12.
-void branches(std::vector<models::Compared>& all) {
-  constexpr double located = 1e-11;
-  const auto follower = follow_linear(
-      [](double P) {
-        return Eigen::Matrix2d{{2.0 - P, P - 1.0}, {-1.0, 1.0}};
-      },
-      {.from = 0.5, .to = 3.0});
-  all.push_back(
-      {"follower-load", "bifurcations", static_cast<double>(follower.bifurcations.size()), 0.0, 0.0});
-  all.push_back({"follower-load", "flutter", first_of(follower.flutters), 1.0, located});
-  const auto sheared = follow_linear(
-      [](double p) {
-        return Eigen::Matrix2d{{2.0, 4.0}, {-2.0, p}};
-      },
-      {.from = -6.0, .to = 2.0, .step = 0.05});
-  all.push_back({"circulatory", "bifurcation", first_of(sheared.bifurcations), -4.0, located});
-  const auto exchange = follow_linear(
-      [](double p) {
-        return Eigen::Matrix2d{{p - 1.0, 0.0}, {0.0, 1.0 - p}};
-      },
-      {.from = 0.0, .to = 2.2});
-  all.push_back({"exchange", "bifurcation", first_of(exchange.bifurcations), 1.0, located});
-  const double l0 = std::sqrt(10.0);
-  double l = l0;
-  for (int i = 0; i < 60; ++i) l -= (l * l * l - l0 * l * l + l0) / (3.0 * l * l - 2.0 * l0 * l);
-  const double load = 200.0 * std::sqrt(l * l - 1.0) * (l0 / l - 1.0);
-  all.push_back({"truss", "bifurcation", first_of(steep_truss(1.3 * load).bifurcations), load, located});
-  all.push_back({"ziegler", "flutter", first_of(ziegler().flutters), 3.5 - std::sqrt(2.0), located});
-}
-
 /// Of every system that is stated twice the larger difference of both steppers' runs of 2 s.
 void two_formulations(const std::vector<models::TwoFormulations>& systems,
                       std::vector<models::Compared>& all) {
@@ -191,7 +102,8 @@ int modes(const ModesTable& options) {
   auto all = models::small_motions();
   long_chain(options.beads, all);
   damped_line(options.beads, all);
-  branches(all);
+  stability_limits(all);
+  bicycle_in_time(all);
   two_formulations(models::cross_checks(), all);
   two_formulations(models::equivalent_lagrangians(), all);
   Table table{.columns = {"model", "quantity", "value", "reference", "error", "limit"}, .rows = {}};

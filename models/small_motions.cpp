@@ -14,6 +14,7 @@
 #include <dalembert/models/plane_pendulum.h>
 #include <dalembert/models/sliding_pivot.h>
 #include <dalembert/models/sliding_rod.h>
+#include <dalembert/models/steady_motions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,20 +26,6 @@ namespace dalembert::models {
 namespace {
 
 constexpr double g = 9.81;
-
-/// What one model gives, row by row.
-class Rows {
- public:
-  Rows(std::vector<Compared>& all, std::string model) : all_(all), model_(std::move(model)) {}
-  /// Closed forms are compared to 1e-10; what multipliers known to 1e-11 tell to less (see tests/solvers).
-  void add(const std::string& quantity, double value, double reference, double limit = 1e-10) {
-    all_.push_back({model_, quantity, value, reference, limit});
-  }
-
- private:
-  std::vector<Compared>& all_;
-  std::string model_;
-};
 
 EquilibriumOptions<3> about_z(double rate) { return {.turning = {.rate = {0.0, 0.0, rate}}}; }
 
@@ -317,6 +304,7 @@ std::vector<SmallMotions> systems_with_small_motions() {
   add("chain", chain);
   add("bifurcations", bifurcations);
   add("kapitza", kapitza);
+  for (const auto& [name, append] : steady_motions()) add(name, append);
   return systems;
 }
 

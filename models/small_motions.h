@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dalembert::models {
@@ -18,6 +19,20 @@ struct Compared {
   [[nodiscard]] double error() const;
 };
 
+/// The rows of one model.
+class Rows {
+ public:
+  Rows(std::vector<Compared>& all, std::string model) : all_(all), model_(std::move(model)) {}
+  /// Closed forms are compared to 1e-10; what multipliers known to 1e-11 tell to less (see tests/solvers).
+  void add(const std::string& quantity, double value, double reference, double limit = 1e-10) {
+    all_.push_back({model_, quantity, value, reference, limit});
+  }
+
+ private:
+  std::vector<Compared>& all_;
+  std::string model_;
+};
+
 /// Equilibria, forces of constraint there and small motions of the systems of the notes that have them in
 /// closed form. Each system states its own in its header; those that are stated nowhere else:
 ///
@@ -28,6 +43,8 @@ struct Compared {
 ///   pendulum upright on a vibrating pivot: g/(l omega^2) = -a_0(2 A/l)/4, a_0 the characteristic value
 ///                      of Mathieu's equation, to 12 published digits
 ///   chain of N:        omega^2 = (g/l) x, x the zeros of the Laguerre polynomial L_N
+///
+/// And steady motions with parts that spin or roll, see steady_motions.h.
 [[nodiscard]] std::vector<Compared> small_motions();
 
 /// The same system by system.

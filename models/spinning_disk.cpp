@@ -94,6 +94,15 @@ double SpinningDisk::steady_spin() const {
   return (0.25 * precession * precession * s - gravity / radius) * c / (1.5 * precession * s);
 }
 
+double SpinningDisk::frequency_squared() const {
+  const double s = std::sin(lean), c = std::cos(lean), p = precession, w = spin;
+  constexpr double A = 0.25, C = 0.5;  // as above, in units of m r^2
+  const double by_lean = A * p * p * (c * c - s * s) - (C + 1.0) * p * w * c + gravity / radius * s,
+               by_precession = 2.0 * A * p * s * c - (C + 1.0) * w * s, by_spin = -(C + 1.0) * p * s;
+  return -(by_lean + by_precession * (C * w - 2.0 * A * p * c) / (A * s) + by_spin * p * s / (C + 1.0)) /
+         (A + 1.0);
+}
+
 Model<3> SpinningDisk::model() const {
   return {.name = "spinning-disk",
           .notes = "mln37",

@@ -39,8 +39,13 @@ struct SpinningDiskScene {
 ///   (A + m r^2) theta'' = A Omega^2 sin(theta) cos(theta) - (C + m r^2) Omega w3 sin(theta)
 ///                         - m g r cos(theta).
 ///
-/// Steady precession needs the last right-hand side to be 0; then the centre goes round a circle of radius
-/// r |w3/Omega|. Straight on, theta = pi/2, the disk is stable if its speed r w3 has v^2 > g r/3.
+/// Steady precession needs the last right-hand side, f, to be 0; then the centre goes round a circle of
+/// radius r |w3/Omega|. About it the first two give Omega and w3 by theta, and
+///
+///   -(A + m r^2) omega^2 = f_theta + f_Omega (C w3 - 2 A Omega cos(theta))/(A sin(theta))
+///                          + f_w3 m r^2 Omega sin(theta)/(C + m r^2).
+///
+/// Straight on, theta = pi/2 and Omega = 0, 5 omega^2 = 4 (3 w3^2 - g/r): stable if v^2 > g r/3.
 struct SpinningDisk {
   double mass = 1.0;
   double radius = 0.5;
@@ -53,7 +58,8 @@ struct SpinningDisk {
   [[nodiscard]] SpinningDiskScene scene() const;
   [[nodiscard]] std::vector<Observation<3>> reference(std::span<const double> times) const;
   [[nodiscard]] Observation<3> reference(double t) const;
-  [[nodiscard]] double steady_spin() const;  ///< w3 of the steady precession with this lean and Omega
+  [[nodiscard]] double steady_spin() const;        ///< w3 of the steady precession with this lean and Omega
+  [[nodiscard]] double frequency_squared() const;  ///< omega^2, if the precession is steady
   [[nodiscard]] Model<3> model() const;
 };
 

@@ -133,7 +133,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
   void go_to(double time) {
     while (reached() < time && !ended()) step_once(time);
     visit(std::min(time, reached()));
-    if (now.t >= reached()) finish();  // no sample lies before it any more
+    finish();
   }
 
   /// What changes where the run ends is carried out, though no step follows; not before all of the last step

@@ -1,5 +1,5 @@
-#include "whipple.h"
 #include <dalembert/dalembert.h>
+#include <dalembert/models/whipple_bicycle.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,8 +26,9 @@ TEST(SteadyBranches, OfTheBicycleTellItsWeaveAndItsCapsizeSpeed) {
   // As printed, table 2: eigenvalues are round-off of terms of order 1e3 and cross 0 with slopes of 0.2 and
   // more, whatever the step. On the way from rest two real ones become the weave.
   for (const double step : {0.1, 0.5}) {
-    const auto diagram = follow_steady<3>([](double v) { return PosedSteady<3>{whipple(v)}; },
-                                          {.from = 0.0, .to = 10.0, .step = step});
+    const auto diagram = follow_steady<3>(
+        [](double v) { return PosedSteady<3>{models::WhippleBicycle{.speed = v}.scene().scene}; },
+        {.from = 0.0, .to = 10.0, .step = step});
     EXPECT_THAT(parameters(diagram.flutters),
                 testing::ElementsAre(testing::DoubleNear(4.29238253634111, 1e-9)));
     EXPECT_THAT(parameters(diagram.bifurcations),
