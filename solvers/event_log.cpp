@@ -134,7 +134,9 @@ void EventLog::carry_out(Stepping& stepping) {
 }
 
 void EventLog::begin_anew(double t, Stepping& stepping) {
-  watch_.begin_anew(read(stepping, t), asked_for_, std::exchange(left_, {}));
+  const System& system = stepping.system();
+  const bool timed = system.rheonomic() || system.has_timed_forces();
+  watch_.begin_anew(read(stepping, t), asked_for_, timed, std::exchange(left_, {}));
   looked_to_ = t;
   change_.reset();
   if (!due_.empty()) {

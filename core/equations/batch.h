@@ -133,6 +133,7 @@ struct ForceShape {
   int rows;           ///< multipliers that each of them reads, those of one constraint; most read none
   bool dissipative;   ///< depends on velocities
   bool conservative;  ///< has an energy
+  bool timed;         ///< depends on time explicitly, or by a driven point
 };
 
 /// The multipliers of a scene, and at which row those that each element of a batch reads begin.

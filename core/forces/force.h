@@ -118,7 +118,7 @@ class PotentialBatch final : public ForceBatch {
     return std::make_unique<PotentialBatch>(*this);
   }
   [[nodiscard]] ForceShape shape() const override {
-    return {detail::kind_of<E>("Potential"), width, 0, false, true};
+    return {detail::kind_of<E>("Potential"), width, 0, false, true, takes_time || PointFacts<E>::driven};
   }
   [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
   [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }

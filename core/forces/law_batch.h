@@ -57,7 +57,12 @@ class LawBatch final : public ForceBatch {
     return std::make_unique<LawBatch>(*this);
   }
   [[nodiscard]] ForceShape shape() const override {
-    return {detail::kind_of<E>(rows > 0 ? "Friction" : "ForceLaw"), width, rows, true, false};
+    return {detail::kind_of<E>(rows > 0 ? "Friction" : "ForceLaw"),
+            width,
+            rows,
+            true,
+            false,
+            takes_time || PointFacts<E>::driven};
   }
   [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
   [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }

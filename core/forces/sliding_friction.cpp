@@ -45,7 +45,7 @@ std::unique_ptr<ForceBatch> SlidingFriction::clone() const {
 }
 
 ForceShape SlidingFriction::shape() const {
-  return {batch_->shape().kind, static_cast<int>(width_), 1, true, false};
+  return {batch_->shape().kind, static_cast<int>(width_), 1, true, false, batch_->shape().timed};
 }
 
 void SlidingFriction::evaluate(const Instant& at, Work& work) const try {

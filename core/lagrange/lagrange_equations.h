@@ -102,7 +102,7 @@ class LagrangeBatch final : public ForceBatch {
   [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override {
     return std::make_unique<LagrangeBatch>(*this);
   }
-  [[nodiscard]] ForceShape shape() const override { return {Element::kind, N, 0, true, true}; }
+  [[nodiscard]] ForceShape shape() const override { return {Element::kind, N, 0, true, true, true}; }
   [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
   [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
 

@@ -93,6 +93,10 @@ bool System::rheonomic() const {
   return std::ranges::any_of(parts_.constraints, [](const auto& batch) { return batch->shape().timed; });
 }
 
+bool System::has_timed_forces() const {
+  return std::ranges::any_of(parts_.forces, [](const auto& batch) { return batch->shape().timed; });
+}
+
 System::Evaluation System::evaluation() const {
   return {std::vector<double>(parts_.masses.size()), std::vector<double>(holonomic_rows()),
           std::vector<double>(rows()), std::vector<double>(w_columns_.size())};

@@ -66,6 +66,8 @@ class System {
   [[nodiscard]] std::size_t holonomic_rows() const { return holonomic_rows_; }
   /// Whether any constraint depends on time explicitly.
   [[nodiscard]] bool rheonomic() const;
+  /// Whether any force does.
+  [[nodiscard]] bool has_timed_forces() const;
   [[nodiscard]] const RowLaw& law(std::size_t row) const { return laws_[row]; }
   /// Whether any row is not rigid.
   [[nodiscard]] bool compliant() const { return compliant_rows() > 0; }

@@ -32,9 +32,11 @@ EventWatch::EventWatch(std::vector<FlatEvent> events, const Layout& layout)
   }
 }
 
-void EventWatch::begin_anew(const FlatSample& start, std::size_t positive, const std::vector<Found>& left) {
+void EventWatch::begin_anew(const FlatSample& start, std::size_t positive, bool timed,
+                            const std::vector<Found>& left) {
   from_ = start.time;
   asked_for_ = positive;
+  resolved_ = timed ? events_.size() : asked_for_;
   at_from_.clear();
   side_.clear();
   for (std::size_t e = 0; e < events_.size(); ++e) {
@@ -124,17 +126,17 @@ void EventWatch::find(std::size_t event, const Step& step, const std::vector<Int
   }
 }
 
-/// The interpolants that show the function of an event that was asked for. (Those of contacts are functions
-/// of the motion that its steps follow.)
+/// The interpolants that show a function.
 std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& step, Interpolant whole,
                                               const std::vector<double>& at_checks) {
-  if (event >= asked_for_) return {std::move(whole)};
+  if (event >= resolved_) return {std::move(whole)};
   const auto function = [&](double t) { return value(event, step.read(t)); };
   constexpr std::size_t most_parts = 4096;  // of a step: some hundred periods are still resolved
   auto parts = resolve(function, std::move(whole), at_checks, round_off() * largest_[event], most_parts);
   if (parts.empty()) {
-    throw StepFailure{"Event \"" + events_[event].name +
-                          "\" varies faster than it can be followed within a step of " +
+    const std::string& name = events_[event].name;
+    throw StepFailure{(event < asked_for_ ? "Event \"" + name + '"' : name) +
+                          " varies faster than it can be followed within a step of " +
                           std::to_string(step.to - from_) +
                           "; choose a max_step in the options that is shorter than what it does between two "
                           "zeros",
@@ -146,7 +148,7 @@ std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& ste
 std::vector<EventWatch::Found> EventWatch::look(const Step& step) {
   // Of a function that is faster than a step, few values may be alike by chance: a period, or a multiple.
   constexpr int least_degree = 6;
-  const int degree = asked_for_ > 0 ? std::max(step.degree, least_degree) : step.degree;
+  const int degree = resolved_ > 0 ? std::max(step.degree, least_degree) : step.degree;
   std::vector<Interpolant> whole(events_.size());
   std::vector<std::vector<double>> at_checks(events_.size());
   for (std::size_t e = 0; e < events_.size(); ++e) whole[e] = {{from_}, {at_from_[e]}};
@@ -158,9 +160,9 @@ std::vector<EventWatch::Found> EventWatch::look(const Step& step) {
       whole[e].values.push_back(value(e, at));
     }
   }
-  for (const double t : asked_for_ > 0 ? check_times(from_, step.to, degree) : std::vector<double>{}) {
+  for (const double t : resolved_ > 0 ? check_times(from_, step.to, degree) : std::vector<double>{}) {
     const FlatSample at = step.read(t);
-    for (std::size_t e = 0; e < asked_for_; ++e) at_checks[e].push_back(value(e, at));
+    for (std::size_t e = 0; e < resolved_; ++e) at_checks[e].push_back(value(e, at));
   }
   std::vector<Found> found;
   for (std::size_t e = 0; e < events_.size(); ++e) {

@@ -16,10 +16,11 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// Finds the events of a run, step by step: where the functions change their sign on the stepper's own
 /// polynomial, with recovered forces.
 ///
-/// Within a step a function is known at the nodes of a Chebyshev interpolant of the polynomial's degree or,
-/// of events that were asked for, of at least 6, and of as many as resolve it. Where one turns towards 0
-/// between two nodes of one sign, or first crosses the 0 that it began with, the function itself is
-/// evaluated: so two roots within a step are found as well.
+/// Within a step a function is known at the nodes of a Chebyshev interpolant of the polynomial's degree. What
+/// may be faster than the motion, which steps follow, is known at those of at least 6, and of as many as
+/// resolve it: events that were asked for, and all functions where forces or constraints depend on time.
+/// Where one turns towards 0 between two nodes of one sign, or first crosses the 0 that it began with, the
+/// function itself is evaluated: so two roots within a step are found as well.
 class EventWatch {
  public:
   /// The polynomial of the last step at a time inside it.
@@ -46,9 +47,10 @@ class EventWatch {
   [[nodiscard]] std::vector<Found> look(const Step& step);
   /// From here on steps are those of a run that begins, or begins anew, at a sample; the values of the
   /// functions there are no crossing, and as long as one is 0 to round-off of its largest value so far it has
-  /// no sign. Those from number `positive` on come from above 0 where they are 0. What was found in the last
-  /// step but is `left` behind the start still has the sign that it had before.
-  void begin_anew(const FlatSample& start, std::size_t positive, const std::vector<Found>& left);
+  /// no sign. Those from number `positive` on come from above 0 where they are 0. `timed` if something
+  /// depends on time. What was found in the last step but is `left` behind the start still has the sign that
+  /// it had before.
+  void begin_anew(const FlatSample& start, std::size_t positive, bool timed, const std::vector<Found>& left);
   [[nodiscard]] const FlatEvent& event(std::size_t number) const { return events_[number]; }
 
  private:
@@ -68,6 +70,7 @@ class EventWatch {
   std::vector<FlatEvent> events_;
   double from_ = 0.0;
   std::size_t asked_for_ = 0;    ///< the first of them; behind are those of contacts
+  std::size_t resolved_ = 0;     ///< the first of them may be faster than the motion
   std::vector<double> at_from_;  ///< of each event its value where the last step ended,
   std::vector<int> side_;        ///< its sign there or before, if it is 0; 0 if it never had one,
   std::vector<double> largest_;  ///< and the largest value so far
