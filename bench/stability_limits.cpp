@@ -1,6 +1,7 @@
 #include "dalembert/bench/stability_limits.h"
 
 #include <dalembert/dalembert.h>
+#include <dalembert/models/whipple_bicycle.h>
 
 #include <cmath>
 #include <functional>
@@ -13,7 +14,7 @@ namespace dalembert::bench {
 namespace {
 
 /// The first bifurcation, or flutter, of a branch.
-double first_of(const std::vector<BranchPoint<Equilibrium<2>>>& points) {
+double first_of(const auto& points) {
   return points.empty() ? std::numeric_limits<double>::quiet_NaN() : points.front().parameter;
 }
 
@@ -121,6 +122,18 @@ void becks_column(std::vector<models::Compared>& all) {
   all.push_back({"beck", "flutter", extrapolated, load, std::abs(extrapolated - q64) / load});
 }
 
+/// The bicycle's weave and capsize speeds, by one call.
+void bicycle_speeds(std::vector<models::Compared>& all) {
+  const auto diagram = follow_steady<3>(
+      [](double v) { return PosedSteady<3>{models::WhippleBicycle{.speed = v}.scene().scene}; },
+      {.from = 0.0, .to = 10.0, .step = 0.1});
+  constexpr double located = 1e-9;
+  all.push_back(
+      {"bicycle", "weave speed", first_of(diagram.flutters), models::WhippleBicycle::weave_speed, located});
+  all.push_back({"bicycle", "capsize speed", first_of(diagram.bifurcations),
+                 models::WhippleBicycle::capsize_speed, located});
+}
+
 }  // namespace
 
 void stability_limits(std::vector<models::Compared>& all) {
@@ -153,6 +166,7 @@ void stability_limits(std::vector<models::Compared>& all) {
   all.push_back({"truss", "bifurcation", first_of(steep_truss(1.3 * load).bifurcations), load, located});
   all.push_back({"ziegler", "flutter", first_of(ziegler().flutters), 3.5 - std::sqrt(2.0), located});
   becks_column(all);
+  bicycle_speeds(all);
 }
 
 }  // namespace dalembert::bench

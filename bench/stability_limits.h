@@ -6,7 +6,8 @@
 
 namespace dalembert::bench {
 
-/// Appends where equilibria lose their stability, by `follow_branches`, against closed forms.
+/// Appends where equilibria and steady motions lose their stability, by `follow_branches` and
+/// `follow_steady`, against closed forms and published values.
 void stability_limits(std::vector<models::Compared>& all);
 
 }  // namespace dalembert::bench

@@ -32,7 +32,8 @@ EventLog::EventLog(std::vector<FlatEvent> events, Transitions* transitions,
       transitions_(transitions),
       auditor_(auditor),
       seen_(stepping.system(), stepping.start(), changes(events)),
-      watch_(with_transitions(std::move(events), transitions), *stepping.system().layout()),
+      watch_(with_transitions(std::move(events), transitions), *stepping.system().layout(),
+             stepping.tolerance()),
       changes_(asked_for_),
       looked_to_(stepping.time()) {
   const double t = stepping.time();

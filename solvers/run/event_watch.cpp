@@ -21,8 +21,8 @@ bool wanted(Crossing crossing, int before) {
 
 }  // namespace
 
-EventWatch::EventWatch(std::vector<FlatEvent> events, const Layout& layout)
-    : events_(std::move(events)), largest_(events_.size()) {
+EventWatch::EventWatch(std::vector<FlatEvent> events, const Layout& layout, double tolerance)
+    : events_(std::move(events)), tolerance_(tolerance), largest_(events_.size()) {
   for (const FlatEvent& event : events_) {
     if (!event.function)
       throw InvalidArgument("Event \"" + event.name + "\" of scene \"" + layout.scene + "\" has no function");
@@ -126,13 +126,15 @@ void EventWatch::find(std::size_t event, const Step& step, const std::vector<Int
   }
 }
 
-/// The interpolants that show a function.
+/// The interpolants that show a function. Those of contacts are forces, gaps and slips, known to the
+/// tolerance.
 std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& step, Interpolant whole,
                                               const std::vector<double>& at_checks) {
   if (event >= resolved_) return {std::move(whole)};
   const auto function = [&](double t) { return value(event, step.read(t)); };
   constexpr std::size_t most_parts = 4096;  // of a step: some hundred periods are still resolved
-  auto parts = resolve(function, std::move(whole), at_checks, round_off() * largest_[event], most_parts);
+  const double known = event < asked_for_ ? round_off() : std::max(round_off(), tolerance_);
+  auto parts = resolve(function, std::move(whole), at_checks, known * largest_[event], most_parts);
   if (parts.empty()) {
     const std::string& name = events_[event].name;
     throw StepFailure{(event < asked_for_ ? "Event \"" + name + '"' : name) +

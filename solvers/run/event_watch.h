@@ -39,8 +39,8 @@ class EventWatch {
     bool wanted;
   };
 
-  /// Throws InvalidArgument for an event without function.
-  EventWatch(std::vector<FlatEvent> events, const Layout& layout);
+  /// Of a run at this tolerance. Throws InvalidArgument for an event without function.
+  EventWatch(std::vector<FlatEvent> events, const Layout& layout, double tolerance);
 
   /// Every crossing in a step, in the order of time; of contacts those that were asked for. Throws
   /// StepFailure if a function throws, gives no number or cannot be followed.
@@ -68,6 +68,7 @@ class EventWatch {
                                                   const std::vector<double>& at_checks);
 
   std::vector<FlatEvent> events_;
+  double tolerance_;
   double from_ = 0.0;
   std::size_t asked_for_ = 0;    ///< the first of them; behind are those of contacts
   std::size_t resolved_ = 0;     ///< the first of them may be faster than the motion
