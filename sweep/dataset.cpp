@@ -23,7 +23,7 @@ constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
 constexpr std::uint8_t not_done = 0, row_done = 1, row_failed = 2;
 
 /// A compound type as it is put together, without gaps.
-struct Record {
+struct RecordType {
   struct Field {
     std::string name;
     hid_t type;
@@ -51,7 +51,7 @@ struct Record {
 /// A table of HDF5 that is written from its first record to its last, through a buffer.
 class Table {
  public:
-  Table(hid_t file, std::string name, const Record& record, std::uint64_t count)
+  Table(hid_t file, std::string name, const RecordType& record, std::uint64_t count)
       : name_("table \"" + name + '"'),
         size_(record.size()),
         type_(record.type()),
@@ -237,8 +237,8 @@ class Writer {
   }
 
  private:
-  static Record runs_record(const Dataset& dataset) {
-    Record record;
+  static RecordType runs_record(const Dataset& dataset) {
+    RecordType record;
     record.add(dataset.parameters.columns());
     record.add(dataset.row.quantities);
     if (!dataset.row.series.empty()) {
@@ -248,8 +248,8 @@ class Writer {
     record.fields.push_back({"state", H5T_NATIVE_UINT8});
     return record;
   }
-  static Record series_record(const Dataset& dataset) {
-    Record record;
+  static RecordType series_record(const Dataset& dataset) {
+    RecordType record;
     record.add(dataset.row.series);
     return record;
   }

@@ -61,7 +61,7 @@ void require_finite(const auto& range) {
                           as_text(range.to) + "; both must be finite");
 }
 
-double on(const Axis& axis, std::size_t i) {
+double on(const GridAxis& axis, std::size_t i) {
   if (i == 0) return axis.from;
   if (i + 1 == axis.count) return axis.to;
   const double share = static_cast<double>(i) / static_cast<double>(axis.count - 1);
@@ -70,11 +70,11 @@ double on(const Axis& axis, std::size_t i) {
 
 }  // namespace
 
-Parameters grid(const std::vector<Axis>& axes) {
+Parameters grid(const std::vector<GridAxis>& axes) {
   std::vector<Quantity> columns;
   std::size_t rows = axes.empty() ? 0 : 1;
   std::string description = "grid:";
-  for (const Axis& axis : axes) {
+  for (const GridAxis& axis : axes) {
     require_finite(axis);
     columns.push_back({axis.name, axis.unit});
     if (axis.count != 0 && rows > (std::size_t{1} << 62) / axis.count)

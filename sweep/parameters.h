@@ -67,7 +67,7 @@ class Parameters {
 };
 
 /// Equally spaced values of one parameter, both ends among them; of a single one it is `from`.
-struct Axis {
+struct GridAxis {
   std::string name, unit;
   double from, to;
   std::size_t count;
@@ -84,7 +84,7 @@ struct Range {
 ///   grid({{"amplitude", "rad", 0.1, 3.0, 1000}, {"length", "m", 0.5, 2.0, 4}})
 ///
 /// This and the following throw InvalidArgument for bounds that are not finite, and as Parameters.
-[[nodiscard]] Parameters grid(const std::vector<Axis>& axes);
+[[nodiscard]] Parameters grid(const std::vector<GridAxis>& axes);
 
 /// Independent points (Monte Carlo): quantiles have the binomial error of order statistics.
 [[nodiscard]] Parameters monte_carlo(const std::vector<Range>& ranges, std::size_t rows, std::uint64_t seed);
