@@ -12,7 +12,7 @@ namespace {
 /// A chunk costs tens of microseconds to hand out, send and write (docs/sweeps.md): at 0.1 s a thousandth of
 /// its work. With many workers chunks are longer, so that the book is busy for at most some hundredths of the
 /// time. Both may be ten times as large or small with no effect but on what a kill loses.
-double chunk_seconds(int workers) { return std::max(0.1, 1e-3 * workers); }
+double seconds_of_chunks(int workers) { return std::max(0.1, 1e-3 * workers); }
 
 /// What one block may hold in memory.
 constexpr std::uint64_t most_rows = 1 << 16;
@@ -20,7 +20,7 @@ constexpr std::uint64_t most_rows = 1 << 16;
 }  // namespace
 
 Book::Book(Journal& journal, std::uint64_t rows, int workers)
-    : journal_(journal), workers_(workers), chunk_seconds_(chunk_seconds(workers)) {
+    : journal_(journal), workers_(workers), chunk_seconds_(seconds_of_chunks(workers)) {
   auto done = journal.entries();
   std::ranges::sort(done, {}, [](const auto& entry) { return entry.rows.first; });
   std::uint64_t at = 0;

@@ -50,6 +50,7 @@ class Book : public Source {
     std::uint64_t done = 0, failed = 0;
   };
   [[nodiscard]] Counts counts() const;
+  [[nodiscard]] double chunk_seconds() const { return chunk_seconds_; }
   [[nodiscard]] std::string error() const;  ///< empty if there is none
   [[nodiscard]] std::vector<Journal::Entry> entries() const;
 

@@ -5,6 +5,7 @@
 #include <mpi.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
@@ -19,8 +20,17 @@ namespace {
 /// Kinds of messages, as MPI's tags. Replies to worker w have the tag `first_reply + w`.
 enum Tag { asks = 1, enters, stops, leaves, first_reply };
 
-/// Waiting for MPI costs a processor; it sleeps instead, a small part of a chunk.
-constexpr auto nap = std::chrono::microseconds(200);
+using Seconds = std::chrono::duration<double>;
+
+/// Waiting inside MPI takes a whole processor, so waits are naps between looks. A worker that waits has
+/// nothing else to do: its naps are short.
+constexpr Seconds nap(1e-4);
+/// Processor time of a nap and a look (`dalembert-sweeps overhead`).
+constexpr double look = 1.2e-5;
+
+/// Between looks of the first process, whose processor works too. A nap of n costs it look / n of its time,
+/// and each of the others about n / chunk of theirs: least in sum where these are equal.
+Seconds nap_of_first(double chunk, int others) { return Seconds(std::sqrt(look * chunk / others)); }
 
 /// What a message of results begins with; the bytes of the block follow.
 struct Results {
@@ -134,12 +144,13 @@ class MpiRanks : public Ranks {
   }
 
   void serve(Book& book) override {
+    const Seconds pause = nap_of_first(book.chunk_seconds(), size_ - 1);
     std::vector<std::pair<int, int>> waiting;  // ranks and their workers
     for (int left = size_ - 1; left > 0;) {
       Mpi::Message message;
       if (!mpi_.receive(message)) {
         std::erase_if(waiting, [&](const auto& who) { return answer(book, who.first, who.second); });
-        std::this_thread::sleep_for(nap);
+        std::this_thread::sleep_for(pause);
         continue;
       }
       if (message.tag == asks) {

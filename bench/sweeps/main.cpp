@@ -48,7 +48,15 @@ int main(int argc, char** argv) try {
   one->add_option("--bad", bad, "Each so many pendulums fail; 0: none")->capture_default_str();
   one->add_option("--file", file, "The dataset")->required();
 
+  CLI::App* overhead = app.add_subcommand(
+      "overhead", "What rows and chunks cost beside the work: alone, and once more by mpirun");
+  overhead->add_option("--file", file, "A name for the files that it makes")->required();
+
   CLI11_PARSE(app, argc, argv);
+  if (overhead->parsed()) {
+    sweep_overhead(file);
+    return 0;
+  }
   if (one->parsed()) {
     sweep_case(example, rows, threads, bad, file);
     return 0;

@@ -20,6 +20,9 @@ struct SweepTable {
 /// Rows that are wrong.
 int sweep_table(const SweepTable& options);
 
+/// Prints what rows and chunks cost beside the work.
+void sweep_overhead(const std::string& file);
+
 /// One case, in a process of its own: prints run time [s], failed rows and peak memory [MiB].
 void sweep_case(const std::string& example, std::size_t rows, int threads, std::size_t bad,
                 const std::string& file);
