@@ -1,7 +1,6 @@
 #include "dalembert/sweep/header.h"
 
 #include <dalembert/core/errors.h>
-#include <dalembert/sweep/sweep.h>
 #include <dalembert/sweep/text.h>
 
 #include <cstdint>

@@ -1,16 +1,13 @@
 #pragma once
 
 #include <dalembert/solvers/base/hidden.h>
+#include <dalembert/sweep/sweep.h>
 
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace DALEMBERT_HIDDEN dalembert {
-
-struct RowFunction;
-class Parameters;
-struct SweepOptions;
 
 /// What a sweep is, by name: it stands in journal and dataset, and tells the sweep from others.
 using Header = std::vector<std::pair<std::string, std::string>>;
