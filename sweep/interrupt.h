@@ -6,7 +6,8 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// While it lives, SIGINT and SIGTERM are noted instead of ending the process, the first time they come.
+/// While it lives, SIGINT and SIGTERM are noted instead of ending the process; another that comes more
+/// than a second later ends it.
 /// Those that the program handles or ignores are left to it.
 class Interrupt {
  public:

@@ -78,7 +78,7 @@ struct RowFunction {
 /// see
 ///   that this program still gives the same numbers.
 /// - SIGINT or SIGTERM, where the program does not handle them itself: runs in progress are finished and
-///   written, and the summary says `interrupted`. A second one ends the program.
+///   written, and the summary says `interrupted`. Another, more than a second later, ends the program.
 ///
 /// Throws InvalidArgument for options that make no sense and columns of one name; Error for a file of another
 /// sweep, one that another process is writing, a full disk: all rows that were done are safe.
