@@ -12,7 +12,7 @@
 #include <csignal>
 #include <thread>
 
-namespace dalembert {
+namespace dalembert::killed_sweeps {
 namespace {
 
 using namespace testing_sweeps;
@@ -260,4 +260,4 @@ TEST(SweepOfManyProcesses, IsKilledAndGoesOnWithAnotherNumberOfThem) {
 #endif
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::killed_sweeps

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <map>
 
-namespace dalembert {
+namespace dalembert::sweep_parameters {
 namespace {
 
 using ::testing::ElementsAre;
@@ -145,4 +145,4 @@ TEST(Row, NamesAColumnThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::sweep_parameters

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace dalembert {
+namespace dalembert::sweeps {
 namespace {
 
 using namespace testing_sweeps;
@@ -258,4 +258,4 @@ TEST(SweepErrors, AFolderThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace dalembert
+}  // namespace dalembert::sweeps
