@@ -2,6 +2,7 @@
 
 #include <dalembert/core/errors.h>
 #include <dalembert/sweep/hdf5.h>
+#include <dalembert/sweep/hdf5_table.h>
 #include <dalembert/sweep/text.h>
 
 #include <fcntl.h>
@@ -19,93 +20,7 @@ namespace dalembert {
 namespace {
 
 constexpr int format = 1;  ///< of the dataset, as docs/sweeps.md has it
-constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
 constexpr std::uint8_t not_done = 0, row_done = 1, row_failed = 2;
-
-/// A compound type as it is put together, without gaps.
-struct RecordType {
-  struct Field {
-    std::string name;
-    hid_t type;
-  };
-  std::vector<Field> fields{};
-  void add(const std::vector<Quantity>& columns) {
-    for (const Quantity& column : columns) fields.push_back({column.name, H5T_NATIVE_DOUBLE});
-  }
-  [[nodiscard]] std::size_t size() const {
-    std::size_t sum = 0;
-    for (const Field& field : fields) sum += H5Tget_size(field.type);
-    return sum;
-  }
-  [[nodiscard]] hdf5::Handle type() const {
-    hdf5::Handle record = hdf5::compound(size());
-    std::size_t at = 0;
-    for (const Field& field : fields) {
-      hdf5::check(H5Tinsert(record, field.name.c_str(), at, field.type), "column \"" + field.name + '"');
-      at += H5Tget_size(field.type);
-    }
-    return record;
-  }
-};
-
-/// A table of HDF5 that is written from its first record to its last, through a buffer.
-class Table {
- public:
-  Table(hid_t file, std::string name, const RecordType& record, std::uint64_t count)
-      : name_("table \"" + name + '"'),
-        size_(record.size()),
-        type_(record.type()),
-        data_(make(file, name, count)) {}
-
-  template <class Number>
-  void put(const Number& number) {
-    put(reinterpret_cast<const char*>(&number), sizeof number);
-  }
-  void put(const std::vector<double>& numbers) {
-    put(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double));
-  }
-  /// Zeros behind it, to this size.
-  void put(const std::string& text, std::size_t size) {
-    put(text.data(), text.size());
-    buffer_.append(size - text.size(), '\0');
-  }
-  /// Everything is written; throws unless that is as much as was announced.
-  void close() {
-    flush();
-    data_.close(name_ + " cannot be written");
-  }
-
- private:
-  hdf5::Handle make(hid_t file, const std::string& name, hsize_t count) {
-    const std::string what = name_ + " cannot be made";
-    const hdf5::Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, what);
-    const hdf5::Handle how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
-    hdf5::check(H5Pset_obj_track_times(how, false), what);  // the same bytes at any time
-    hdf5::check(H5Pset_fill_time(how, H5D_FILL_TIME_NEVER), what);
-    return {H5Dcreate2(file, name.c_str(), type_, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose, what};
-  }
-  void put(const char* bytes, std::size_t count) {
-    buffer_.append(bytes, count);
-    if (buffer_.size() >= buffer_bytes && buffer_.size() % size_ == 0) flush();
-  }
-  void flush() {
-    const std::string what = name_ + " cannot be written";
-    const hsize_t count = buffer_.size() / size_;
-    if (count == 0) return;
-    const hdf5::Handle there(H5Dget_space(data_), H5Sclose, what);
-    const hdf5::Handle here(H5Screate_simple(1, &count, nullptr), H5Sclose, what);
-    hdf5::check(H5Sselect_hyperslab(there, H5S_SELECT_SET, &written_, nullptr, &count, nullptr), what);
-    hdf5::check(H5Dwrite(data_, type_, here, there, H5P_DEFAULT, buffer_.data()), what);
-    written_ += count;
-    buffer_.clear();
-  }
-
-  std::string name_;
-  std::size_t size_;
-  hdf5::Handle type_, data_;
-  std::string buffer_{};
-  hsize_t written_ = 0;
-};
 
 void put_attribute(hid_t file, const char* name, std::int64_t value) {
   const std::string what = std::string("attribute ") + name + " cannot be written";
@@ -171,7 +86,7 @@ void put_columns(hid_t file, const Parameters& parameters, const RowFunction& ro
   const std::size_t name = widest(&Line::name), unit = widest(&Line::unit), role = widest(&Line::role);
   const hdf5::Handle names = hdf5::text_type(name), units = hdf5::text_type(unit),
                      roles = hdf5::text_type(role);
-  Table table(file, "columns", {{{"name", names}, {"unit", units}, {"role", roles}}}, lines.size());
+  hdf5::Table table(file, "columns", {{{"name", names}, {"unit", units}, {"role", roles}}}, lines.size());
   for (const Line& line : lines) {
     table.put(line.name, name);
     table.put(line.unit, unit);
@@ -233,12 +148,12 @@ class Writer {
     while (row_ < dataset_.parameters.rows()) put_run(not_done, nothing_, 0);
     runs_.close();
     failures_.close();
-    for (Table& series : series_) series.close();
+    for (hdf5::Table& series : series_) series.close();
   }
 
  private:
-  static RecordType runs_record(const Dataset& dataset) {
-    RecordType record;
+  static hdf5::RecordType runs_record(const Dataset& dataset) {
+    hdf5::RecordType record;
     record.add(dataset.parameters.columns());
     record.add(dataset.row.quantities);
     if (!dataset.row.series.empty()) {
@@ -248,8 +163,8 @@ class Writer {
     record.fields.push_back({"state", H5T_NATIVE_UINT8});
     return record;
   }
-  static RecordType series_record(const Dataset& dataset) {
-    RecordType record;
+  static hdf5::RecordType series_record(const Dataset& dataset) {
+    hdf5::RecordType record;
     record.add(dataset.row.series);
     return record;
   }
@@ -261,7 +176,7 @@ class Writer {
       failures_.put(row.message, message_);
       return put_run(row_failed, nothing_, 0);
     }
-    for (Table& series : series_) series.put(row.series);
+    for (hdf5::Table& series : series_) series.put(row.series);
     put_run(row_done, row.values, widths_.series > 0 ? row.series.size() / widths_.series : 0);
   }
   void put_run(std::uint8_t state, const std::vector<double>& values, std::uint64_t samples) {
@@ -281,8 +196,8 @@ class Writer {
   Widths widths_;
   std::size_t message_;
   hdf5::Handle message_type_;
-  Table runs_, failures_;
-  std::vector<Table> series_{};  ///< one, or none
+  hdf5::Table runs_, failures_;
+  std::vector<hdf5::Table> series_{};  ///< one, or none
   std::vector<double> parameters_, nothing_;
   std::uint64_t row_ = 0, samples_ = 0;
 };

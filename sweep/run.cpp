@@ -2,6 +2,7 @@
 #include <dalembert/sweep/book.h>
 #include <dalembert/sweep/columns.h>
 #include <dalembert/sweep/dataset.h>
+#include <dalembert/sweep/housekeeper.h>
 #include <dalembert/sweep/interrupt.h>
 #include <dalembert/sweep/progress.h>
 #include <dalembert/sweep/ranks.h>
@@ -10,10 +11,7 @@
 #include <dalembert/sweep/worker.h>
 
 #include <chrono>
-#include <condition_variable>
-#include <cstring>
 #include <filesystem>
-#include <mutex>
 #include <optional>
 #include <sstream>
 #include <thread>
@@ -63,62 +61,6 @@ void require_same_numbers(const Journal& journal, const Work& work) {
       "remove the dataset and its journal");
 }
 
-/// Shows progress, and publishes what is done now and then, beside the work.
-class Housekeeper {
- public:
-  Housekeeper(Book& book, Progress& progress, const Journal& journal, std::function<void()> publish)
-      : book_(book), progress_(progress), journal_(journal), publish_(std::move(publish)), thread_([this] {
-          keep();
-        }) {}
-  Housekeeper(const Housekeeper&) = delete;
-  Housekeeper& operator=(const Housekeeper&) = delete;
-  ~Housekeeper() {
-    {
-      const std::scoped_lock lock(mutex_);
-      over_ = true;
-    }
-    changed_.notify_all();
-  }
-
- private:
-  void keep() {
-    std::unique_lock lock(mutex_);
-    for (auto synced = Clock::now();
-         !changed_.wait_for(lock, std::chrono::milliseconds(200), [&] { return over_; });) {
-      progress_.show(book_.counts());
-      try {
-        if (seconds_since(synced) >= 1.0) {
-          journal_.sync();
-          synced = Clock::now();
-        }
-        publish_if_due();
-      } catch (const std::exception& error) {
-        book_.stop(error.what());
-      }
-    }
-  }
-  /// Once a minute, but in at most a fiftieth of the time.
-  void publish_if_due() {
-    const double since = seconds_since(published_);
-    if (since < 60.0 || since < 50.0 * cost_) return;
-    const auto start = Clock::now();
-    publish_();
-    cost_ = seconds_since(start);
-    published_ = Clock::now();
-  }
-
-  Book& book_;
-  Progress& progress_;
-  const Journal& journal_;
-  std::function<void()> publish_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  bool over_ = false;
-  Clock::time_point published_ = Clock::now();
-  double cost_ = 0.0;
-  std::jthread thread_;  ///< last: it uses all the others
-};
-
 /// What the first process tells the others, and they throw or return.
 struct Verdict {
   std::string error{};
@@ -151,6 +93,7 @@ class Office {
     summary_.rows = parameters.rows();
     if (is_complete()) return;
     journal_.emplace(journal_of(options.file), header, parameters.rows());
+    if (was_completed_meanwhile()) return;
     require_same_numbers(*journal_, work);
     book_.emplace(*journal_, parameters.rows(), workers);
     summary_.found = book_->counts().done;
@@ -197,6 +140,16 @@ class Office {
     if (journal) return false;  // killed between the last two steps
     summary_.done = summary_.found = found.done;
     summary_.failed = found.failed;
+    return true;
+  }
+  /// By another process, between the look at the dataset and the journal that was then made anew.
+  bool was_completed_meanwhile() {
+    if (!journal_->entries().empty() || !std::filesystem::exists(options_.file)) return false;
+    const Published found = published(options_.file);
+    if (!found.complete) return false;
+    summary_.done = summary_.found = found.done;
+    summary_.failed = found.failed;
+    journal_->remove();
     return true;
   }
   void publish_now() { publish(options_.file, {header_, parameters_, row_, *journal_, book_->entries()}); }

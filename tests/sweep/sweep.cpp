@@ -191,6 +191,27 @@ TEST(Sweep, AgainItDoesNothing) {
   EXPECT_EQ(bytes_of(folder / "a.h5"), before);
 }
 
+TEST(Sweep, EndsItsLogWithWhatIsDone) {
+  const Folder folder;
+  SweepOptions options = quietly(folder / "a.h5");
+  options.log = folder / "a.log";
+  sweep(angles(8), make_swing(4), observe_swing(), options);
+  EXPECT_THAT(bytes_of(folder / "a.log"), HasSubstr("8 of 8 rows (100 %)"));
+  EXPECT_THAT(bytes_of(folder / "a.log"), HasSubstr("2 failed"));
+  options.file = folder / "b.h5";
+  options.log = "/nowhere/a.log";
+  EXPECT_THAT(error_of([&] { sweep(angles(8), make_swing(), observe_swing(), options); }),
+              HasSubstr("the log /nowhere/a.log cannot be written"));
+}
+
+TEST(SweepErrors, AColumnThatIsNotThere) {
+  const Folder folder;
+  sweep(angles(2), make_swing(), observe_swing(), quietly(folder / "a.h5"));
+  EXPECT_THAT(error_of([&] { (void)read_column(folder / "a.h5", "force"); }),
+              HasSubstr("no column \"force\""));
+  EXPECT_THAT(error_of([&] { (void)read_column(folder / "b.h5", "force"); }), HasSubstr("cannot be read"));
+}
+
 TEST(SweepErrors, NothingToSweepOrToObserve) {
   const Folder folder;
   EXPECT_THAT(error_of([] { angles(0); }), HasSubstr("empty table"));
