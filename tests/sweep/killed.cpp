@@ -223,7 +223,8 @@ TEST(SweepOfManyProcesses, GivesTheSameFileByteByByte) {
   ASSERT_EQ(Process(victim(folder / "whole.h5", rows, 1, bad)).wait(), 0);
   for (const int processes : {2, 3}) {
     const std::string file = folder / std::to_string(processes);
-    ASSERT_EQ(Process(by_mpi(processes, victim(file, rows, processes - 1, bad))).wait(), 0)
+    const int threads = processes == 2 ? 1 : 0;  // as many as there may be
+    ASSERT_EQ(Process(by_mpi(processes, victim(file, rows, threads, bad))).wait(), 0)
         << bytes_of(file + ".errors");
     EXPECT_EQ(bytes_of(file), bytes_of(folder / "whole.h5"));
   }
