@@ -4,6 +4,7 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -144,15 +145,19 @@ class MpiRanks : public Ranks {
   }
 
   void serve(Book& book) override {
-    const Seconds pause = nap_of_first(book.chunk_seconds(), size_ - 1);
+    // What follows a message, the next question of a worker above all, comes soon.
+    const Seconds longest = nap_of_first(book.chunk_seconds(), size_ - 1);
+    Seconds pause = nap;
     std::vector<std::pair<int, int>> waiting;  // ranks and their workers
     for (int left = size_ - 1; left > 0;) {
       Mpi::Message message;
       if (!mpi_.receive(message)) {
         std::erase_if(waiting, [&](const auto& who) { return answer(book, who.first, who.second); });
         std::this_thread::sleep_for(pause);
+        pause = std::min(2.0 * pause, std::max(nap, longest));
         continue;
       }
+      pause = nap;
       if (message.tag == asks) {
         const auto question = message.as<Question>();
         if (question.interrupted) Interrupt::note();
