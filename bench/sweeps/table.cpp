@@ -95,14 +95,15 @@ class Report {
   explicit Report(const SweepTable& options) : options_(options) {}
 
   void add(const Case& one, const Measured& measured, double efficiency, bool identical) {
-    const auto rows = static_cast<double>(
-        one.example == "flips" || one.example == "kapitza" ? one.rows * one.rows : one.rows);
-    table_.rows.push_back({one.name, shortest(rows), std::to_string(std::max(1, one.threads)),
+    const std::size_t runs =
+        one.example == "flips" || one.example == "kapitza" ? one.rows * one.rows : one.rows;
+    const std::string rows = std::to_string(runs);
+    table_.rows.push_back({one.name, rows, std::to_string(std::max(1, one.threads)),
                            std::to_string(std::max(1, one.ranks)), scientific(measured.seconds),
-                           scientific(rows / measured.seconds),
+                           scientific(static_cast<double>(runs) / measured.seconds),
                            std::isnan(efficiency) ? "" : scientific(efficiency, 3),
                            std::to_string(measured.failed), identical ? "yes" : "no"});
-    memory_.rows.push_back({one.name, shortest(rows), scientific(measured.memory, 3)});
+    memory_.rows.push_back({one.name, rows, scientific(measured.memory, 3)});
     if (identical) return;
     ++wrong_;
     std::cerr << "sweep: " << one.name << " gave another dataset\n";
