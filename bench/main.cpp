@@ -248,23 +248,23 @@ void add_diagrams(CLI::App& app) {
   command->callback([options] { bench::diagrams(*options); });
 }
 
-/// A program of its own, beside this one: its solvers are built with constants that vary.
-void add_sensitivity(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "sensitivity",
-      "Errors and work of many scenes with each of the solvers' constants halved and doubled; options as "
-      "`dalembert-sensitivity --help` says");
+/// A program of its own, beside this one.
+void add_program(CLI::App& app, const std::string& name, const std::string& program,
+                 const std::string& what) {
+  CLI::App* command = app.add_subcommand(name, what + "; options as `" + program + " --help` says");
   command->prefix_command();
-  command->callback([command] {
+  command->callback([command, program] {
     const auto directory = std::filesystem::read_symlink("/proc/self/exe").parent_path();
     std::vector<std::string> words = command->remaining();
-    words.insert(words.begin(), directory / "dalembert-sensitivity");
+    words.insert(words.begin(), directory / program);
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     execv(arguments[0], arguments.data());
-    throw Error(words[0] +
-                " could not be run; build the target dalembert-benchmarks, without a shared library");
+    throw Error(
+        words[0] +
+        " could not be run; build the target dalembert-benchmarks, without a shared library and where "
+        "what it needs is found");
   });
 }
 
@@ -287,7 +287,11 @@ int main(int argc, char** argv) try {
   add_certificates(app, failures);
   add_requests(app, failures);
   add_diagrams(app);
-  add_sensitivity(app);
+  // Its solvers are built with constants that vary; and what needs HDF5, oneTBB and MPI.
+  add_program(app, "sensitivity", "dalembert-sensitivity",
+              "Errors and work of many scenes with each of the solvers' constants halved and doubled");
+  add_program(app, "sweep", "dalembert-sweeps",
+              "Many scenes over threads and ranks: efficiency, memory, kills, and three pictures' tables");
   CLI11_PARSE(app, argc, argv);
   return failures == 0 ? 0 : 1;
 } catch (const std::exception& error) {

@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 case ${1:-} in
   '')
     work_precision=(--repeat 5) scaling=(--size 10,100,1000,10000) ratios=() leave_out=() extremes=() audit=()
-    sensitivity=() chart=() certificates=() requests=(--repeat 5)
+    sensitivity=() chart=() certificates=() requests=(--repeat 5) sweep=(--flips 1000 --kapitza 150)
     kernels=(--benchmark_min_time=0.2) products=20000
     ;;
   --quick)
@@ -14,7 +14,7 @@ case ${1:-} in
     ratios=(--scene plane-pendulum,cone,double-pendulum --repeat 1) leave_out=(--size 10 --repeat 1)
     extremes=(--quick) audit=(--quick --repeat 1 --tolerance 1e-6)
     sensitivity=(--constant safety,share_of_a_step) chart=(--points 20)
-    certificates=(--quick) requests=(--model plane-pendulum,cone,andrews --repeat 1)
+    certificates=(--quick) requests=(--model plane-pendulum,cone,andrews --repeat 1) sweep=(--quick)
     kernels=(--benchmark_min_time=0.001) products=20
     ;;
   *) echo "usage: bench/run.sh [--quick]" >&2 && exit 2 ;;
@@ -56,6 +56,13 @@ $bench sensitivity --csv $report/sensitivity.csv "${sensitivity[@]}"
 $bench own-constraint --csv $report/own-constraint.csv
 
 $bench leave-out --stepper ida,erk --csv $report/leave-out.csv "${leave_out[@]}" || status=$?
+
+sweeps_bench=build/release/bench/dalembert-sweeps # not built where HDF5 is not found
+if [[ -x $sweeps_bench ]]; then
+  $bench sweep --csv $report/sweep.csv --directory $report "${sweep[@]}" || status=$?
+  side() { echo "sqrt($(stat -c %s "$1") / 4)"; } # of a square of 4-byte numbers
+  gnuplot -e "report='$report'; flips=$(side $report/flips.bin); kapitza=$(side $report/kapitza-runs.bin)" bench/sweeps.gp
+fi
 
 kernels_bench=build/release/bench/dalembert-kernels # not built where Google Benchmark is not found
 [[ ! -x $kernels_bench ]] ||

@@ -10,6 +10,11 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/dalembertConfigVersion.cm
 install(FILES ${PROJECT_BINARY_DIR}/dalembertConfig.cmake ${PROJECT_BINARY_DIR}/dalembertConfigVersion.cmake
               cmake/FindKLU.cmake cmake/FindLDL.cmake
         DESTINATION ${package_dir})
+# Sweeps are a component with engines of its own: who does not ask for it needs none of them.
+if(TARGET dalembert-sweep)
+  install(TARGETS dalembert-sweep EXPORT dalembert-sweep FILE_SET HEADERS)
+  install(EXPORT dalembert-sweep NAMESPACE dalembert:: FILE dalembertSweepTargets.cmake DESTINATION ${package_dir})
+endif()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # For pkg-config; found from its own place, so that the package may be moved. What a static library is linked
