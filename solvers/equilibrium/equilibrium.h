@@ -4,7 +4,6 @@
 #include <dalembert/core/results/trajectory.h>
 #include <dalembert/core/scene/scene.h>
 #include <dalembert/solvers/equilibrium/turning.h>
-#include <dalembert/solvers/equilibrium/uniform_motion.h>
 
 #include <memory>
 #include <span>
@@ -12,6 +11,8 @@
 #include <utility>
 
 namespace dalembert {
+
+struct UniformMotion;  // see uniform_motion.h
 
 /// No equilibrium was found from a guess, or what was found does not persist; what() names the particle that
 /// would move, or the constraint that does.
