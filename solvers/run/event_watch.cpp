@@ -148,8 +148,6 @@ std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& ste
 }
 
 std::vector<EventWatch::Found> EventWatch::look(const Step& step) {
-  // Of a function that is faster than a step, few values may be alike by chance: a period, or a multiple.
-  constexpr int least_degree = 6;
   const int degree = resolved_ > 0 ? std::max(step.degree, least_degree) : step.degree;
   std::vector<Interpolant> whole(events_.size());
   std::vector<std::vector<double>> at_checks(events_.size());

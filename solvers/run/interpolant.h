@@ -21,6 +21,10 @@ struct Interpolant {
   [[nodiscard]] int degree() const { return static_cast<int>(nodes.size()) - 1; }
 };
 
+/// Of the interpolant of a function that may be faster than a step's polynomial: of fewer values, some are
+/// alike by chance at a period, or a multiple.
+inline constexpr int least_degree = 6;
+
 /// A function of time that fails by itself where it cannot be evaluated.
 using FunctionOfTime = std::function<double(double)>;
 

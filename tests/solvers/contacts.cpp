@@ -66,6 +66,50 @@ TEST_P(Contacts, OfAVibratingTableThrowItsLoadOff) {
               A * std::sin(w * leaves) + A * w * std::cos(w * leaves) * 0.05 - g * 0.05 * 0.05 / 2.0, bound);
 }
 
+// A mass drifts, without gravity, onto a floor that vibrates: it meets the first crest that reaches it, found
+// by a scan.
+TEST_P(Contacts, OfAFloorFasterThanTheMotionStrikeAtItsFirstCrest) {
+  constexpr double A = 0.01;
+  for (const double w : {10.0, 100.0, 300.0}) {
+    Scene<2> scene("drifts");
+    const auto mass = scene.add_particle({.mass = 1.0, .position = {0.0, 0.05}, .velocity = {1.0, -0.05}});
+    scene.add(unilateral(holonomic(points(mass), [=](auto t, auto r) { return r.y() - A * sin(w * t); }),
+                         {.restitution = 1.0}));
+    double t = 0.0;
+    while (0.05 - 0.05 * t > A * std::sin(w * t)) t += 1e-6;
+    for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+      auto o = options(1.5);
+      o.tolerance = tolerance;
+      const auto run = simulate(scene, o);
+      ASSERT_GE(run.events().size(), 1U) << w << ' ' << tolerance;
+      EXPECT_NEAR(run.events()[0].time, t, 1e-6) << w << ' ' << tolerance;
+    }
+  }
+}
+
+// What rests is pulled up by 12 t sin w t: it leaves the floor where that first is its weight of 10 N.
+TEST_P(Contacts, OfWhatRestsOpenWhereAFastForceFirstLiftsIt) {
+  for (const double w : {30.0, 100.0, 300.0}) {
+    Scene<2> scene("pulled");
+    scene.add(UniformGravity<2>{{0.0, -10.0}});
+    const auto block = scene.add_particle({.mass = 1.0});
+    scene.add(unilateral(OnCurve{block, Plane<2>{}}), "floor");
+    scene.add(force_law(points(block), [=](auto t, auto r, auto) {
+      const auto none = 0.0 * r.x();
+      return vec(none, 12.0 * t * sin(w * t) + none);
+    }));
+    double t = 0.0;
+    while (12.0 * t * std::sin(w * t) < 10.0) t += 1e-6;
+    for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+      auto o = options(1.2);
+      o.tolerance = tolerance;
+      const auto run = simulate(scene, o);
+      ASSERT_GE(run.events().size(), 1U) << w << ' ' << tolerance;
+      EXPECT_NEAR(run.events()[0].time, t, 1e-5) << w << ' ' << tolerance;
+    }
+  }
+}
+
 TEST_P(Contacts, ThatShareALoadInManyWaysPushAll) {
   // A table on four legs, the load over one of them: the least squares would pull at the leg across.
   Scene<3> scene("table");

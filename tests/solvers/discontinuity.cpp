@@ -135,6 +135,27 @@ TEST_P(Kinks, FromOneInstantOnIsWhenTheForceActs) {
   }
 }
 
+// 4 N while sin(w t + 0.1) > 0: many times within the steps of a motion that is a parabola.
+TEST_P(Kinks, OfASquareWaveAreAllMet) {
+  for (const double w : {10.0, 20.0, 30.0, 60.0}) {
+    OnALine line(0.0, 1.0);
+    line.push([w](const auto& t, const auto&, const auto&) { return sin(w * t + 0.1) > 0.0 ? 4.0 : 0.0; },
+              "wave");
+    double x = 0.0, v = 1.0, t = 0.0;
+    for (int k = 0; t < 2.0; ++k) {
+      const double next = std::min(2.0, ((k + 1) * std::numbers::pi - 0.1) / w), h = next - t,
+                   a = k % 2 == 0 ? 4.0 : 0.0;
+      x += v * h + 0.5 * a * h * h;
+      v += a * h;
+      t = next;
+    }
+    const auto run = simulate(line.scene, explicitly(2.0, GetParam()));
+    EXPECT_NEAR(run.position(line.body, 10).x(), x,
+                3.0 * static_cast<double>(run.statistics().steps) * GetParam())
+        << w;
+  }
+}
+
 // a = -+3 on the two sides of x + v = 0: v - 3 < 0 and v + 3 > 0 there, so both lead to it.
 TEST(Chatter, IsSaidByTheNameOfTheForce) {
   OnALine line(0.0, 1.0);
