@@ -33,6 +33,7 @@ std::size_t undecided(const Branches::Sides& sides) {
 
 Comparisons::Comparisons(const Problem& problem, const Start& start, double t, double tolerance)
     : system_(&problem.system()),
+      timed_(system_->rheonomic() || system_->has_timed_forces()),
       scales_(start.scales),
       tolerance_(tolerance),
       e_(system_->evaluation()),
@@ -144,8 +145,9 @@ double Comparisons::margin_at(std::size_t k, double t) {
   return hear_step(t, false) ? margin(margins_[k]) : unknown;
 }
 
-/// Those that may have left their side in the step: all that vary. (How often they do within a step of a
-/// motion that does not, three of their values do not tell.)
+/// Those that may have left their side in the step: they are behind at its end or middle, or closer to where
+/// they switch than they bend within the step. Where something depends on time, which steps do not follow,
+/// all that vary: three of their values do not tell how often they do.
 const std::vector<std::size_t>& Comparisons::suspects(double to) {
   if (at_from_.empty()) find_margins(from_, false, at_from_);
   find_margins(0.5 * (from_ + to), true, at_middle_);
@@ -153,9 +155,10 @@ const std::vector<std::size_t>& Comparisons::suspects(double to) {
   suspects_.clear();
   for (std::size_t k = 0; k < margins_.size(); ++k) {
     const double least = std::min({at_from_[k], at_middle_[k], at_end_[k]});
+    const double bend = std::abs(at_from_[k] - 2.0 * at_middle_[k] + at_end_[k]);
     if (std::ranges::find(passed_, margins_[k]) != passed_.end()) continue;
     const bool constant = at_from_[k] == at_middle_[k] && at_middle_[k] == at_end_[k] && least > 0.0;
-    if (!constant) suspects_.push_back(k);
+    if (!constant && (timed_ || !(least > bend))) suspects_.push_back(k);
   }
   return suspects_;
 }
@@ -163,7 +166,7 @@ const std::vector<std::size_t>& Comparisons::suspects(double to) {
 /// Where a margin first becomes negative, if it does, among its interpolants.
 std::optional<Comparisons::Bracket> Comparisons::first_root(std::size_t k, double to) {
   const FunctionOfTime f = [&](double t) { return margin_at(k, t); };
-  const int degree = std::max(stepper_->degree(), least_degree);
+  const int degree = timed_ ? std::max(stepper_->degree(), least_degree) : stepper_->degree();
   Interpolant whole = interpolate(f, from_, to, degree);
   if (!std::ranges::all_of(whole.values, [](double x) { return std::isfinite(x); })) return std::nullopt;
   if (whole.values.front() < 0.0) return Bracket{from_, 1.0, from_, whole.values.front(), k};
