@@ -126,14 +126,14 @@ void EventWatch::find(std::size_t event, const Step& step, const std::vector<Int
   }
 }
 
-/// The interpolants that show a function. Those of contacts are forces, gaps and slips, known to the
+/// The interpolants that show a function. Those of contacts are known as forces are, to the root of the
 /// tolerance.
 std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& step, Interpolant whole,
                                               const std::vector<double>& at_checks) {
   if (event >= resolved_) return {std::move(whole)};
   const auto function = [&](double t) { return value(event, step.read(t)); };
   constexpr std::size_t most_parts = 4096;  // of a step: some hundred periods are still resolved
-  const double known = event < asked_for_ ? round_off() : std::max(round_off(), tolerance_);
+  const double known = event < asked_for_ ? round_off() : std::sqrt(tolerance_);
   auto parts = resolve(function, std::move(whole), at_checks, known * largest_[event], most_parts);
   if (parts.empty()) {
     const std::string& name = events_[event].name;
