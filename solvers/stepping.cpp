@@ -230,7 +230,7 @@ void Stepping::watch_sliding() {
 void Stepping::begin_changed(double t, std::shared_ptr<const System> system, std::span<const double> q,
                              std::span<const double> v) {
   const Problem problem(std::move(system));
-  Start next = dalembert::begin_changed(problem, start_with_scales(), t, q, v, options_.tolerance);
+  Start next = dalembert::begin_changed(problem, start(), t, q, v, options_.tolerance);
   if (next.scales.of_path) {  // a first step, see IdaStepper, must advance the time
     const double rounding = constants.roundings_of_path * epsilon * std::abs(t);
     Way way = next.scales.way;
@@ -246,7 +246,7 @@ void Stepping::restart(Stepper by) {
   const double t = time();
   State now = interpolate(t);
   put_on_springs(t, now);
-  go_on_with(stretch(problem(), begin_anew(problem(), start_with_scales(), t, now.q, now.v), t, by));
+  go_on_with(stretch(problem(), begin_anew(problem(), start(), t, now.q, now.v), t, by));
 }
 
 /// The explicit stepper takes -g/C for the forces of compliant constraints: g must be as exact.
@@ -266,7 +266,8 @@ void Stepping::pass_switch() {
   if (switches_at_once_ > constants.most_at_one_time) comparisons.chatters(one);
   comparisons.require_no_corner(one);
   State now = interpolate(t);
-  const Start before = start_with_scales();
+  Start before = start();
+  before.scales = scales();
   const Branches holding(nullptr, &one.behind);
   put_on_springs(t, now);
   Start next = begin_anew(problem(), before, t, now.q, now.v);
@@ -286,13 +287,6 @@ Scales Stepping::scales() const {
             .speed = so_far.length / so_far.time,
             .rate = now.way.rate,
             .step = now.way.step});
-  return now;
-}
-
-/// What goes on from here, in whatever way, is the same scene.
-Start Stepping::start_with_scales() const {
-  Start now = start();
-  now.scales = scales();
   return now;
 }
 

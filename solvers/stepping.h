@@ -106,7 +106,6 @@ class Stepping {
   void find_switch(double from);
   void put_on_springs(double t, State& now);
   void pass_switch();
-  [[nodiscard]] Start start_with_scales() const;
   void stepper_at(double t, std::span<double> q, std::span<double> v);
 
   Options options_;

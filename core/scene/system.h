@@ -172,6 +172,8 @@ class System {
   [[nodiscard]] std::string force_of_friction(std::size_t entry) const;
   /// The label of what a batch holds, by its number in Branches.
   [[nodiscard]] std::string label_of_batch(std::size_t batch) const;
+  /// Whether its equations depend on time explicitly.
+  [[nodiscard]] bool timed_batch(std::size_t batch) const;
   /// The label of the constraint that row r belongs to.
   [[nodiscard]] std::string row_label(std::size_t row) const;
   /// The hint of the constraint of this row when it is singular; may be empty.

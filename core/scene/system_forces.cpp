@@ -128,6 +128,12 @@ std::string System::label_of_batch(std::size_t batch) const {
   return of(*parts_.forces[batch], [&](std::size_t i) { return force_label(batch, i); });
 }
 
+bool System::timed_batch(std::size_t batch) const {
+  const std::size_t constraints = parts_.constraints.size();
+  return batch < constraints ? parts_.constraints[batch]->shape().timed
+                             : parts_.forces[batch - constraints]->shape().timed;
+}
+
 std::string System::force_of(std::size_t entry, Places ForcePlaces::*array) const {
   const auto owns = [&](const ForcePlaces& own) {
     return entry < (own.*array).front() + (own.*array).size();

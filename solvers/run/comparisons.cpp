@@ -33,7 +33,6 @@ std::size_t undecided(const Branches::Sides& sides) {
 
 Comparisons::Comparisons(const Problem& problem, const Start& start, double t, double tolerance)
     : system_(&problem.system()),
-      timed_(system_->rheonomic() || system_->has_timed_forces()),
       scales_(start.scales),
       tolerance_(tolerance),
       e_(system_->evaluation()),
@@ -158,7 +157,7 @@ const std::vector<std::size_t>& Comparisons::suspects(double to) {
     const double bend = std::abs(at_from_[k] - 2.0 * at_middle_[k] + at_end_[k]);
     if (std::ranges::find(passed_, margins_[k]) != passed_.end()) continue;
     const bool constant = at_from_[k] == at_middle_[k] && at_middle_[k] == at_end_[k] && least > 0.0;
-    if (!constant && (timed_ || !(least > bend))) suspects_.push_back(k);
+    if (!constant && (system_->timed_batch(margins_[k].batch) || !(least > bend))) suspects_.push_back(k);
   }
   return suspects_;
 }
@@ -166,7 +165,8 @@ const std::vector<std::size_t>& Comparisons::suspects(double to) {
 /// Where a margin first becomes negative, if it does, among its interpolants.
 std::optional<Comparisons::Bracket> Comparisons::first_root(std::size_t k, double to) {
   const FunctionOfTime f = [&](double t) { return margin_at(k, t); };
-  const int degree = timed_ ? std::max(stepper_->degree(), least_degree) : stepper_->degree();
+  const bool timed = system_->timed_batch(margins_[k].batch);
+  const int degree = timed ? std::max(stepper_->degree(), least_degree) : stepper_->degree();
   Interpolant whole = interpolate(f, from_, to, degree);
   if (!std::ranges::all_of(whole.values, [](double x) { return std::isfinite(x); })) return std::nullopt;
   if (whole.values.front() < 0.0) return Bracket{from_, 1.0, from_, whole.values.front(), k};

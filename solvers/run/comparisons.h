@@ -93,7 +93,6 @@ class Comparisons {
   [[nodiscard]] std::optional<std::string> would_stick(const Switch& one);
 
   const System* system_;
-  bool timed_;  // it depends on time
   Scales scales_;
   double tolerance_;
   std::optional<Manifold> manifold_;  // if anything is compared, or read from it

@@ -235,30 +235,5 @@ TEST(AccuracyOfErk, OfASpringThrownPastItsPivotIsWhatIsClaimedAtAnyTolerance) {
   }
 }
 
-/// A block that a force of 1 N pulls along a floor, which is ice from 0.5 s and sand from 1.5 s on, where it
-/// comes to rest at 2 s: at 0.75 m. Its length and speed are those of its path, whatever it goes on from.
-TEST_P(Accuracy, OfAPathOutlivesRestsAndChanges) {
-  for (const double tolerance : {1e-6, 1e-8}) {
-    Scene<2> scene("block");
-    scene.add(UniformGravity<2>{{1.0, -10.0}});
-    const auto block = scene.add_particle({.mass = 1.0});
-    const auto floor = scene.add(OnCurve{block, Plane<2>{}});
-    const auto rough = scene.add(coulomb(floor, Slip{block, Plane<2>{}}, 0.2));
-    const auto becomes = [&](double at, double mu) {
-      return Event<2>{.name = "becomes",
-                      .function = [at](const auto& now) { return now.time() - at; },
-                      .change =
-                          [=](Scene<2>& s) {
-                            s.replace(rough, coulomb(floor, Slip{block, Plane<2>{}}, mu));
-                          }};
-    };
-    const auto run =
-        simulate(scene, {.t_end = 3.0, .samples = 7, .tolerance = tolerance, .stepper = GetParam()},
-                 {becomes(0.5, 0.0), becomes(1.5, 0.3)});
-    EXPECT_NEAR(run.position(block, 6).x(), 0.75, run.statistics().accuracy);
-    EXPECT_LT(run.statistics().accuracy, 10.0 * tolerance);
-  }
-}
-
 }  // namespace
 }  // namespace dalembert::accuracy_test
