@@ -32,6 +32,7 @@ Book::Book(Journal& journal, std::uint64_t rows, int workers)
     counts_.failed += entry.failures;
   }
   if (at < rows) to_do_.push_back({at, rows - at});
+  std::ranges::reverse(to_do_);
   left_ = rows - counts_.done;
 }
 
@@ -45,11 +46,11 @@ Book::State Book::take(Chunk& chunk) {
     count = std::min({meant < static_cast<double>(most_rows) ? static_cast<std::uint64_t>(meant) : most_rows,
                       2 * timed_, left_ / (2 * static_cast<std::uint64_t>(workers_))});
   }
-  Interval& first = to_do_.front();
+  Interval& first = to_do_.back();
   count = std::clamp<std::uint64_t>(count, 1, first.count);
   chunk = {{first.first, count}, chunk_seconds_};
   first = {first.first + count, first.count - count};
-  if (first.count == 0) to_do_.pop_front();
+  if (first.count == 0) to_do_.pop_back();
   left_ -= count;
   ++in_work_;
   return State::work;
@@ -73,8 +74,8 @@ void Book::enter(const Chunk& chunk, const Block& block) {
   const std::scoped_lock lock(mutex_);
   --in_work_;
   if (block.rows.count < chunk.rows.count) {
-    to_do_.push_front({block.rows.end(), chunk.rows.end() - block.rows.end()});
-    left_ += to_do_.front().count;
+    to_do_.push_back({block.rows.end(), chunk.rows.end() - block.rows.end()});
+    left_ += to_do_.back().count;
   }
   if (block.rows.count > 0 && error_.empty()) {
     try {

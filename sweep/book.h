@@ -4,7 +4,6 @@
 #include <dalembert/sweep/journal.h>
 
 #include <condition_variable>
-#include <deque>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -62,9 +61,9 @@ class Book : public Source {
   Journal& journal_;
   int workers_;
   double chunk_seconds_;
-  std::deque<Interval> to_do_;
-  std::uint64_t left_ = 0;     ///< rows in to_do_
-  std::uint64_t in_work_ = 0;  ///< chunks
+  std::vector<Interval> to_do_;  ///< the next one last
+  std::uint64_t left_ = 0;       ///< rows in to_do_
+  std::uint64_t in_work_ = 0;    ///< chunks
   Counts counts_;
   std::uint64_t timed_ = 0;  ///< rows whose time is in seconds_
   double seconds_ = 0.0;
