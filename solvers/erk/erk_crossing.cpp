@@ -183,7 +183,8 @@ bool ErkStepper::State::pass(double singular) {
 
 /// Between the nodes on both sides of a singular position.
 void ErkStepper::State::read_crossing(double t, std::span<double> q, std::span<double> v) const {
-  passage.go(passage_nodes, t, from.q, std::span(from.va).first(n), q, v, {});
+  passage.read(passage_nodes, t, {from.t, from.q, std::span(from.va).first(n)},
+               {to.t, to.q, std::span(to.va).first(n)}, q, v);
 }
 
 }  // namespace dalembert

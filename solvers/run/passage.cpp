@@ -12,29 +12,55 @@ namespace {
 
 /// So many steps are kept: what error control adds to the halvings of the distance.
 constexpr std::size_t kept = 16;
-/// For one node the Lagrange polynomial L of the others' times, scaled to x = s/length: L(1), and its
-/// integrals int L and int (1 - x) L from 0 to 1.
+/// Of two more than the nodes, where an end is known too: c[k] of x^k.
+using Polynomial = std::array<double, Passage::most_nodes + 2>;
+
+/// p(x), and its integrals int p and int (x - s) p(s) ds from 0 to x.
 struct Weights {
   double value = 0.0, once = 0.0, twice = 0.0;
+
+  void add(double factor, const Weights& other) {
+    value += factor * other.value;
+    once += factor * other.once;
+    twice += factor * other.twice;
+  }
 };
 
-Weights weights(std::span<const double> x, std::size_t node) {
-  std::array<double, Passage::most_nodes> c{1.0};  // coefficients of L
-  std::size_t degree = 0;
-  for (std::size_t j = 0; j < x.size(); ++j) {
-    if (j == node) continue;
-    const double scale = 1.0 / (x[node] - x[j]);
-    for (std::size_t k = ++degree; k > 0; --k) c[k] = scale * (c[k - 1] - x[j] * c[k]);
-    c[0] *= -scale * x[j];
-  }
+Weights integrals(const Polynomial& c, double x) {
   Weights w;
-  for (std::size_t k = 0; k <= degree; ++k) {
-    const auto power = static_cast<double>(k);
-    w.value += c[k];
-    w.once += c[k] / (power + 1.0);
-    w.twice += c[k] / ((power + 1.0) * (power + 2.0));
+  double power = 1.0;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const auto degree = static_cast<double>(k);
+    w.value += c[k] * power;
+    w.once += c[k] * power * x / (degree + 1.0);
+    w.twice += c[k] * power * x * x / ((degree + 1.0) * (degree + 2.0));
+    power *= x;
   }
   return w;
+}
+
+/// c (x - root)
+void multiply(Polynomial& c, double root) {
+  for (std::size_t k = c.size() - 1; k > 0; --k) c[k] = c[k - 1] - root * c[k];
+  c[0] *= -root;
+}
+
+/// The product of all x - x_j but that of `left_out`.
+Polynomial nodal(std::span<const double> x, std::size_t left_out) {
+  Polynomial c{1.0};
+  for (std::size_t j = 0; j < x.size(); ++j)
+    if (j != left_out) multiply(c, x[j]);
+  return c;
+}
+
+/// Lagrange's: 1 at one node, 0 at the others.
+Polynomial lagrange(std::span<const double> x, std::size_t node) {
+  Polynomial c = nodal(x, node);
+  double scale = 1.0;
+  for (std::size_t j = 0; j < x.size(); ++j)
+    if (j != node) scale *= x[node] - x[j];
+  for (double& c_k : c) c_k /= scale;
+  return c;
 }
 
 }  // namespace
@@ -71,24 +97,57 @@ void Passage::keep_chosen() {
   known_ = count_;
 }
 
+std::array<double, Passage::most_nodes> Passage::places(double length) const {
+  std::array<double, most_nodes> x{};
+  for (std::size_t j = 0; j < count_; ++j) x[j] = (past_[chosen_[j]].t - past_[chosen_[0]].t) / length;
+  return x;
+}
+
 void Passage::go(std::size_t nodes, double t, std::span<const double> q0, std::span<const double> v0,
                  std::span<double> q, std::span<double> v, std::span<double> a) const {
   const double length = t - past_[chosen_[0]].t;
-  std::array<double, most_nodes> x{};
+  const auto all = places(length);
+  const auto x = std::span(all).first(nodes);
   std::array<Weights, most_nodes> w;
-  for (std::size_t j = 0; j < nodes; ++j) x[j] = (past_[chosen_[j]].t - past_[chosen_[0]].t) / length;
-  for (std::size_t j = 0; j < nodes; ++j) w[j] = weights(std::span(x).first(nodes), j);
+  for (std::size_t j = 0; j < nodes; ++j) w[j] = integrals(lagrange(x, j), 1.0);
   for (std::size_t i = 0; i < q.size(); ++i) {
     Weights sum;
-    for (std::size_t j = 0; j < nodes; ++j) {
-      const double a_j = past_[chosen_[j]].a[i];
-      sum.value += w[j].value * a_j;
-      sum.once += w[j].once * a_j;
-      sum.twice += w[j].twice * a_j;
-    }
+    for (std::size_t j = 0; j < nodes; ++j) sum.add(past_[chosen_[j]].a[i], w[j]);
     q[i] = q0[i] + length * (v0[i] + length * sum.twice);
     v[i] = v0[i] + length * sum.once;
     if (!a.empty()) a[i] = sum.value;
+  }
+}
+
+void Passage::read(std::size_t nodes, double t, const End& from, const End& to, std::span<double> q,
+                   std::span<double> v) const {
+  const double length = to.t - from.t, at = (t - from.t) / length;
+  const auto all = places(length);
+  const auto x = std::span(all).first(nodes);
+  std::array<Weights, most_nodes> here, there;
+  for (std::size_t j = 0; j < nodes; ++j) {
+    const Polynomial c = lagrange(x, j);
+    here[j] = integrals(c, at);
+    there[j] = integrals(c, 1.0);
+  }
+  Polynomial c = nodal(x, nodes);
+  const Weights alpha_here = integrals(c, at), alpha = integrals(c, 1.0);
+  multiply(c, 0.0);
+  const Weights beta_here = integrals(c, at), beta = integrals(c, 1.0);
+  const double determinant = alpha.once * beta.twice - beta.once * alpha.twice;
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    Weights sum, end;
+    for (std::size_t j = 0; j < nodes; ++j) {
+      const double a_j = past_[chosen_[j]].a[i];
+      sum.add(a_j, here[j]);
+      end.add(a_j, there[j]);
+    }
+    const double v_off = (to.v[i] - from.v[i]) / length - end.once,
+                 q_off = ((to.q[i] - from.q[i]) / length - from.v[i]) / length - end.twice;
+    sum.add((v_off * beta.twice - q_off * beta.once) / determinant, alpha_here);
+    sum.add((q_off * alpha.once - v_off * alpha.twice) / determinant, beta_here);
+    q[i] = from.q[i] + length * (at * from.v[i] + length * sum.twice);
+    v[i] = from.v[i] + length * sum.once;
   }
 }
 
