@@ -58,6 +58,7 @@
 #include <dalembert/solvers/certificate/work_precision.h>
 /// the same from a Lagrangian, and each checked by the other;
 #include <dalembert/solvers/lagrange/cross_check.h>
+#include <dalembert/solvers/lagrange/lagrangian_certificate.h>
 /// and where it stays, and how it moves about there.
 #include <dalembert/solvers/equilibrium/branches.h>
 #include <dalembert/solvers/equilibrium/equilibrium.h>
