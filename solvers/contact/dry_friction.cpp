@@ -86,7 +86,9 @@ VectorXd DryFriction::part(const Rough& rough, std::span<const double> all) {
 
 VectorXd DryFriction::slip(const Rough& rough) const { return part(rough, u_); }
 
-double DryFriction::no_slip() const { return round_off() * scales_.speed(); }
+/// Round-off, but what reverses its friction so late errs by at most twice this speed: a part of a step's
+/// tolerance.
+double DryFriction::no_slip() const { return std::min(round_off(), 0.1 * tolerance_) * scales_.speed(); }
 
 /// Round-off of the forces on what it acts on, of inertia and its own; never 0.
 double DryFriction::round_off_of(const Rough& rough, std::span<const double> a,

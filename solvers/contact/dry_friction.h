@@ -98,7 +98,7 @@ class DryFriction {
   [[nodiscard]] static Eigen::VectorXd part(const Rough& rough, std::span<const double> all);
   void find_slip(const Instant& at) const;
   [[nodiscard]] Eigen::VectorXd slip(const Rough& rough) const;
-  [[nodiscard]] double no_slip() const;  ///< round-off
+  [[nodiscard]] double no_slip() const;
   [[nodiscard]] bool own(const Rough& rough, Fallen fallen, Watched watched) const;
   [[nodiscard]] static bool shared(const Rough& rough, std::span<const char> unique);
 

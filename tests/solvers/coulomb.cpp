@@ -64,6 +64,33 @@ TEST_P(CoulombFriction, LetsABlockSlideBackWhereItIsSteep) {
   EXPECT_NEAR(run.multiplier(scene.rough, 10), mu * 2.0 * g * std::cos(angle), bound * g);
 }
 
+// m x'' = -k x -+ mu m g: it turns every half period pi/w, 2 mu m g/k closer to 0, until k |x| < mu m g. The
+// friction there has its new direction as soon as velocities are known to have theirs: taken over 1e4
+// roundings late, it was refused by the audit from 1e-12 on.
+TEST_P(CoulombFriction, ReversesOnASpringAtTightTolerances) {
+  const double k = 20.0, mu = 0.2, half = std::numbers::pi / std::sqrt(k), loss = 2.0 * mu * g / k;
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto block = scene.add_particle({.mass = 1.0, .position = {0.8, 0.0}});
+  const auto floor = scene.add(OnCurve{block, Plane<2>{}});
+  scene.add(coulomb(floor, Slip{block, Plane<2>{}}, mu));
+  scene.add(Spring{Fixed<2>{{-1.0, 0.0}}, block, k, 1.0});
+  for (const double tight : {1e-11, 1e-12, 1e-13}) {
+    Options options = this->options(3.0);
+    options.tolerance = tight;
+    const auto run = simulate(scene, options);
+    ASSERT_EQ(run.events().size(), 4U);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto turns = static_cast<double>(i + 1);
+      const double x = (i % 2 == 0 ? -1.0 : 1.0) * (0.8 - turns * loss);
+      // Where speeds are known to u, a turn is known to u/a, a = k |x| + mu g; u is 1.8 m sqrt(k) accuracy.
+      const double a = k * std::abs(x) + mu * g, accuracy = run.statistics().accuracy;
+      EXPECT_NEAR(run.events()[i].time, turns * half, 2.0 * 1.8 * std::sqrt(k) / a * accuracy);
+      EXPECT_NEAR(run.event_sample(i).position(block).x(), x, 2.0 * 1.8 * accuracy);
+    }
+  }
+}
+
 TEST_P(CoulombFriction, HoldsFromTheStartOrLetsGo) {
   const Incline held(0.3, 0.0, 0.2, 0.4), slides(0.3, 0.0, 0.2, 0.25);
   const auto stays = simulate(held.scene, options(1.0));
