@@ -67,9 +67,10 @@ class Search {
   }
 
   void compare_time(std::size_t k) {
-    if (runs_.event(k).doubt != Doubt::none) return;
+    const double error = runs_.error_of_time(k);
+    if (!std::isfinite(error)) return;
     const Occurrence& one = runs_.run()->events[k];
-    take(found.event_time, runs_.error_of_time(k), one.time,
+    take(found.event_time, error, one.time,
          one.what == Happened::event ? "event " + std::to_string(one.event)
                                      : layout_.constraints[one.event].label());
   }
@@ -118,15 +119,15 @@ LargestErrors largest_errors(const TwoRuns& runs) {
   }
   for (std::size_t k = 0; k < run.events.size(); ++k) {
     const Certainty& its = runs.event(k);
+    search.compare_time(k);
     if (its.doubt != Doubt::none) {
-      ++search.found.beyond;
+      ++(its.doubt == Doubt::at_a_jump ? search.found.rests : search.found.beyond);
       continue;
     }
     search.compare(run.at_events->sample(k), other.at_events->sample(its.counterpart), its);
     if (run.after_events && other.after_events)
       search.compare(run.after_events->sample(k), other.after_events->sample(its.counterpart), its);
     search.compare_impulses(k);
-    search.compare_time(k);
   }
   return search.found;
 }

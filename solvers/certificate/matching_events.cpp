@@ -44,7 +44,7 @@ const char* verb(Happened what) {
 }  // namespace
 
 MatchingEvents::MatchingEvents(const Record& run, const Record& reference)
-    : run_(&run), reference_(&reference), counterparts_(run.events.size()) {
+    : run_(&run), reference_(&reference), counterparts_(run.events.size()), ends_earlier_(run.events.size()) {
   for (const auto& [element, numbers] : by_element(run, reference)) match_one(numbers.first, numbers.second);
   require_order();
 }
@@ -70,11 +70,16 @@ void MatchingEvents::part(double time, const std::string& difference) {
 void MatchingEvents::match_one(const Numbers& own, const Numbers& others) {
   auto i = own.begin();
   auto j = others.begin();
+  bool skipped = false;
   while (i != own.end() && j != others.end()) {
     const Occurrence &a = run_->events[*i], &b = reference_->events[*j];
     if (a.what == b.what) {
+      ends_earlier_[*i] = std::exchange(skipped, false) ? 1 : 0;
       counterparts_[*i++] = *j++;
-    } else if (a.what == Happened::rested && b.what == Happened::struck) {
+      continue;
+    }
+    skipped = true;
+    if (a.what == Happened::rested && b.what == Happened::struck) {
       ++j;
     } else if (a.what == Happened::struck && b.what == Happened::rested) {
       ++i;

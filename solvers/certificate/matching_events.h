@@ -21,6 +21,8 @@ class MatchingEvents {
 
   /// For everything that happened in the run, its number in the other.
   [[nodiscard]] const std::vector<std::optional<std::size_t>>& counterparts() const { return counterparts_; }
+  /// Whether the run lists fewer impacts before this rest than the other.
+  [[nodiscard]] bool ends_earlier(std::size_t k) const { return ends_earlier_[k] != 0; }
   /// From when on the two do not match, infinite if they do; and what happened then.
   [[nodiscard]] double part_at() const { return part_at_; }
   [[nodiscard]] const std::string& difference() const { return difference_; }
@@ -33,6 +35,7 @@ class MatchingEvents {
 
   const Record *run_, *reference_;
   std::vector<std::optional<std::size_t>> counterparts_;
+  std::vector<char> ends_earlier_;
   double part_at_ = std::numeric_limits<double>::infinity();
   std::string difference_;
 };

@@ -46,6 +46,8 @@ std::string statement(const TwoRuns& runs, const LargestErrors& errors) {
   if (errors.beside_jumps > 0)
     out << "; velocities and forces are not known at " << errors.beside_jumps
         << " samples, as near to an impact or change as the time of that is known";
+  if (errors.rests > 0)
+    out << "; of " << errors.rests << " rests after infinitely many impacts only the time is known";
   if (errors.undetermined > 0)
     out << "; forces of constraint are not determined at " << errors.undetermined << " samples";
   out << '.';

@@ -22,6 +22,9 @@ std::string words_of_time(double t) {
   return out.str();
 }
 
+/// But for what jumps.
+bool is_known(const Certainty& its) { return its.doubt == Doubt::none || its.doubt == Doubt::at_a_jump; }
+
 }  // namespace
 
 TwoRuns::TwoRuns(std::shared_ptr<const Record> run, std::shared_ptr<const Record> reference,
@@ -59,10 +62,7 @@ TwoRuns::TwoRuns(std::shared_ptr<const Record> run, std::shared_ptr<const Record
     if (!one->statistics.audit.passed())
       doubt_from(-unknown, Doubt::breaks_a_law, "a law of mechanics is broken, see audit()");
   }
-  const auto known = [](const Certainty& its) {
-    return its.doubt == Doubt::none || its.doubt == Doubt::at_a_jump;
-  };
-  complete_ = std::ranges::all_of(samples_, known) && std::ranges::all_of(events_, known);
+  complete_ = std::ranges::all_of(samples_, is_known) && std::ranges::all_of(events_, is_known);
 }
 
 /// The earliest doubt says why; where two begin together, the later one.
@@ -103,7 +103,8 @@ void TwoRuns::match_events() {
   events_.resize(run_->events.size());
   for (std::size_t k = 0; k < events_.size(); ++k) {
     const auto& other = matching.counterparts()[k];
-    events_[k] = {.doubt = other ? Doubt::none : Doubt::no_counterpart, .counterpart = other.value_or(0)};
+    const Doubt of_match = matching.ends_earlier(k) ? Doubt::at_a_jump : Doubt::none;
+    events_[k] = {.doubt = other ? of_match : Doubt::no_counterpart, .counterpart = other.value_or(0)};
   }
   if (matching.part_at() < unknown)
     doubt_from(matching.part_at(), Doubt::other_events, matching.difference());
@@ -120,14 +121,19 @@ void TwoRuns::set_roundings() {
   }
 }
 
-/// Where a sample lies between the two times of a jump, or as near to them as these are known.
+/// Where a sample lies between the two times of a jump, or as near to them as these are known. A rest begins
+/// for a run at the last impact that it lists.
 void TwoRuns::find_jumps() {
   std::vector<std::pair<double, double>> jumps;
   for (std::size_t k = 0; k < events_.size(); ++k) {
-    if (events_[k].doubt != Doubt::none || run_->events[k].what == Happened::event) continue;
-    const double a = run_->events[k].time, b = reference_->events[events_[k].counterpart].time,
+    if (!is_known(events_[k]) || run_->events[k].what == Happened::event) continue;
+    const std::size_t j = events_[k].counterpart;
+    const double a = run_->events[k].time, b = reference_->events[j].time,
                  more = most_of_better * std::abs(a - b);
-    if (a != b) jumps.emplace_back(std::min(a, b) - more, std::max(a, b) + more);
+    double from = std::min(a, b);
+    if (events_[k].doubt == Doubt::at_a_jump)
+      from = std::min({from, run_->at_events->times[k], reference_->at_events->times[j]});
+    if (a != b || from < a) jumps.emplace_back(from - more, std::max(a, b) + more);
   }
   std::ranges::sort(jumps);
   for (std::size_t k = 1; k < jumps.size(); ++k)
@@ -197,14 +203,14 @@ double TwoRuns::error(double difference, double magnitude, const Certainty& its)
 
 double TwoRuns::round_off_of_time(std::size_t k) const {
   const Certainty& its = events_[k];
-  if (its.doubt != Doubt::none) return unknown;
+  if (!is_known(its)) return unknown;
   const double magnitude = std::max(std::abs(run_->events[k].time), time_);
   return std::max(round_off(0.0, magnitude, its), its.of_states * time_ / most_of_better);
 }
 
 double TwoRuns::error_of_time(std::size_t k) const {
   const Certainty& its = events_[k];
-  if (its.doubt != Doubt::none) return unknown;
+  if (!is_known(its)) return unknown;
   const double apart = std::abs(run_->events[k].time - reference_->events[its.counterpart].time);
   return std::max(bound_ * apart, round_off_of_time(k));
 }

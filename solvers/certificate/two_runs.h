@@ -14,10 +14,11 @@ namespace dalembert {
 /// Why the difference of two runs does not tell the error of the worse one.
 enum class Doubt {
   none,
-  at_a_jump,       ///< between the times that the two give for one impact or change: either side may be right
-  other_events,    ///< something happened in one run that did not in the other, or in another order
-  horizon,         ///< the runs have parted: small differences have grown to the size of the motion
-  no_better_run,   ///< no run is known to be more accurate: round-off, or the tolerance is the least there is
+  at_a_jump,      ///< between the times that the two give for one impact or change: either side may be right;
+                  ///< or between the last impact that one of them lists and the rest after infinitely many
+  other_events,   ///< something happened in one run that did not in the other, or in another order
+  horizon,        ///< the runs have parted: small differences have grown to the size of the motion
+  no_better_run,  ///< no run is known to be more accurate: round-off, or the tolerance is the least there is
   no_counterpart,  ///< the more accurate run did not get there
   breaks_a_law     ///< one of the runs breaks a law of mechanics, see Audit
 };

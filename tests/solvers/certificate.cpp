@@ -30,6 +30,27 @@ std::string stepper_name(const testing::TestParamInfo<Stepper>& info) { return n
 INSTANTIATE_TEST_SUITE_P(BothSteppers, CertificateBy, testing::Values(Stepper::ida, Stepper::erk),
                          stepper_name);
 
+/// Dropped from h with restitution 1/2 it rests at 3 sqrt(2 h/g), after infinitely many impacts, of which the
+/// better run lists more: what either gives at the last of them is of another time, and no error.
+TEST_P(CertificateBy, ARestAfterInfinitelyManyImpactsHasATimeAndNoState) {
+  const double g = 9.81;
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto ball = scene.add_particle({.mass = 1.0, .position = {0.0, 1.0}, .velocity = {1.0, 0.0}});
+  const auto floor = scene.add(unilateral(OnCurve{ball, Plane<2>{}}, {.restitution = 0.5}));
+  const auto certificate = certify(scene, {.t_end = 2.0, .tolerance = 1e-6, .stepper = GetParam()});
+  ASSERT_TRUE(certificate.complete()) << certificate.statement();
+  const std::size_t rest = certificate.run().events().size() - 1;
+  const double truth = std::abs(certificate.run().events()[rest].time - 3.0 * std::sqrt(2.0 / g));
+  EXPECT_EQ(certificate.run().events()[rest].what, Happened::rested);
+  EXPECT_GE(certificate.event_time_error(rest), 0.8 * truth);
+  EXPECT_LT(certificate.event_time_error(rest), 1e-6);
+  EXPECT_EQ(certificate.event_doubt(rest), Doubt::at_a_jump);
+  EXPECT_THAT(certificate.statement(), HasSubstr("only the time is known"));
+  EXPECT_EQ(certificate.impulse_error(floor, rest), infinity);
+  EXPECT_LT(certificate.largest().position.error, 1e-6);  // 5e-5 with that of the last impact
+}
+
 /// Against sin(phi/2) = k sn(K - omega0 t).
 TEST_P(CertificateBy, TellsTheErrorsOfAPendulum) {
   const models::PlanePendulum model;
