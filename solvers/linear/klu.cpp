@@ -67,13 +67,14 @@ struct SparseLU::State {
     void operator()(klu_numeric* p) const { klu_free_numeric(&p, common); }
   };
 
-  explicit State(const LuPattern::State& of) : pattern(&of), value(of.row.size()), seen(of.size) {
+  explicit State(const LuPattern::State& of)
+      : pattern(&of), value(of.row.size()), residual(of.size), seen(of.size) {
     klu_defaults(&common);
   }
 
   const LuPattern::State* pattern;
   klu_common common{};
-  std::vector<double> value;
+  std::vector<double> value, residual;
   std::unique_ptr<klu_numeric, Free> numeric{nullptr, {&common}};
   double condition_when_pivoted = 0.0;
   std::vector<char> seen;  // for sign_of_permutation
@@ -116,6 +117,20 @@ void SparseLU::solve(std::span<double> x) {
   State& s = *state_;
   assert(s.numeric && x.size() == s.seen.size());
   klu_solve(s.pattern->symbolic.get(), s.numeric.get(), s.pattern->symbolic->n, 1, x.data(), &s.common);
+}
+
+void SparseLU::solve_refined(std::span<double> x) {
+  State& s = *state_;
+  const LuPattern::State& p = *s.pattern;
+  std::ranges::copy(x, s.residual.begin());
+  solve(x);
+  for (std::size_t j = 0; j < p.size; ++j)
+    for (int k = p.column_start[j]; k < p.column_start[j + 1]; ++k) {
+      const auto place = static_cast<std::size_t>(k);
+      s.residual[static_cast<std::size_t>(p.row[place])] -= s.value[place] * x[j];
+    }
+  solve(s.residual);
+  for (std::size_t i = 0; i < p.size; ++i) x[i] += s.residual[i];
 }
 
 /// Each cycle of even length changes it.

@@ -89,4 +89,12 @@ void SaddleMatrix::solve(std::span<double> x) {
   }
 }
 
+void SaddleMatrix::solve_refined(std::span<double> x) {
+  if (by_complement_) {
+    complement_->solve(x);
+  } else {
+    whole_[in_use_]->solve_refined(x);
+  }
+}
+
 }  // namespace dalembert

@@ -55,6 +55,8 @@ class SaddleMatrix {
   [[nodiscard]] bool factorise(const SaddleValues& values);
   /// In place: (a, b) becomes (x, y), one number per coordinate of the pattern and then one per row.
   void solve(std::span<double> x);
+  /// The same, to round-off in the residual also where it is factored as a whole.
+  void solve_refined(std::span<double> x);
 
   /// The sine of the smallest angle that a row made with others when a symmetric matrix was factored last, in
   /// the metric of the masses; 1 if the complement, which tells it, does not suit the scene.

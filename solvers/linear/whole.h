@@ -38,6 +38,7 @@ class WholeMatrix {
   [[nodiscard]] bool factorise(const SaddleValues& values);
   /// In place: (a, b) becomes (x, y), one number per coordinate and then one per row.
   void solve(std::span<double> x) { lu_.solve(x); }
+  void solve_refined(std::span<double> x) { lu_.solve_refined(x); }
   /// Of the last factorisation; of a symmetric one it is 1 if no row depends on others.
   [[nodiscard]] int sign_of_determinant() { return lu_.sign_of_determinant(); }
 

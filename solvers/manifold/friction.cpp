@@ -92,7 +92,7 @@ FrictionSolver::Outcome FrictionSolver::iterate(const Instant& at, std::span<con
     add_slope(-1.0, lambda_, predicted_);
     std::ranges::copy(given_, x.begin());
     for (std::size_t i = 0; i < n; ++i) x[i] += predicted_[i];
-    matrix_.solve(x);
+    matrix_.solve_refined(x);
     if (!std::ranges::all_of(x, [](double value) { return std::isfinite(value); })) return Outcome::singular;
     spread(x);
     add_slope(1.0, lambda_, predicted_);

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dalembert::friction_test {
@@ -54,6 +55,38 @@ void expect_slides_down(const Options& options, double compliance) {
     EXPECT_NEAR(run.velocity(bead, i).dot(down), v0 + a * t, error * (1.0 + s));
     // A spring's force errs by its stiffness times the position, so by the tolerance of the motion.
     EXPECT_NEAR(run.multiplier(plane, i), N, N * (compliance > 0.0 ? error : rounding));
+  }
+}
+
+// A body beside it, whose inner forces are large: the friction makes all be factored as one matrix, of whose
+// pivots KLU lets some be a thousand times too small. Sums of some hundred terms are right to 100 roundings
+// of them, a fiftieth of what is allowed at 1e-12; without refinement it was up to 0.04 here and 0.4
+// elsewhere.
+TEST_P(Sliding, BesideABodyLeavesNewtonsEquationsRightToRoundOff) {
+  const Vec<3> axis = Vec<3>(0.3, -0.8, 0.5).normalized();
+  for (const double turn : {0.2, 0.9, 1.7, 2.6}) {
+    Scene<3> scene;
+    scene.add(UniformGravity<3>{{1.0, -2.0, -g}});
+    const auto body = add_body(
+        scene,
+        {.mass = 0.6,
+         .inertia = {0.039, 0.032, 0.018},
+         .centre = {0.7, 0.3, -0.4},
+         .axes = Eigen::AngleAxisd(turn, axis.cross(Vec<3>::UnitX()).normalized()).toRotationMatrix()},
+        "body");
+    add_joint(scene, Revolute{Ground<3>{}, body, Vec<3>(0.0, 0.0, 0.0), axis}, "hinge");
+    const auto bead = scene.add_particle({.mass = 0.8, .velocity = {0.5, 0.5, 0.0}}, "bead");
+    const auto plane = scene.add(OnSurface{bead, Plane<3>{{0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}}}, "plane");
+    scene.add(friction_law(plane, points(bead), [](auto lambda, auto, auto v) {
+      return (-0.3 * abs(lambda) / sqrt(v.squaredNorm() + 0.01) * v).eval();
+    }));
+    Options tight = options(1.5);
+    tight.tolerance = 1e-12;
+    const auto run = simulate(scene, tight);
+    const auto& worst = run.audit().worst;
+    const auto newton = std::ranges::find(worst, Law::newton, &Finding::law);
+    ASSERT_NE(newton, worst.end());
+    EXPECT_LT(newton->ratio(), 0.02) << newton->element;
   }
 }
 
