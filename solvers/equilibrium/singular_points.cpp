@@ -23,6 +23,7 @@ constexpr double exact = 1e-14;
 /// other are the same, as sqrt(1 - 0.8^2) < 0.8 is left for all others.
 constexpr double same_shape = 0.8;
 constexpr int most_divisions = 10;
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// The place in b of what is most alike to both ends of a pair.
 Index place_of(const Node& at, const Node& a, const Node& b, std::pair<Index, Index> pair) {
@@ -33,6 +34,12 @@ Index place_of(const Node& at, const Node& a, const Node& b, std::pair<Index, In
   Index place = 0;
   if (alike.size() > 0) (void)alike.maxCoeff(&place);
   return place;
+}
+
+/// Of the stiffness, over that at another point.
+double determinant(const Node& at, const Node& unit) {
+  const double size = std::exp(at.stiffness.log_determinant - unit.stiffness.log_determinant);
+  return at.stiffness.negative ? -size : size;
 }
 
 /// The Lagrange polynomials of some nodes at x.
@@ -161,39 +168,75 @@ void SingularPoints::zeros(const Node* before, const Node& a, const Node& b, int
     }
   }
   followed.pair_the_rest();
+  bool left = a.stiffness.negative != b.stiffness.negative;  // a change of the determinant's sign
   for (const Pair& pair : followed.pairs) {
     if ((a.stiffness.values[pair.first] < 0.0) == (b.stiffness.values[pair.second] < 0.0)) continue;
+    left = !left;
     if (auto zero = locate(a, b, pair)) found.zeros.push_back(std::move(*zero));
   }
+  if (!left) return;
+  if (auto zero = locate_determinant(a, b)) found.zeros.push_back(std::move(*zero));
 }
 
 /// First roughly, by points that are corrected. Close to the zero that fails: two branches may intersect
 /// there, and Newton's matrix is singular. So the branch is interpolated then.
-std::optional<SingularPoints::Zero> SingularPoints::locate(const Node& a, const Node& b, Pair pair) const {
+Node SingularPoints::nearest(const Node& a, const Node& b, const Function& value) const {
   std::optional<Node> near;
-  const auto eigenvalue = [&](double way) {
+  const auto on_way = [&](double way) {
     auto next = on_chord(a, b, way);
     if (!next) return 0.0;  // that ends the search with what there is
     near = std::move(next);
-    return near->stiffness.values.size() > 0 ? near->stiffness.values[place_of(*near, a, b, pair)] : 0.0;
+    const double there = value(*near);
+    return std::isnan(there) ? 0.0 : there;
   };
-  (void)root(eigenvalue, 0.0, a.stiffness.values[pair.first], 1.0, b.stiffness.values[pair.second], exact);
+  (void)root(on_way, 0.0, value(a), 1.0, value(b), exact);
   if (!near) near = b;
-  if (auto better = interpolated(a, b, *near, pair)) near = std::move(better);
-  const Index place = place_of(*near, a, b, pair);
+  if (auto better = interpolated(a, b, *near, value)) near = std::move(better);
+  return std::move(*near);
+}
+
+std::optional<SingularPoints::Zero> SingularPoints::locate(const Node& a, const Node& b, Pair pair) const {
+  const auto eigenvalue = [&](const Node& node) {
+    if (&node == &a) return a.stiffness.values[pair.first];
+    if (&node == &b) return b.stiffness.values[pair.second];
+    return node.stiffness.values.size() > 0 ? node.stiffness.values[place_of(node, a, b, pair)] : unknown;
+  };
+  Node near = nearest(a, b, eigenvalue);
+  if (near.stiffness.values.size() == 0) return locate_determinant(a, b);
+  const Index place = place_of(near, a, b, pair);
   // Where points on the way are of another branch an eigenvalue jumps, and is 0 nowhere.
   constexpr double jump = 0.1;
   const double size =
       std::max(std::abs(a.stiffness.values[pair.first]), std::abs(b.stiffness.values[pair.second]));
-  if (near->stiffness.values.size() > 0 && std::abs(near->stiffness.values[place]) > jump * size)
-    return std::nullopt;
-  return Zero{std::move(*near), place};
+  if (std::abs(near.stiffness.values[place]) > jump * size) return std::nullopt;
+  return Zero{std::move(near), place};
+}
+
+/// Where two eigenvalues are 0 so close to each other that they are complex before it. There they have one
+/// shape, to round-off that of either where both are real: they are as far from 0 there as its root.
+std::optional<SingularPoints::Zero> SingularPoints::locate_determinant(const Node& a, const Node& b) const {
+  Node near = nearest(a, b, [&](const Node& node) { return determinant(node, a); });
+  Node beside = b.stiffness.values.size() > a.stiffness.values.size() ? b : a;
+  if (near.stiffness.values.size() < beside.stiffness.values.size()) {
+    for (double way = 0.5; way > std::sqrt(exact); way *= 0.5) {
+      Node guess = near;
+      guess.x += way * (beside.x - near.x);
+      auto next = corrector_->correct(guess, (b.x - a.x).normalized());
+      if (!next || next->stiffness.values.size() < beside.stiffness.values.size()) break;
+      beside = std::move(*next);
+    }
+    near.stiffness = beside.stiffness;
+  }
+  if (near.stiffness.values.size() == 0) return std::nullopt;
+  Index place = 0;
+  (void)near.stiffness.values.cwiseAbs().minCoeff(&place);
+  return Zero{std::move(near), place};
 }
 
 /// Branches are analytic, also where they intersect: through points on both sides, at Chebyshev's places
 /// along the chord, the polynomial errs by (width/r)^8/128 if the next singularity is r away.
 std::optional<Node> SingularPoints::interpolated(const Node& a, const Node& b, const Node& near,
-                                                 Pair pair) const {
+                                                 const Function& value) const {
   constexpr std::size_t count = 8;
   const VectorXd along = (b.x - a.x).normalized();
   const double width = 0.1 * step_;
@@ -205,10 +248,10 @@ std::optional<Node> SingularPoints::interpolated(const Node& a, const Node& b, c
     guess.x += width * ways[k] * along;
     if (guess.fraction() < 0.0 || guess.fraction() > 1.0) return std::nullopt;
     auto next = corrector_->correct(guess, along);
-    if (!next || (next->x - near.x).norm() > 2.0 * width || next->stiffness.values.size() == 0)
-      return std::nullopt;
+    if (!next || (next->x - near.x).norm() > 2.0 * width) return std::nullopt;
     nodes[k] = std::move(*next);
-    values[k] = nodes[k].stiffness.values[place_of(nodes[k], a, b, pair)];
+    values[k] = value(nodes[k]);
+    if (std::isnan(values[k])) return std::nullopt;
   }
   const auto eigenvalue = [&](double way) {
     const auto w = weights(ways, way);

@@ -3,6 +3,7 @@
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/equilibrium/continuation.h>
 
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -58,9 +59,13 @@ class SingularPoints {
   void flutters(const Node& a, const Node& b, int depth, Found& found) const;
 
   [[nodiscard]] std::optional<Node> on_chord(const Node& a, const Node& b, double way) const;
+  /// What is 0 at the point that is looked for, of any point beside it.
+  using Function = std::function<double(const Node&)>;
   [[nodiscard]] std::optional<Zero> locate(const Node& a, const Node& b, Pair pair) const;
+  [[nodiscard]] std::optional<Zero> locate_determinant(const Node& a, const Node& b) const;
+  [[nodiscard]] Node nearest(const Node& a, const Node& b, const Function& value) const;
   [[nodiscard]] std::optional<Node> interpolated(const Node& a, const Node& b, const Node& near,
-                                                 Pair pair) const;
+                                                 const Function& value) const;
   [[nodiscard]] std::optional<Flutter> locate_flutter(const Node& a, const Node& b, std::size_t rank,
                                                       bool& missed) const;
 

@@ -147,23 +147,23 @@ struct RealShape {
   Vector shape, dual;
 };
 
-/// Those of one part; returns the smallest real part of all.
-double append_real(const Tangent& whole, std::vector<RealShape>& found) {
-  double least = std::numeric_limits<double>::infinity();
-  if (whole.K.rows() == 0) return least;
+/// Those of one part; what belongs to all eigenvalues goes into `sum`.
+void append_real(const Tangent& whole, std::vector<RealShape>& found, TangentStiffness& sum) {
+  if (whole.K.rows() == 0) return;
   const Tangent t = along_velocities(whole);
   const Decomposed K = decomposed(t);
   const auto all = static_cast<Index>(t.all);
   for (Index k = 0; k < K.values.size(); ++k) {
     const double value = std::abs(K.values[k]) <= t.zero() ? 0.0 : K.values[k].real();
-    least = std::min(least, value);
+    sum.least = std::min(sum.least, value);
+    if (value != 0.0) sum.log_determinant += std::log(std::abs(K.values[k]));
     if (K.values[k].imag() != 0.0) continue;
+    sum.negative = sum.negative != (value < 0.0);
     RealShape one{value, Vector::Zero(all), Vector::Zero(all)};
     one.shape(t.coordinates) = t.shapes * K.right.col(k).real();
     one.dual(t.coordinates) = t.metric * K.left.row(k).transpose().real();
     found.push_back(std::move(one));
   }
-  return least;
 }
 
 }  // namespace
@@ -200,11 +200,13 @@ std::vector<Vibration> all_vibrations(const System& system, const LinearTerms& t
 
 TangentStiffness tangent_stiffness(const System& system, const LinearTerms& terms) {
   std::vector<RealShape> real;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Tangent& t : tangents(system, terms)) least = std::min(least, append_real(t, real));
+  TangentStiffness found;
+  for (const Tangent& t : tangents(system, terms)) append_real(t, real, found);
   std::ranges::stable_sort(real, {}, &RealShape::value);
   const auto n = static_cast<Index>(system.coordinates()), count = static_cast<Index>(real.size());
-  TangentStiffness found{Vector(count), Matrix(n, count), Matrix(n, count), least};
+  found.values.resize(count);
+  found.shapes.resize(n, count);
+  found.duals.resize(n, count);
   for (Index k = 0; k < count; ++k) {
     const RealShape& one = real[static_cast<std::size_t>(k)];
     found.values[k] = one.value;

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <complex>
+#include <limits>
 #include <vector>
 
 namespace DALEMBERT_HIDDEN dalembert {
@@ -29,7 +30,11 @@ inline constexpr std::size_t most_dense = 600;
 struct TangentStiffness {
   Eigen::VectorXd values;
   Eigen::MatrixXd shapes, duals;
-  double least;  ///< the smallest real part of all eigenvalues
+  double least = std::numeric_limits<double>::infinity();  ///< the smallest real part of all eigenvalues
+  /// The logarithm of |det K|, of the product of all eigenvalues that are not 0, and whether it is negative.
+  /// Where two real eigenvalues become complex close to 0, the determinant still passes 0 with a slope.
+  double log_determinant = 0.0;
+  bool negative = false;
 };
 [[nodiscard]] TangentStiffness tangent_stiffness(const System& system, const LinearTerms& terms);
 

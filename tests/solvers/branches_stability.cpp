@@ -53,6 +53,22 @@ TEST(Branches, OfFollowerLoadsForkWhereTheDeterminantIsZeroAndNowhereElse) {
   EXPECT_EQ(emanating, 2U);
 }
 
+// The same with masses 1 : m in the metric of the masses: det = (2 p + 8)/m, trace = 2 + p/m. Where m = 2
+// both eigenvalues are 0 at p = -4, complex behind it; beside that one passes 0 just before they meet.
+TEST(Branches, AForkIsFoundWhereTwoEigenvaluesMeetAtZero) {
+  for (const double m : {1.99, 2.0, 2.01}) {
+    const double s = std::sqrt(m);
+    const auto diagram = follow_linear(
+        [s](double p) {
+          return Eigen::Matrix2d{{2.0, 4.0 / s}, {-2.0 / s, p / (s * s)}};
+        },
+        {.from = -6.0, .to = 1.0});
+    ASSERT_EQ(diagram.bifurcations.size(), 1U) << m;
+    EXPECT_NEAR(diagram.bifurcations[0].parameter, -4.0, 7.0 * located) << m;
+    EXPECT_EQ(diagram.branches.size(), 3U) << m;
+  }
+}
+
 TEST(Branches, OfFollowerLoadsTellWhereFlutterBegins) {
   // s^2 = -mu, mu^2 - (3 - P) mu + 1 = 0: a complex pair where |3 - P| < 2, with omega = 1 at P = 1. At P = 5
   // it turns into two real mu < 0, which grow as it does: no limit of stability.
