@@ -42,7 +42,7 @@ struct Limits {
   /// A speed at which two slip velocities count as rest, where friction takes hold of them at once: twice
   /// that of the run, whose length may have grown since it looked.
   [[nodiscard]] double rest_in_space(std::size_t i) const {
-    return 2.0 * std::min(constants.rest_in_space * accuracy, std::sqrt(accuracy)) * unit(i) / time;
+    return 2.0 * constants.rest_in_space * std::sqrt(accuracy) * unit(i) / time;
   }
   /// A speed at which what touches counts as at rest, as users round what they state: of all contacts of one
   /// coordinate.

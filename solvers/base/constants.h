@@ -108,11 +108,10 @@ struct Constants {
   // Contacts and friction.
   /// Below this many roundings of the largest beside it a number is what some thousand operations leave of 0.
   double roundings_at_contacts = 1e4;
-  /// Two slip velocities are at rest below this many tolerances of the scene's speed, but never above the
-  /// root. A step across rest itself rotates the friction while it lasts, and errs by a fraction of the
-  /// initial speed: steps with errors below a tolerance cross none from this many. The distance left is of
-  /// second order.
-  double rest_in_space = 1000.0;
+  /// Two slip velocities come to rest in the direction that they have below this part of the root of the
+  /// tolerance, of the scene's speed: what the turn of friction does in the rest of the way is of second
+  /// order, a hundredth of the tolerance. Steps towards rest itself would become as short as the way left.
+  double rest_in_space = 0.1;
   /// Changes at one instant beyond which they count as chattering.
   double most_at_one_time = 8.0;
   /// Accumulating changes of the scene are an error where they follow each other within this many roots of

@@ -21,9 +21,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 /// The fraction of the scene's speed below which two slip velocities are slow.
-double slow_in_space(double tolerance) {
-  return std::min(constants.rest_in_space * tolerance, std::sqrt(tolerance));
-}
+double slow_in_space(double tolerance) { return constants.rest_in_space * std::sqrt(tolerance); }
 
 }  // namespace
 
@@ -101,7 +99,7 @@ double DryFriction::round_off_of(const Rough& rough, std::span<const double> a,
       force = std::max(force, stated_->masses()[i] * std::abs(a[i]));
     }
   }
-  return round_off() * force + std::numeric_limits<double>::min();
+  return std::min(round_off(), tolerance_) * force + std::numeric_limits<double>::min();
 }
 
 /// The stepper takes what slides on past rest, in its direction: a single slip velocity keeps that. Two have

@@ -177,7 +177,7 @@ class Contacts {
     const double slow = error_of_run * s_.accuracy * std::max(speed_, s_.length / s_.time);
     double unbalanced = 0.0;
     for (const double p : momentum) unbalanced = std::max(unbalanced, std::abs(p));
-    // What slides in space is at rest from 1000 tolerances on (rest_in_space of DryFriction).
+    // What slides in space may rest with what is left of its way in one direction (rest_in_space).
     const double stopped = D == 3 && !system_.rough().empty() ? 10.0 * slow : slow;
     std::string fault = too_large("momentum out of balance", before.time, unbalanced, mass_ * stopped);
     for (const std::size_t c : system_.contacts()) {

@@ -91,6 +91,25 @@ TEST_P(CoulombFriction, ReversesOnASpringAtTightTolerances) {
   }
 }
 
+// Held up to mu m g against a pull that grows as k t: it goes as soon as forces are
+// known to exceed that. Ten thousand roundings later the audit refused it at 1e-13.
+TEST_P(CoulombFriction, LetsGoInTimeAtTightTolerances) {
+  constexpr double mu = 0.3, k = 4.0;
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto block = scene.add_particle({.mass = 2.0});
+  const auto floor = scene.add(OnCurve{block, Plane<2>{}});
+  scene.add(coulomb(floor, Slip{block, Plane<2>{}}, mu));
+  scene.add(force_law(points(block), [](auto t, auto, auto) { return vec(k * t, 0.0 * t); }));
+  for (const double tight : {1e-11, 1e-12, 1e-13}) {
+    Options options = this->options(2.0);
+    options.tolerance = tight;
+    const auto run = simulate(scene, options);
+    ASSERT_EQ(run.events().size(), 1U);
+    EXPECT_NEAR(run.events()[0].time, mu * 2.0 * g / k, 10.0 * tight);
+  }
+}
+
 TEST_P(CoulombFriction, HoldsFromTheStartOrLetsGo) {
   const Incline held(0.3, 0.0, 0.2, 0.4), slides(0.3, 0.0, 0.2, 0.25);
   const auto stays = simulate(held.scene, options(1.0));

@@ -40,6 +40,27 @@ TEST_P(CoulombFrictionInSpace, IsRound) {
   }
 }
 
+// As IsRound, pulled by half of what friction holds: a run that claims an accuracy rests at a time that is
+// known to it, up to the ten times that errors may add up to. At 1e-12 ida was off by 1.4e-7.
+TEST_P(CoulombFrictionInSpace, RestsInTimeAtEveryTolerance) {
+  constexpr double mu = 0.3, a = mu * g, f = 0.5 * a, angle = 0.7;
+  Scene<3> scene;
+  scene.add(UniformGravity<3>{{f, 0.0, -g}});
+  const auto puck =
+      scene.add_particle({.mass = 2.0, .velocity = {2.0 * std::cos(angle), 2.0 * std::sin(angle), 0.0}});
+  const auto table = scene.add(OnSurface{puck, Plane<3>{}});
+  scene.add(coulomb(table, Slip{puck, Plane<3>{}}, mu));
+  const double rests = 2.0 * (a + f * std::cos(angle)) / (a * a - f * f);
+  for (const double tight : {1e-4, 1e-6, 1e-8, 1e-11, 1e-12, 1e-13}) {
+    Options options = this->options(rests + 1.0);
+    options.tolerance = tight;
+    const auto run = simulate(scene, options);
+    ASSERT_EQ(run.events().size(), 1U);
+    EXPECT_NEAR(run.events()[0].time, rests, 10.0 * run.statistics().accuracy * rests);
+    EXPECT_LT(run.statistics().accuracy, 100.0 * tight);
+  }
+}
+
 TEST_P(CoulombFrictionInSpace, GoesTheWayItIsPulled) {
   // From rest, by a force that grows: as the block in the plane.
   constexpr double k = 5.0, mu = 0.3, mu_static = 0.5;
