@@ -1,0 +1,97 @@
+# What a reader copies from a page compiles, runs, and prints what the page shows.
+#
+# A block fenced as ```cpp is a whole program, or a part of a program of the same page, word for word. A block fenced as
+# ```text that comes next after a program is its output. The programs of a page are one source file, a namespace each.
+
+# The text from behind `open` to before `close`, in `result`, and what follows it, in `rest`; `result` is not defined
+# if there is none.
+function(take_block text open close result rest)
+  string(FIND "${text}" "${open}" begin)
+  unset(${result} PARENT_SCOPE)
+  if(begin EQUAL -1)
+    return()
+  endif()
+  string(LENGTH "${open}" length)
+  math(EXPR begin "${begin} + ${length}")
+  string(SUBSTRING "${text}" ${begin} -1 text)
+  string(FIND "${text}" "${close}" end)
+  string(SUBSTRING "${text}" 0 ${end} block)
+  string(LENGTH "${close}" length)
+  math(EXPR end "${end} + ${length}")
+  string(SUBSTRING "${text}" ${end} -1 text)
+  set(${result} "${block}" PARENT_SCOPE)
+  set(${rest} "${text}" PARENT_SCOPE)
+endfunction()
+
+# An executable of the programs of these pages, and a test for each of them, <target>/<page>-<number>.
+function(add_pages target library)
+  set(sources)
+  set(declared)
+  set(listed)
+  foreach(page IN LISTS ARGN)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${page})
+    file(READ ${page} text)
+    string(PREPEND text "\n") # a fence begins a line
+    cmake_path(GET page STEM name)
+    string(REGEX REPLACE "[^a-zA-Z0-9]" "_" identifier ${name})
+    set(includes)
+    set(bodies)
+    set(number 0)
+    set(parts)
+    set(whole "${text}")
+    while(TRUE)
+      take_block("${text}" "\n```cpp\n" "\n```" program text)
+      if(NOT DEFINED program)
+        break()
+      endif()
+      string(FIND "${program}" "int main() {" main)
+      if(main EQUAL -1) # a part: looked for below, without its indentation
+        string(FIND "${whole}" "${program}" first)
+        string(FIND "${whole}" "${program}" last REVERSE)
+        if(first EQUAL last)
+          message(FATAL_ERROR "${page}: this block of C++ is neither a program nor a part of one:\n${program}")
+        endif()
+        continue()
+      endif()
+      math(EXPR number "${number} + 1")
+      string(REGEX MATCHALL "#include [^\n]*\n" own "${program}")
+      list(APPEND includes ${own})
+      string(REGEX REPLACE "#include [^\n]*\n" "" program "${program}")
+      string(REPLACE "int main() {" "void program() {" program "${program}")
+      string(APPEND bodies "namespace ${identifier}_${number} {\n${program}\n}\n\n")
+      string(APPEND declared "namespace ${identifier}_${number} { void program(); }\n")
+
+      set(shown "")
+      string(FIND "${text}" "\n```" fence) # the next one of any kind
+      string(FIND "${text}" "\n```text\n" output)
+      if(NOT output EQUAL -1 AND fence EQUAL output)
+        take_block("${text}" "\n```text\n" "\n```" shown rest)
+      endif()
+      string(APPEND listed "    {\"${name}-${number}\", ${identifier}_${number}::program, R\"shown(${shown})shown\"},\n")
+      set(directory ${CMAKE_CURRENT_BINARY_DIR}/pages/${name}-${number}) # of files that it writes
+      file(MAKE_DIRECTORY ${directory})
+      add_test(NAME ${target}/${name}-${number} COMMAND ${target} ${name}-${number} WORKING_DIRECTORY ${directory})
+    endwhile()
+    if(number GREATER 0)
+      list(REMOVE_DUPLICATES includes)
+      list(JOIN includes "" includes)
+      set(source ${CMAKE_CURRENT_BINARY_DIR}/pages/${target}/${name}.cpp)
+      write_if_changed(${source} "${includes}\n${bodies}")
+      list(APPEND sources ${source})
+    endif()
+  endforeach()
+  set(table ${CMAKE_CURRENT_BINARY_DIR}/pages/${target}/table.cpp)
+  write_if_changed(${table} "#include \"pages/program.h\"\n\n${declared}\nconst std::vector<pages::Program>& pages::programs() {
+  static const std::vector<Program> all{\n${listed}  };\n  return all;\n}\n")
+  add_executable(${target} ${CMAKE_CURRENT_SOURCE_DIR}/pages/main.cpp ${CMAKE_CURRENT_SOURCE_DIR}/pages/compare.cpp ${table} ${sources})
+  target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  target_link_libraries(${target} PRIVATE ${library})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD OFF) # a page is a file already
+endfunction()
+
+# What has not changed is not compiled again.
+function(write_if_changed file text)
+  file(WRITE ${file}.new "${text}")
+  file(COPY_FILE ${file}.new ${file} ONLY_IF_DIFFERENT)
+  file(REMOVE ${file}.new)
+endfunction()
