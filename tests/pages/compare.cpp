@@ -46,6 +46,8 @@ double last_digit(const std::string& word) {
 
 bool same_word(const std::string& shown, const std::string& printed, bool is_error) {
   if (shown == printed) return true;
+  if (shown.front() == '(' && printed.front() == '(')
+    return same_word(shown.substr(1), printed.substr(1), is_error);
   double a = 0.0, b = 0.0;
   std::string after_a, after_b;
   if (!is_number(shown, a, after_a) || !is_number(printed, b, after_b) || after_a != after_b) return false;
