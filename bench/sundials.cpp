@@ -60,7 +60,7 @@ std::string sundials() {
   if (slowness() < 4.0) return version;
   return version +
          ", compiled without optimisation: ida would take about a quarter less time with one's own, see "
-         "README";
+         "docs/package.md";
 }
 
 }  // namespace dalembert::bench

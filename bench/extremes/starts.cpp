@@ -7,7 +7,8 @@ namespace dalembert::extremes {
 
 namespace {
 
-/// Below this part of the scene's length or speed a violation is taken for rounding (README: within 1e-8).
+/// Below this part of the scene's length or speed a violation is taken for rounding (docs/messages.md: within
+/// 1e-8).
 constexpr double rounding_of_the_user = 1e-8;
 /// Distances and speeds are printed with six digits.
 constexpr double printed = 1e-5;

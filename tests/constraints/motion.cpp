@@ -165,7 +165,8 @@ TEST_P(FreeTop, TurnsAsItsClosedFormDoes) {
   const Vec<3> in_body = s.axes.transpose() * s.angular_velocity;
   const Vec<3> L = s.axes * Vec<3>(A, A, C).cwiseProduct(in_body);
   const double n = in_body.z() * (A - C) / A;
-  // Local errors add along the motion, one turn in the length of the run: README measures factors up to 100.
+  // Local errors add along the motion, one turn in the length of the run: docs/accuracy.md names factors of
+  // about 100.
   constexpr double allowed = 100.0 * tolerance;
   for (std::size_t i = 0; i < run.size(); ++i) {
     const double t = run.times()[i];

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Every link and picture within the built pages leads somewhere.  Usage: links.py DIRECTORY"""
+"""Every link and picture within the built pages leads somewhere, and no markdown is left in them.  Usage: links.py DIRECTORY"""
 import html.parser
 import pathlib
+import re
 import sys
 import urllib.parse
 
@@ -9,11 +10,19 @@ import urllib.parse
 class Page(html.parser.HTMLParser):
     def __init__(self, text):
         super().__init__()
-        self.anchors, self.links = set(), []
+        self.anchors, self.links, self.left, self.code = set(), [], [], 0
         self.feed(text)
+
+    def handle_data(self, data):
+        if not self.code and (re.search(r"\w\]\([\w./#-]+\)", data) or "`" in data):
+            self.left.append(" ".join(data.split()))
+
+    def handle_endtag(self, tag):
+        self.code -= tag in ("code", "pre", "script")
 
     def handle_starttag(self, tag, attributes):
         attributes = dict(attributes)
+        self.code += tag in ("code", "pre", "script")
         for key in ("id", "name"):
             if attributes.get(key):
                 self.anchors.add(attributes[key])
@@ -27,6 +36,8 @@ pages = {path.relative_to(root).as_posix(): Page(path.read_text(encoding="utf-8"
          for path in root.rglob("*.html") if "search" not in path.parts}
 faults, checked = [], 0
 for name, page in pages.items():
+    if name == "index.html" or name.startswith("md_"):  # in single backticks an apostrophe ends code
+        faults += [f"{name}: markdown is left in: {text}" for text in page.left]
     for link in page.links:
         url = urllib.parse.urlsplit(link)
         if url.scheme or url.netloc or link.startswith(("javascript:", "//")):

@@ -20,7 +20,7 @@ everything = "\n".join(texts)
 
 quoted, faults = 0, []
 for line in open(page, encoding="utf-8"):
-    message = re.match(r"\| `([^`]*)` \|", line)
+    message = re.match(r"\| ``?([^`]*)``? \|", line)
     if not message or " " not in message[1]:
         continue
     quoted += 1

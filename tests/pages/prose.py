@@ -18,7 +18,7 @@ DIALECT = [
     r"\b(hears?|heard)\b",
     r"\b(tells?|told)\b",
     r"\b(says?|said)\b",
-    r"\bown\s*[.,;:)]",
+    r"\b(its|their) own\s*[.,;:)]",
     r"(?<![.?!:] )(?<!^)\bwhat is\b",
     r"\bof no account\b",
     "\N{EM DASH}",

@@ -176,7 +176,7 @@ TEST(RelativeEquilibrium, RunsOnAsItBegan) {
   const auto begun = governor.scene();
   const double tolerance = 1e-9;
   const auto run = simulate(begun.scene, {.t_end = 5.0, .samples = 11, .tolerance = tolerance});
-  // The largest errors over 10 s at tolerance 1e-8 are below 100 times the tolerance (README).
+  // The largest errors over 10 s at tolerance 1e-8 are below 100 times the tolerance (docs/accuracy.md).
   for (std::size_t i = 0; i < run.size(); ++i)
     EXPECT_NEAR(run.position(begun.parts.sleeve, i).z(), found.sample().position(built.parts.sleeve).z(),
                 100 * tolerance);
