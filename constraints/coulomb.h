@@ -32,14 +32,16 @@ struct Coulomb {
       "friction, > 0 as the slip velocity is measured; sticking and sliding alike";
   static constexpr bool velocity_level = true;
   Slip slip;
-  Constraint<1> pressing;
-  double mu, mu_static;
+  Constraint<1> pressing;  ///< gives the normal force
+  double mu, mu_static;    ///< of sliding and of sticking friction, 0 <= mu <= mu_static
 
   decltype(auto) points() const { return slip.points(); }
   auto operator()(const auto&... a) const requires requires { slip(a...); }
   { return slip(a...); }
 
+  /// Gives the normal force.
   [[nodiscard]] const Constraint<1>& constraint() const { return pressing; }
+  /// Its law, as a System reads it.
   [[nodiscard]] Roughness roughness() const { return {pressing.index, mu, mu_static}; }
   [[nodiscard]] std::string fault() const {
     if (!(std::isfinite(mu) && mu >= 0.0)) return "mu = " + detail::text(mu) + ", must be finite and >= 0";
@@ -71,6 +73,7 @@ template <class Slip>
   static_assert(rows_of_constraint<Slip> <= 2, "there are one or two slip velocities, in space two");
   return {std::move(slip), pressing, mu, mu_static};
 }
+/// The same with one coefficient.
 template <class Slip>
 [[nodiscard]] Coulomb<Slip> coulomb(Constraint<1> pressing, Slip slip, double mu) {
   return coulomb(pressing, std::move(slip), mu, mu);

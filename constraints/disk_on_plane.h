@@ -59,8 +59,8 @@ struct DiskContact {
   C centre;
   A a;
   B b;
-  double radius;  ///< [length], finite and > 0
-  Plane<3> plane = {};
+  double radius;        ///< [length], finite and > 0
+  Plane<3> plane = {};  ///< that it touches
 
   auto points() const { return std::tie(centre, a, b); }
   auto operator()(const auto& c, const auto& r_a, const auto& r_b) const {
@@ -93,8 +93,8 @@ struct DiskRolling {
   C centre;
   A a;
   B b;
-  double radius;  ///< [length], finite and > 0
-  Plane<3> plane = {};
+  double radius;        ///< [length], finite and > 0
+  Plane<3> plane = {};  ///< that it rolls on
 
   auto points() const { return std::tie(centre, a, b); }
   auto operator()(const auto& c, const auto& r_a, const auto& r_b, const auto& v, const auto& v_a,

@@ -20,8 +20,8 @@ struct Heading {
   static constexpr std::string_view singular = "the two points of its direction coincide";
   static constexpr bool velocity_level = true;
   P point;
-  From from;
-  To to;
+  From from;  ///< the blade's rear
+  To to;      ///< its front: the direction is from the one to the other
 
   auto points() const { return std::tie(point, from, to); }
   auto operator()(const auto& /*r*/, const auto& r_from, const auto& r_to, const auto& v,

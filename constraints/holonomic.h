@@ -11,9 +11,10 @@ namespace dalembert {
 template <class Points, class Equation>
 struct Holonomic {
   static constexpr std::string_view kind = "Holonomic";
-  Points on;
-  Equation equation;
+  Points on;          ///< its points
+  Equation equation;  ///< as it was stated
 
+  /// Its points.
   const Points& points() const { return on; }
   auto operator()(const auto&... a) const requires requires { equation(a...); }
   { return equation(a...); }

@@ -20,7 +20,7 @@ struct InPlane {
   static constexpr std::string_view kind = "InPlane";
   static constexpr std::string_view meaning = "force that carries the point round; > 0 ahead";
   P point;
-  Axis axis;
+  Axis axis;    ///< in the plane
   Angle angle;  ///< of time [rad]: `[](auto t) { return 2.0 * t; }`
 
   auto points() const { return std::tie(point); }

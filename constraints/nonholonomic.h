@@ -9,9 +9,10 @@ template <class Points, class Equation>
 struct Nonholonomic {
   static constexpr std::string_view kind = "Nonholonomic";
   static constexpr bool velocity_level = true;
-  Points on;
-  Equation equation;
+  Points on;          ///< its points
+  Equation equation;  ///< as it was stated
 
+  /// Its points.
   const Points& points() const { return on; }
   auto operator()(const auto&... a) const requires requires { equation(a...); }
   { return equation(a...); }

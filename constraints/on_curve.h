@@ -21,7 +21,7 @@ struct OnCurve {
       "normal force on the point, over |grad g|; > 0 pushes towards g > 0";
   static constexpr std::string_view singular = "the curve has no normal there";
   P point;
-  Curve curve;
+  Curve curve;  ///< an equation g([t,] r)
 
   auto points() const { return std::tie(point); }
   auto operator()(const auto&... a) const requires requires { curve(a...); }

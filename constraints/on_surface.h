@@ -32,7 +32,8 @@ struct OnSurface {
   static constexpr std::string_view singular =
       "the surface has no normal there (an apex, a centre or an axis)";
   P point;
-  Surface surface;
+  Surface surface;  ///< an equation g([t,] r)
+  /// The same, prepared.
   decltype(detail::prepared(std::declval<const Surface&>())) equation = detail::prepared(surface);
 
   auto points() const { return std::tie(point); }

@@ -17,7 +17,7 @@ struct Prescribed {
   static constexpr std::string_view kind = "Prescribed";
   static constexpr std::string_view meaning = "force, of a rotor torque, that drives it, by components";
   P point;
-  Motion motion;
+  Motion motion;  ///< a function of time
 
   auto points() const { return std::tie(point); }
   auto operator()(const auto& t, const auto& r) const { return (r - motion(t)).eval(); }

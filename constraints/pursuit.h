@@ -22,8 +22,8 @@ struct Pursuit {
   static constexpr std::string_view meaning = "sideways force on the pursuer; > 0 to the left";
   static constexpr std::string_view singular = "the pursuer has caught its prey";
   static constexpr bool velocity_level = true;
-  P pursuer;
-  Prey prey;
+  P pursuer;  ///< whose velocity points at the prey
+  Prey prey;  ///< any point
 
   auto points() const { return std::tie(pursuer, prey); }
   auto operator()(const auto& r, const auto& r_prey, const auto& v, const auto& /*v_prey*/) const {

@@ -23,7 +23,7 @@ struct Rolling {
   static constexpr std::string_view singular = "the two points of its track coincide";
   static constexpr bool velocity_level = true;
   P centre;
-  Rotor wheel;
+  Rotor wheel;  ///< its angle, counter-clockwise
   A a;
   B b;
   double radius;  ///< [length], finite and > 0; the disk is on the left of the track

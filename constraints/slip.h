@@ -45,7 +45,7 @@ struct Slip {
   static constexpr std::string_view singular = "the surface has no normal there";
   static constexpr bool velocity_level = true;
   P point;
-  Surface surface;
+  Surface surface;                                     ///< that gives the directions
   Vec<P::dimension> belt = Vec<P::dimension>::Zero();  ///< [speed]
 
   auto points() const { return std::tie(point); }

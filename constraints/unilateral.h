@@ -28,7 +28,7 @@ struct Unilateral {
   static constexpr std::string_view singular = detail::singular_hint_of<Bilateral>();
   static constexpr std::string_view meaning = detail::meaning_of<Bilateral>();
   Bilateral bilateral;
-  Contact contact;
+  Contact contact;  ///< its sign and its restitution
 
   decltype(auto) points() const { return bilateral.points(); }
   auto operator()(const auto&... a) const requires requires { bilateral(a...); }

@@ -19,8 +19,8 @@ struct UprightRolling {
   static constexpr std::string_view meaning = "friction along the heading, and across it to the left";
   static constexpr bool velocity_level = true;
   P centre;
-  Rotor heading;
-  Rotor spin;
+  Rotor heading;  ///< of the disk, against the first axis of the plane
+  Rotor spin;     ///< about its own axis
   double radius;  ///< [length], finite and > 0
 
   auto points() const { return std::tie(centre, heading, spin); }

@@ -52,6 +52,7 @@ class UndeterminedForce : public Error {
 /// the failure. Whatever would take such a run on throws it again; begin anew from a sample.
 class IntegrationFailure : public Error {
  public:
+  /// Thrown by runs only.
   IntegrationFailure(const std::string& what, double time, std::shared_ptr<const Record> record)
       : Error(what), time_(time), record_(std::move(record)) {}
 

@@ -19,6 +19,7 @@ class Integrator {
   /// Checks the options and the start. Throws InvalidArgument, InconsistentStart.
   Integrator(System system, std::span<const double> q, std::span<const double> v, const Options& options,
              std::vector<FlatEvent> events = {});
+  /// Moved, not copied.
   Integrator(Integrator&&) noexcept;
   ~Integrator();
 
@@ -40,7 +41,9 @@ class Integrator {
   /// InvalidArgument if the options ask for dense output.
   void run(const std::function<void(const FlatSample&)>& observe);
 
+  /// Of the run so far.
   [[nodiscard]] Statistics statistics() const;
+  /// The equations in force.
   [[nodiscard]] const System& system() const;
 
  private:

@@ -30,13 +30,18 @@ class Simulation : public Readings<D, Simulation<D>> {
 
   /// See Integrator.
   void step() { integrator_.step(); }
+  /// Steps until a time, which it reaches exactly; throws as `step`.
   void advance_to(double t) { integrator_.advance_to(t); }
 
   /// The current instant; see Sample for what can be read. A view, valid until the next step.
   [[nodiscard]] Sample<D> sample() const { return {*integrator_.system().layout(), integrator_.sample()}; }
+  /// Reached so far [time].
   [[nodiscard]] double time() const { return sample().time(); }
+  /// Of the run so far.
   [[nodiscard]] Statistics statistics() const { return integrator_.statistics(); }
+  /// So far, in the order of time.
   [[nodiscard]] std::span<const Occurrence> events() const { return integrator_.events(); }
+  /// Of the run so far.
   [[nodiscard]] Audit audit() const { return integrator_.statistics().audit; }
 
   /// All samples that the options ask for.

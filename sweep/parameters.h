@@ -13,20 +13,23 @@ namespace dalembert {
 
 /// A column of a sweep's dataset.
 struct Quantity {
-  std::string name;
+  std::string name;       ///< of a column
   std::string unit = "";  ///< as a reader is to see it; the user's own, nothing is converted
 };
 
 /// A row of parameters: what one scene is made from. A view, valid while `make` runs.
 class Row {
  public:
+  /// Made by Parameters.
   Row(std::size_t index, std::span<const Quantity> columns, std::span<const double> values)
       : index_(index), columns_(columns), values_(values) {}
 
   [[nodiscard]] std::size_t index() const { return index_; }  ///< from 0
+  /// In the order of the columns.
   [[nodiscard]] std::span<const double> values() const { return values_; }
   /// By the number of a column, or its name. Throws InvalidArgument if there is none.
   [[nodiscard]] double operator[](std::size_t column) const;
+  /// The value of a parameter by its name; throws InvalidArgument if there is none.
   template <std::convertible_to<std::string_view> Name>
   [[nodiscard]] double operator[](const Name& name) const {
     return named(name);
@@ -52,9 +55,13 @@ class Parameters {
   Parameters(std::vector<Quantity> columns, std::size_t rows, Fill fill, std::string description,
              std::uint64_t seed = 0);
 
+  /// How many runs.
   [[nodiscard]] std::size_t rows() const { return rows_; }
+  /// Their names and units.
   [[nodiscard]] const std::vector<Quantity>& columns() const { return columns_; }
+  /// Writes the values of a row.
   void fill(std::size_t row, std::span<double> values) const { fill_(row, values); }
+  /// Their rule in words, part of the identity of a sweep.
   [[nodiscard]] const std::string& description() const { return description_; }
   [[nodiscard]] std::uint64_t seed() const { return seed_; }  ///< 0 if nothing is random
 
@@ -68,15 +75,15 @@ class Parameters {
 
 /// Equally spaced values of one parameter, both ends among them; of a single one it is `from`.
 struct GridAxis {
-  std::string name, unit;
-  double from, to;
-  std::size_t count;
+  std::string name, unit;  ///< of the parameter
+  double from, to;         ///< its first and last value
+  std::size_t count;       ///< how many values, equally spaced
 };
 
 /// Where a random or quasi-random parameter lies, uniformly.
 struct Range {
-  std::string name, unit;
-  double from, to;
+  std::string name, unit;  ///< of the parameter
+  double from, to;         ///< its bounds
 };
 
 /// All combinations; the last axis varies fastest, as in an array of C or numpy.

@@ -12,9 +12,9 @@ namespace dalembert {
 
 /// A row of parameters whose run failed.
 struct FailedRow {
-  std::int64_t row;
-  double time;  ///< the last that the run reached; NaN if it did not begin, or the error has no time
-  std::string error;
+  std::int64_t row;   ///< from 0
+  double time;        ///< the last that the run reached; NaN if it did not begin, or the error has no time
+  std::string error;  ///< its message
 };
 /// All that failed, in the order of rows. Throws Error if there is no such file.
 [[nodiscard]] std::vector<FailedRow> read_failures(const std::string& file);

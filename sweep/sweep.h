@@ -23,7 +23,7 @@ struct SweepOptions {
   /// The dataset, HDF5; docs/sweeps.md says what is in it. Until all rows are done `<file>.journal` lies
   /// beside it: keep both, and the same program goes on where it was stopped. Needed.
   std::string file{};
-  std::string title = "sweep";
+  std::string title = "sweep";  ///< part of the dataset
   /// How each scene is run, unless `make` gives options of its own.
   Options run{};
   /// In each process; 0: as many as this one may use. More than 1 needs oneTBB when the library is built.
@@ -36,15 +36,15 @@ struct SweepOptions {
 
 /// What became of a sweep.
 struct SweepSummary {
-  std::size_t rows = 0;
+  std::size_t rows = 0;      ///< of the table of parameters
   std::size_t done = 0;      ///< all of them, unless it was interrupted
   std::size_t failed = 0;    ///< of these the ones with an error in place of results
   std::size_t found = 0;     ///< of these the ones that an earlier call had done
   bool interrupted = false;  ///< by SIGINT or SIGTERM
   double seconds = 0.0;      ///< that this call took
   int rank = 0;              ///< of this process; the same summary is given to all
-  int ranks = 1;
-  std::string file{};
+  int ranks = 1;             ///< of MPI; 1 without
+  std::string file{};        ///< of the dataset
 
   /// One line for a reader; of an interrupted sweep it says how to go on.
   [[nodiscard]] std::string report() const;
@@ -52,15 +52,15 @@ struct SweepSummary {
 
 /// What a run is reduced to: a number for each quantity, and rows of its series one after the other.
 struct RowResult {
-  std::vector<double> values{};
-  std::vector<double> series{};
+  std::vector<double> values{};  ///< one for each quantity
+  std::vector<double> series{};  ///< one row after the other; empty if none is kept
 };
 
 /// What a row of parameters gives; see `sweep_rows`.
 struct RowFunction {
-  std::vector<Quantity> quantities;
-  std::vector<Quantity> series{};  ///< columns of what is kept at many times; none: nothing is
-  std::function<RowResult(const Row&)> function;
+  std::vector<Quantity> quantities;               ///< what it returns
+  std::vector<Quantity> series{};                 ///< columns of what is kept at many times; none: nothing is
+  std::function<RowResult(const Row&)> function;  ///< of a row of parameters
   /// What is done with a row, for those who find the dataset later, and to tell a sweep from others.
   std::string description{};
 };

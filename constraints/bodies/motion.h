@@ -29,21 +29,30 @@ template <int D>
 /// The rotation from the axes of space to those of the body, as a unit quaternion with w >= 0. (As a matrix
 /// it is `body.axes(sample)`.)
 [[nodiscard]] Eigen::Quaterniond quaternion(const Sample<3>& sample, const RigidBody<3>& body);
+/// Likewise.
 [[nodiscard]] Eigen::Quaterniond quaternion(const Sample<3>& sample, const Lamina& body);
 
 /// [rad / time], in space along the axes of space; along those of the body it is `body.axes(sample)^T` times
 /// that. A ThinRod in space has no turn about itself: what is given is across it.
 [[nodiscard]] double angular_velocity(const Sample<2>& sample, const RigidBody<2>& body);
+/// Likewise.
 [[nodiscard]] double angular_velocity(const Sample<2>& sample, const ThinRod<2>& rod);
+/// Likewise.
 [[nodiscard]] Vec<3> angular_velocity(const Sample<3>& sample, const RigidBody<3>& body);
+/// Likewise.
 [[nodiscard]] Vec<3> angular_velocity(const Sample<3>& sample, const Lamina& body);
+/// Likewise, across the rod.
 [[nodiscard]] Vec<3> angular_velocity(const Sample<3>& sample, const ThinRod<3>& rod);
 
 /// [rad / time^2], along the same axes. Throws like Sample::acceleration.
 [[nodiscard]] double angular_acceleration(const Sample<2>& sample, const RigidBody<2>& body);
+/// Likewise.
 [[nodiscard]] double angular_acceleration(const Sample<2>& sample, const ThinRod<2>& rod);
+/// Likewise.
 [[nodiscard]] Vec<3> angular_acceleration(const Sample<3>& sample, const RigidBody<3>& body);
+/// Likewise.
 [[nodiscard]] Vec<3> angular_acceleration(const Sample<3>& sample, const Lamina& body);
+/// Likewise, across the rod.
 [[nodiscard]] Vec<3> angular_acceleration(const Sample<3>& sample, const ThinRod<3>& rod);
 
 /// Of its motion and its turning together.

@@ -47,13 +47,15 @@ struct BodyState<3> {
 template <int D>
 struct RigidBody {
   static constexpr int dimension = D;
-  static constexpr int particle_count = BodyPoint<D>::count;
-  static constexpr int rod_count = D == 2 ? 1 : 6;
-  using Axes = Eigen::Matrix<double, D, D>;
+  static constexpr int particle_count = BodyPoint<D>::count;  ///< 2 in the plane, 4 in space
+  static constexpr int rod_count = D == 2 ? 1 : 6;            ///< between its particles
+  using Axes = Eigen::Matrix<double, D, D>;                   ///< a rotation matrix
+  /// A number in the plane, three principal moments in space.
   using Inertia = decltype(BodyState<D>::inertia);
 
+  /// With its mass, centre and inertia.
   std::array<Particle<D>, static_cast<std::size_t>(particle_count)> particles;
-  std::array<Constraint<1>, static_cast<std::size_t>(rod_count)> rods;
+  std::array<Constraint<1>, static_cast<std::size_t>(rod_count)> rods;  ///< that hold them together
   Vec<D> arms = Vec<D>::Zero();  ///< (rho, rho) or (a, b, c): roots of the second moments over the mass
   std::array<double, static_cast<std::size_t>(particle_count)> masses{};  ///< of the particles
   Vec<D> stated_centre = Vec<D>::Zero();                                  ///< where it was added, and how:
@@ -66,6 +68,7 @@ struct RigidBody {
 
   /// The point at coordinates `local` from the centre of mass along the body's axes.
   [[nodiscard]] BodyPoint<D> point(const Vec<D>& local) const;
+  /// Its centre of mass.
   [[nodiscard]] BodyPoint<D> centre() const { return point(Vec<D>::Zero()); }
   /// A vector that turns with the body, components `local` along its axes: its `position` is the vector
   /// itself, its `velocity` the vector's rate. In an equation it stands like a point of the body.
@@ -75,6 +78,7 @@ struct RigidBody {
   [[nodiscard]] BodyPoint<D> point_at(const Vec<D>& place) const {
     return point(stated_axes.transpose() * (place - stated_centre));
   }
+  /// Components along the axes of space.
   [[nodiscard]] BodyPoint<D> vector_along(const Vec<D>& direction) const {
     return vector(stated_axes.transpose() * direction);
   }

@@ -12,11 +12,11 @@ namespace dalembert {
 /// A uniform thin rod as its user states it, by its two ends.
 template <int D>
 struct ThinRodState {
-  double mass = 0.0;  ///< finite and > 0
-  Vec<D> start = Vec<D>::Zero();
-  Vec<D> end = Vec<D>::Zero();  ///< another place than `start`
-  Vec<D> start_velocity = Vec<D>::Zero();
-  Vec<D> end_velocity = Vec<D>::Zero();
+  double mass = 0.0;                       ///< finite and > 0
+  Vec<D> start = Vec<D>::Zero();           ///< one end [length]
+  Vec<D> end = Vec<D>::Zero();             ///< another place than `start`
+  Vec<D> start_velocity = Vec<D>::Zero();  ///< of `start`
+  Vec<D> end_velocity = Vec<D>::Zero();    ///< of `end`; along the rod it must be that of `start`
 };
 
 /// A uniform thin rod, in the plane or in space: half its mass in each of two particles at
@@ -29,14 +29,17 @@ struct ThinRodState {
 /// particles, so its ends can be pinned like any other point.
 template <int D>
 struct ThinRod {
-  std::array<Particle<D>, 2> particles;
-  Constraint<1> distance;  ///< between the particles
-  double length = 0.0;     ///< from start to end
+  std::array<Particle<D>, 2> particles;  ///< half its mass each
+  Constraint<1> distance;                ///< between the particles
+  double length = 0.0;                   ///< from start to end
 
   /// The point at a fraction of the way from start (0) to end (1).
   [[nodiscard]] BodyPoint<D, 2> point(double fraction) const;
+  /// Its end at `start`.
   [[nodiscard]] BodyPoint<D, 2> start() const { return point(0.0); }
+  /// Its centre of mass.
   [[nodiscard]] BodyPoint<D, 2> centre() const { return point(0.5); }
+  /// Its end at `end`.
   [[nodiscard]] BodyPoint<D, 2> end() const { return point(1.0); }
 };
 

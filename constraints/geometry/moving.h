@@ -26,8 +26,8 @@ template <class Surface>
 template <class Surface, class Path>
 struct Translating {
   static constexpr std::string_view kind = "Translating";
-  Surface surface;
-  Path path;
+  Surface surface;  ///< at rest
+  Path path;        ///< its translation, a function of time [length]
 
   auto operator()(const auto& t, const auto& r) const { return surface((r - path(t)).eval()); }
   [[nodiscard]] std::string fault() const { return detail::fault_of(surface); }
@@ -39,9 +39,9 @@ Translating(Surface, Path) -> Translating<Surface, Path>;
 template <class Curve, class Angle>
 struct Rotating {
   static constexpr std::string_view kind = "Rotating";
-  Curve curve;
-  Vec<2> centre;
-  Angle angle;  ///< of time [rad]
+  Curve curve;    ///< at rest
+  Vec<2> centre;  ///< about which it turns [length]
+  Angle angle;    ///< of time [rad]
 
   auto operator()(const auto& t, const auto& r) const {
     using std::cos;
@@ -61,9 +61,9 @@ Rotating(Curve, Vec<2>, Angle) -> Rotating<Curve, Angle>;
 template <class Surface, class Angle>
 struct RotatingAbout {
   static constexpr std::string_view kind = "RotatingAbout";
-  Surface surface;
-  Axis axis;
-  Angle angle;  ///< of time [rad]
+  Surface surface;  ///< at rest
+  Axis axis;        ///< about which it turns
+  Angle angle;      ///< of time [rad]
 
   auto operator()(const auto& t, const auto& r) const {
     using std::cos;

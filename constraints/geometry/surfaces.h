@@ -35,8 +35,8 @@ template <int D>
 template <int D>
 struct Plane {
   static constexpr std::string_view kind = "Plane";
-  Vec<D> point = Vec<D>::Zero();
-  Vec<D> normal = Vec<D>::Unit(D - 1);
+  Vec<D> point = Vec<D>::Zero();        ///< any point of it [length]
+  Vec<D> normal = Vec<D>::Unit(D - 1);  ///< towards g > 0; of any length but 0
 
   [[nodiscard]] auto prepared() const {
     return [point = point, n = Vec<D>(normal.normalized())](const auto& r) { return n.dot(r - point); };
@@ -56,8 +56,8 @@ struct Plane {
 template <int D>
 struct Sphere {
   static constexpr std::string_view kind = "Sphere";
-  Vec<D> centre = Vec<D>::Zero();
-  double radius = 1.0;
+  Vec<D> centre = Vec<D>::Zero();  ///< [length]
+  double radius = 1.0;             ///< > 0 [length]
 
   auto operator()(const auto& r) const { return (r - centre).norm() - radius; }
   [[nodiscard]] auto normal_at(const auto& r) const { return (r - centre).normalized().eval(); }
@@ -71,8 +71,8 @@ struct Sphere {
 struct Cylinder {
   static constexpr std::string_view kind = "Cylinder";
   Vec<3> point = Vec<3>::Zero();  ///< any point of the axis
-  Vec<3> axis = Vec<3>::UnitZ();
-  double radius = 1.0;
+  Vec<3> axis = Vec<3>::UnitZ();  ///< its direction, of any length but 0
+  double radius = 1.0;            ///< > 0 [length]
 
   [[nodiscard]] auto prepared() const {
     return [point = point, e = detail::unit_vector(axis), radius = radius](const auto& r) {
@@ -100,8 +100,8 @@ struct Cylinder {
 /// Singular at the apex and on the axis.
 struct Cone {
   static constexpr std::string_view kind = "Cone";
-  Vec<3> apex = Vec<3>::Zero();
-  Vec<3> axis = Vec<3>::UnitZ();
+  Vec<3> apex = Vec<3>::Zero();            ///< [length]
+  Vec<3> axis = Vec<3>::UnitZ();           ///< from the apex into the cone, of any length but 0
   double half_angle = 0.7853981633974483;  ///< [rad], between 0 and pi/2
 
   [[nodiscard]] auto prepared() const {

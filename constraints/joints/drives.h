@@ -24,7 +24,7 @@ struct AngleDrive {
   static constexpr std::string_view meaning =
       "torque of the shaft on the second body about the axis, and torque that drives the armature";
   JointFrames<A, B> frames;
-  Rotor rotor;
+  Rotor rotor;  ///< the armature
   Angle angle;  ///< of time [rad]; bodies and rotor start where it does
 
   /// Of a joint that turns about its axis, or what add_joint returned for it.

@@ -29,9 +29,9 @@ struct FixedVector {
   static constexpr int inputs = 0;
   static constexpr int coordinates = 0;
   static constexpr bool driven = false;
-  static constexpr std::array<Particle<D>, 0> particles{};
+  static constexpr std::array<Particle<D>, 0> particles{};  ///< none: the ground has no particles
 
-  Vec<D> position = Vec<D>::Zero();
+  Vec<D> position = Vec<D>::Zero();  ///< of its origin; it does not matter
 };
 
 /// The frame of a joint as one body carries it (a marker): its point, and its axes as vectors.
@@ -94,18 +94,20 @@ struct JointFrames {
   static constexpr int dimension = A::dimension;
   static_assert(A::dimension == B::dimension, "the bodies of a joint have the dimension of its scene");
   static_assert(detail::moves<A> || detail::moves<B>, "a joint needs a body that can move");
-  using First = A;
-  using Second = B;
-  using Axes = Eigen::Matrix<double, dimension, dimension>;
+  using First = A;                                           ///< the first body's type
+  using Second = B;                                          ///< the second body's type
+  using Axes = Eigen::Matrix<double, dimension, dimension>;  ///< a rotation matrix
 
   Vec<dimension> place;  ///< of b's frame, when the bodies were added
   Axes stated;           ///< the axes then; columns
   double length;         ///< [length]
-  JointFrame<A> a;
-  JointFrame<B> b;
+  JointFrame<A> a;       ///< on the first body
+  JointFrame<B> b;       ///< on the second body
 
+  /// Both frames at one place of space.
   JointFrames(const A& body_a, const B& body_b, const Vec<dimension>& at, const Axes& axes)
       : JointFrames(body_a, at, body_b, at, axes) {}
+  /// Each frame at a place of its body.
   JointFrames(const A& body_a, const Vec<dimension>& at_a, const B& body_b, const Vec<dimension>& at_b,
               const Axes& axes)
       : place(at_b),

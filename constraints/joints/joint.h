@@ -11,7 +11,7 @@ namespace dalembert {
 /// `hinge = {hinge, other}`.
 template <class J>
 struct Joint : Constraint<rows_of_constraint<J>> {
-  J joint;
+  J joint;  ///< as it was added
 };
 
 /// Adds a joint to a scene, or anything else with frames (a drive, a gear):

@@ -25,6 +25,7 @@ struct Revolute {
   /// Point and axis are where they are in space when the bodies are added.
   Revolute(const A& a, const B& b, const Vec<3>& point, const Vec<3>& axis) requires(A::dimension == 3)
       : frames(a, b, point, detail::joint_axes(axis)) {}
+  /// The same in the plane, about its normal.
   Revolute(const A& a, const B& b, const Vec<2>& point) requires(A::dimension == 2)
       : frames(a, b, point, Eigen::Matrix2d::Identity()) {}
 

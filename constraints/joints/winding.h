@@ -24,7 +24,7 @@ struct Winding {
   static constexpr std::string_view meaning =
       "torque on the second body about the axis; the opposite is on the rotor";
   JointFrames<A, B> frames;
-  Rotor rotor;
+  Rotor rotor;  ///< that counts the turns
 
   /// Of a joint that turns about its axis, or what add_joint returned for it.
   template <class J>

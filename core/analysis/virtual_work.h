@@ -26,6 +26,7 @@ struct VirtualWork {
 
 /// Of a state of a scene, with the forces of constraint found there.
 [[nodiscard]] VirtualWork virtual_work(const System& system, const FlatSample& sample);
+/// The same at a sample of a run.
 template <int D>
 [[nodiscard]] VirtualWork virtual_work(const Scene<D>& scene, const Sample<D>& sample) {
   return virtual_work(scene.system(), sample.flat());

@@ -14,7 +14,7 @@ namespace dalembert {
 
 /// Time, coordinates and velocities: what every equation is evaluated at. A view.
 struct Instant {
-  double t;
+  double t;                   ///< [time]
   std::span<const double> q;  ///< n coordinates
   std::span<const double> v;  ///< n velocities
 };
@@ -60,6 +60,7 @@ template <class Element>
 using PointTuple = typename detail::WithoutReferences<
     std::remove_cvref_t<decltype(std::declval<const Element&>().points())>>::type;
 
+/// What the points of an element have in common, and how many inputs they are.
 template <class Element>
 using PointFacts = PointsOf<PointTuple<Element>>;
 

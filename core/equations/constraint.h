@@ -198,6 +198,7 @@ using Residual = std::remove_cvref_t<decltype(call<takes_time<C>>(
 /// Scalar equations of a constraint type; 0 of any other type.
 template <class C>
 inline constexpr int rows_of_constraint = 0;
+/// The same of a constraint.
 template <class C>
   requires(HolonomicConstraint<C> || NonholonomicConstraint<C>)
 inline constexpr int rows_of_constraint<C> = detail::rows_in<detail::Residual<C>>;

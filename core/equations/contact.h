@@ -9,7 +9,7 @@ enum class Allowed { positive, negative };
 
 /// What a one-sided constraint adds to its equation.
 struct Contact {
-  Allowed allowed = Allowed::positive;
+  Allowed allowed = Allowed::positive;  ///< the sign of g
   /// Newton's coefficient: the speed of separation after an impact over that of approach, 0 to 1.
   double restitution = 0.0;
 
@@ -19,16 +19,16 @@ struct Contact {
 
 /// What Coulomb's law adds to the no-slip equation.
 struct Roughness {
-  int pressed_by = -1;  ///< index of the constraint that gives the normal force
-  double mu = 0.0;      ///< coefficient of sliding friction
-  double mu_static = 0.0;
+  int pressed_by = -1;     ///< index of the constraint that gives the normal force
+  double mu = 0.0;         ///< coefficient of sliding friction
+  double mu_static = 0.0;  ///< of sticking friction, at least mu
 };
 
 /// When a constraint holds, if not always.
 struct Condition {
-  std::optional<Contact> contact{};
-  std::optional<Roughness> roughness{};
-  bool released = false;
+  std::optional<Contact> contact{};      ///< of a one-sided constraint
+  std::optional<Roughness> roughness{};  ///< of Coulomb friction
+  bool released = false;                 ///< not in force
 };
 
 }  // namespace dalembert

@@ -68,7 +68,7 @@ QuadraticDrag(P, double) -> QuadraticDrag<P>;
 /// A constant torque on a rotor: V = -torque phi.
 struct Torque {
   static constexpr std::string_view kind = "Torque";
-  Rotor rotor;
+  Rotor rotor;    ///< that it turns
   double torque;  ///< [force length], finite
 
   auto points() const { return std::tie(rotor); }

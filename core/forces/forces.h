@@ -76,9 +76,10 @@ Damper(A, B, double) -> Damper<A, B>;
 template <class Points, class Energy>
 struct Potential {
   static constexpr std::string_view kind = "Potential";
-  Points on;
-  Energy function;
+  Points on;        ///< its points
+  Energy function;  ///< as it was stated
 
+  /// Its points.
   const Points& points() const { return on; }
   auto energy(const auto&... a) const requires requires { function(a...); }
   { return function(a...); }
@@ -101,9 +102,10 @@ template <class... P, class Energy>
 template <class Points, class Law>
 struct ForceFromLaw {
   static constexpr std::string_view kind = "ForceLaw";
-  Points on;
-  Law function;
+  Points on;     ///< its points
+  Law function;  ///< as it was stated
 
+  /// Its points.
   const Points& points() const { return on; }
   auto force(const auto&... a) const requires requires { function(a...); }
   { return function(a...); }

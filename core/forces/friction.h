@@ -54,11 +54,13 @@ concept FrictionForce = ActsOnPoints<E> && ReadsMultiplier<E> &&
 template <int Rows, class Points, class Law>
 struct FrictionFromLaw {
   static constexpr std::string_view kind = "FrictionLaw";
-  Constraint<Rows> of;
-  Points on;
-  Law function;
+  Constraint<Rows> of;  ///< whose multiplier it reads
+  Points on;            ///< its points
+  Law function;         ///< as it was stated
 
+  /// Its points.
   const Points& points() const { return on; }
+  /// Whose multiplier it reads.
   const Constraint<Rows>& constraint() const { return of; }
   auto friction(const auto&... a) const requires requires { function(a...); }
   { return function(a...); }

@@ -38,6 +38,7 @@ class Embedding {
       D>;
 
  public:
+  /// Where a particle is, a column of the scene's dimension.
   template <class Position>
   void add(Particle<D> particle, Position position) {
     static_assert(Places<Position>,
@@ -112,19 +113,29 @@ void Embedding<D, N>::write(const Layout& layout, double t, const Vec<N>& q, con
 template <int D>
 class EmbeddedMotion {
  public:
+  /// Of samples.
   [[nodiscard]] std::size_t size() const { return times_.size(); }
+  /// Of the samples [time].
   [[nodiscard]] std::span<const double> times() const& { return times_; }
   void times() const&& = delete;
+  /// Of a particle at sample i.
   [[nodiscard]] Vec<D> position(Particle<D> p, std::size_t i) const { return read(0, p, i); }
+  /// Of a particle at sample i.
   [[nodiscard]] Vec<D> velocity(Particle<D> p, std::size_t i) const { return read(1, p, i); }
+  /// Of a particle at sample i.
   [[nodiscard]] Vec<D> acceleration(Particle<D> p, std::size_t i) const { return read(2, p, i); }
+  /// Of all constraints on a particle at sample i [force].
   [[nodiscard]] Vec<D> constraint_force(Particle<D> p, std::size_t i) const { return read(3, p, i); }
+  /// Of all constraints on a rotor at sample i [force length].
   [[nodiscard]] double constraint_torque(Rotor rotor, std::size_t i) const {
     layout_->require(rotor);
     return number(3, i)[static_cast<std::size_t>(rotor.coordinate)];
   }
+  /// Of all coordinates of the scene at sample i.
   [[nodiscard]] std::span<const double> positions(std::size_t i) const& { return number(0, i); }
+  /// Likewise.
   [[nodiscard]] std::span<const double> velocities(std::size_t i) const& { return number(1, i); }
+  /// Likewise.
   [[nodiscard]] std::span<const double> constraint_forces(std::size_t i) const& { return number(3, i); }
 
   /// Throws InvalidArgument if the scene has forces that read multipliers: (1) does not determine them.

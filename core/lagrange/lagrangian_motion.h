@@ -24,10 +24,14 @@ class LagrangianMotion {
         tolerance_(tolerance),
         rank_(run_.size() > 0 ? reactions(0).rank : 0) {}
 
+  /// Of samples.
   [[nodiscard]] std::size_t size() const { return run_.size(); }
+  /// Of the samples [time].
   [[nodiscard]] std::span<const double> times() const& { return run_.times(); }
   void times() const&& = delete;
+  /// Of the run.
   [[nodiscard]] const Statistics& statistics() const& { return run_.statistics(); }
+  /// Whose motion it is.
   [[nodiscard]] const LagrangianSystem<N>& system() const& { return system_; }
   /// At any times of a run with the option `dense`; see Trajectory::at.
   [[nodiscard]] LagrangianMotion at(std::span<const double> times) const {
@@ -40,9 +44,11 @@ class LagrangianMotion {
   [[nodiscard]] Vec<N> position(std::size_t i) const {
     return read([&](Rotor rotor) { return run_.angle(rotor, i); });
   }
+  /// Its rate.
   [[nodiscard]] Vec<N> velocity(std::size_t i) const {
     return read([&](Rotor rotor) { return run_.angular_velocity(rotor, i); });
   }
+  /// Its second derivative.
   [[nodiscard]] Vec<N> acceleration(std::size_t i) const { return system_.scale().cwiseProduct(solved(i).a); }
   /// p = L_v, conserved for cyclic coordinates on which nothing else acts.
   [[nodiscard]] Vec<N> momentum(std::size_t i) const { return terms(i).L_v; }
@@ -62,6 +68,7 @@ class LagrangianMotion {
       return lambda.segment<Rows>(first);
     }
   }
+  /// Its generalized force A^T lambda, by coordinates.
   template <int Rows>
   [[nodiscard]] Vec<N> constraint_force(Constraint<Rows> constraint, std::size_t i) const {
     const Eigen::Index first = first_row(constraint);

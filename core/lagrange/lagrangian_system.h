@@ -16,8 +16,8 @@ namespace dalembert {
 /// The N coordinates of a Lagrangian as its user states them: angles, lengths, anything.
 template <int N>
 struct CoordinateState {
-  Vec<N> position = Vec<N>::Zero();
-  Vec<N> velocity = Vec<N>::Zero();
+  Vec<N> position = Vec<N>::Zero();  ///< at the start
+  Vec<N> velocity = Vec<N>::Zero();  ///< at the start
   /// What counts as one unit of each, > 0: errors are relative to it. 1 for an angle; for a length the size
   /// of the system.
   Vec<N> scale = Vec<N>::Ones();
@@ -52,6 +52,7 @@ class LagrangianSystem {
   /// Throws InvalidScene unless the state is finite and scales are positive.
   explicit LagrangianSystem(const CoordinateState<N>& state, std::shared_ptr<const Lagrangian<N>> lagrangian,
                             const std::string& name = "lagrangian");
+  /// From a function of positions and rates, written for any scalar.
   template <class F>
     requires(!std::is_convertible_v<F, std::shared_ptr<const Lagrangian<N>>>)
   explicit LagrangianSystem(const CoordinateState<N>& state, F function,
@@ -72,21 +73,30 @@ class LagrangianSystem {
     static_assert(!OneSided<G>, "the constraints of a Lagrangian hold both ways");
     return enter(kinematics_.add(detail::OnPositions<N, G>{coordinates_, scale_, std::move(equation)}, name));
   }
+  /// See `constrain`.
   template <class A>
   auto constrain_velocities(A equation, const std::string& name = {}) {
     return enter(
         kinematics_.add(detail::OnVelocities<N, A>{coordinates_, scale_, std::move(equation)}, name));
   }
 
+  /// At the start.
   [[nodiscard]] Vec<N> position() const { return unscaled(kinematics_.initial_positions()); }
+  /// At the start.
   [[nodiscard]] Vec<N> velocity() const { return unscaled(kinematics_.initial_velocities()); }
+  /// The unit of each coordinate.
   [[nodiscard]] const Vec<N>& scale() const { return scale_; }
+  /// Of the system.
   [[nodiscard]] const std::string& name() const { return kinematics_.name(); }
+  /// Of a coordinate, counted from 0.
   [[nodiscard]] const std::string& name(int coordinate) const {
     return names_.at(static_cast<std::size_t>(coordinate));
   }
+  /// Its Lagrangian with derivatives.
   [[nodiscard]] const std::shared_ptr<const Lagrangian<N>>& lagrangian() const { return lagrangian_; }
+  /// Whether it has constraints.
   [[nodiscard]] bool constrained() const { return rows_ > 0; }
+  /// Whether it has forces besides the Lagrangian.
   [[nodiscard]] bool forced() const { return !forces_.empty(); }
 
   /// The coordinates that L does not depend on (ignorable ones): their momenta change only by forces Q and
@@ -98,7 +108,9 @@ class LagrangianSystem {
   /// `simulate`: its constraints exert nothing (see LagrangeEquations), and anything else added to it acts on
   /// rotors of unit inertia.
   [[nodiscard]] LagrangeEquations<N> equations() const;
+  /// The system as a scene of rotors, one for each coordinate over its scale.
   [[nodiscard]] Scene<2> rotor_scene(double t_start) const;
+  /// Those rotors.
   [[nodiscard]] const std::array<Rotor, static_cast<std::size_t>(N)>& rotors() const { return coordinates_; }
 
  private:

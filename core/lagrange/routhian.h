@@ -18,6 +18,7 @@ namespace dalembert {
 template <int N>
 class Routhian final : public Lagrangian<N - 1> {
  public:
+  /// Made by `reduced`.
   Routhian(std::shared_ptr<const Lagrangian<N>> of, int cyclic, double place, double rate, double momentum)
       : of_(std::move(of)), cyclic_(cyclic), place_(place), rate_(rate), momentum_(momentum) {}
 
@@ -28,6 +29,7 @@ class Routhian final : public Lagrangian<N - 1> {
   [[nodiscard]] double rate(double t, const Vec<N - 1>& q, const Vec<N - 1>& v) const {
     return solve(t, q, v).second;
   }
+  /// That is conserved.
   [[nodiscard]] double momentum() const { return momentum_; }
 
  private:
@@ -105,8 +107,8 @@ LagrangeTerms<N - 1> Routhian<N>::terms(double t, const Vec<N - 1>& q, const Vec
 /// gives the rate of that one along their motion.
 template <int N>
 struct RouthReduction {
-  LagrangianSystem<N - 1> system;
-  std::shared_ptr<const Routhian<N>> routhian;
+  LagrangianSystem<N - 1> system;               ///< of the other coordinates
+  std::shared_ptr<const Routhian<N>> routhian;  ///< that gives the rate of the cyclic one
 };
 
 /// Leaves a cyclic coordinate out, with the momentum that it has at the start. Throws InvalidArgument if L

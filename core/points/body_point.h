@@ -18,15 +18,17 @@ template <int D, int Particles = (D == 2 ? 2 : 4)>
 struct BodyPoint {
   static constexpr int dimension = D;
   static constexpr int inputs = D;
-  static constexpr int count = Particles;
+  static constexpr int count = Particles;  ///< of particles
   static constexpr int coordinates = count * D;
   static constexpr bool driven = false;
-  using Map = Eigen::Matrix<double, D, coordinates>;
+  using Map = Eigen::Matrix<double, D, coordinates>;  ///< from the particles' coordinates to the point's
 
-  std::array<Particle<D>, static_cast<std::size_t>(count)> particles;
-  Map L;
+  std::array<Particle<D>, static_cast<std::size_t>(count)> particles;  ///< of its body
+  Map L;                                                               ///< constant
 
+  /// Constant.
   [[nodiscard]] const Map& map() const { return L; }
+  /// Its value from all coordinates, or from their rates.
   [[nodiscard]] Vec<D> gather(std::span<const double> x) const {
     Vec<D> r = Vec<D>::Zero();
     int column = 0;
@@ -38,6 +40,7 @@ struct BodyPoint {
     }
     return r;
   }
+  /// The coordinates that it reads.
   [[nodiscard]] std::array<int, static_cast<std::size_t>(coordinates)> reads() const {
     std::array<int, static_cast<std::size_t>(coordinates)> all{};
     auto next = all.begin();

@@ -30,7 +30,7 @@ struct Fixed {
   static constexpr int coordinates = 0;
   static constexpr bool driven = false;
 
-  Vec<D> position = Vec<D>::Zero();
+  Vec<D> position = Vec<D>::Zero();  ///< [length]
 };
 
 /// A particle of a scene, as returned by Scene::add_particle: a handle to read results with, and a
@@ -50,6 +50,7 @@ struct Particle {
   [[nodiscard]] Vec<D> gather(std::span<const double> x) const {
     return Eigen::Map<const Vec<D>>(x.data() + coordinate);
   }
+  /// The coordinates that it reads.
   [[nodiscard]] auto reads() const { return consecutive<D>(coordinate); }
 
   friend bool operator==(const Particle&, const Particle&) = default;
@@ -67,9 +68,11 @@ struct Rotor {
   int coordinate = -1;      ///< its place in q
   std::uint64_t scene = 0;  ///< identity of the scene it belongs to
 
+  /// Its angle, as a vector of one number.
   [[nodiscard]] Vec<1> gather(std::span<const double> x) const {
     return Vec<1>(x[static_cast<std::size_t>(coordinate)]);
   }
+  /// The coordinate that it reads.
   [[nodiscard]] auto reads() const { return consecutive<1>(coordinate); }
 
   friend bool operator==(const Rotor&, const Rotor&) = default;
@@ -84,7 +87,7 @@ struct Driven {
   static constexpr int coordinates = 0;
   static constexpr bool driven = true;
 
-  Path path;
+  Path path;  ///< a function of time
 };
 
 /// A driven point from its path: `driven([](auto t) { return vec(0.1 * sin(10.0 * t), 0.0); })`.

@@ -28,17 +28,20 @@ enum class Law {
   impact_energy,     ///< an impact adds no energy but through drives
   work               ///< the energy changes by the work of what has no potential
 };
+/// How many there are.
 inline constexpr std::size_t number_of_laws = static_cast<std::size_t>(Law::work) + 1;
+/// The name of a law, for reports.
 [[nodiscard]] const char* name(Law law);
 
 /// How far a law was violated, where most, and what the tolerance, the accuracy of the run and round-off
 /// allow.
 struct Finding {
-  Law law{};
-  std::string element{};  ///< the constraint, particle or force by its label
-  double time = 0.0;
+  Law law{};                       ///< which one
+  std::string element{};           ///< the constraint, particle or force by its label
+  double time = 0.0;               ///< of the worst case
   double size = 0.0, limit = 0.0;  ///< in the unit of the law
 
+  /// Above 1 it is broken.
   [[nodiscard]] double ratio() const { return size > 0.0 ? size / limit : 0.0; }
 };
 

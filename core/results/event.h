@@ -25,10 +25,10 @@ enum class Crossing { either, rising, falling };
 /// of the run's own choice. What it gives at the start is no crossing, even if it is 0 there.
 template <int D>
 struct Event {
-  std::string name;
-  std::function<double(const Sample<D>&)> function;
-  Crossing crossing = Crossing::either;
-  bool ends = false;  ///< the run ends there, with a last sample at that time
+  std::string name;                                  ///< for errors
+  std::function<double(const Sample<D>&)> function;  ///< is 0 where it happens
+  Crossing crossing = Crossing::either;              ///< which zeros count
+  bool ends = false;                                 ///< the run ends there, with a last sample at that time
   /// Changes the scene there; empty if it does not. The scene has the state of that instant as its initial
   /// one: `replace` states parameters anew, and with particles masses and velocities; `release` and `impose`
   /// take constraints out of force and back. The run goes on with that, from velocities projected onto the
@@ -38,16 +38,16 @@ struct Event {
 
 /// The same without its dimension.
 struct FlatEvent {
-  std::string name;
-  std::function<double(const FlatSample&)> function;
-  Crossing crossing;
-  bool ends;
+  std::string name;                                   ///< as in Event
+  std::function<double(const FlatSample&)> function;  ///< as in Event
+  Crossing crossing;                                  ///< as in Event
+  bool ends;                                          ///< as in Event
   /// The equations from there on and the state they begin with.
   struct Changed {
-    std::shared_ptr<const System> system;
-    std::vector<double> q, v;
+    std::shared_ptr<const System> system;  ///< the equations
+    std::vector<double> q, v;              ///< the state
   };
-  std::function<Changed(const FlatSample&)> change{};
+  std::function<Changed(const FlatSample&)> change{};  ///< as in Event
 };
 
 /// What a run lists: an event that was asked for; that a one-sided constraint opened, had an impact, or came
@@ -56,9 +56,9 @@ enum class Happened { event, opened, struck, rested, sticks, slides };
 
 /// That something happened in a run, and when.
 struct Occurrence {
-  std::size_t event;  ///< which of those that were asked for, from 0; of a constraint its index
-  double time;
-  Happened what = Happened::event;
+  std::size_t event;                ///< which of those that were asked for, from 0; of a constraint its index
+  double time;                      ///< when it happened
+  Happened what = Happened::event;  ///< what it is
 };
 
 }  // namespace dalembert

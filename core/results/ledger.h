@@ -15,8 +15,8 @@ namespace dalembert {
 struct Ledger {
   /// A quantity at every sample, by the label of what it belongs to.
   struct Account {
-    std::string name;
-    std::vector<double> values;
+    std::string name;            ///< the label of an element, or "kinetic energy" and the like
+    std::vector<double> values;  ///< one number per sample
   };
   using Vector = std::array<double, 3>;  ///< in the plane z = 0, and of moments only z differs from 0
 
@@ -30,8 +30,8 @@ struct Ledger {
   std::vector<Vector> angular_momentum{};  ///< of them about the origin [mass speed length]
   /// What all applied forces gave, and what all constraints gave, impacts among them: of these what acts
   /// between particles cancels, and the rest is the ground's.
-  std::vector<Vector> applied_impulse{}, applied_moment{};
-  std::vector<Vector> ground_impulse{}, ground_moment{};
+  std::vector<Vector> applied_impulse{}, applied_moment{};  ///< [force time], [force time length]
+  std::vector<Vector> ground_impulse{}, ground_moment{};    ///< [force time], [force time length]
 };
 
 }  // namespace dalembert

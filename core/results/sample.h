@@ -11,7 +11,7 @@ namespace dalembert {
 
 /// The flat numbers of one instant of a run, in the places of a Layout. A view.
 struct FlatSample {
-  double time = 0.0;
+  double time = 0.0;               ///< [time]
   std::span<const double> q;       ///< n
   std::span<const double> v;       ///< n
   std::span<const double> a;       ///< n; NaN where the state does not determine it
@@ -40,9 +40,12 @@ concept MadeOfParticles = requires(const B& body) {
 template <int D>
 class Sample {
  public:
+  /// Made by Trajectory and Simulation.
   Sample(const Layout& layout, const FlatSample& flat) : layout_(&layout), flat_(flat) {}
 
+  /// [time].
   [[nodiscard]] double time() const { return flat_.time; }
+  /// Kinetic plus all potential energies.
   [[nodiscard]] double energy() const { return flat_.energy; }
 
   /// Of any point: a particle, a point of a body, a fixed or a driven one [length], and its derivatives with
@@ -53,11 +56,13 @@ class Sample {
     require_known(point);
     return finite<P>(detail::position<double>(point, flat_.time, instant(), detail::AsNumber{}, 0));
   }
+  /// Likewise, its rate.
   template <Point P>
   [[nodiscard]] Vec<D> velocity(const P& point) const {
     require_known(point);
     return finite<P>(detail::velocity<double>(point, flat_.time, instant(), detail::AsNumber{}, 0));
   }
+  /// Likewise, the second derivative.
   template <Point P>
   [[nodiscard]] Vec<D> acceleration(const P& point) const {
     require_known(point);
@@ -132,6 +137,7 @@ class Sample {
     const Layout::Constraint& its = info(constraint);
     return sum_over(body, [&](Particle<D> p) { return force_of(its, p); });
   }
+  /// Of all constraints on a body, the resultant.
   template <MadeOfParticles<D> Body>
   [[nodiscard]] Vec<D> constraint_force(const Body& body) const {
     return sum_over(body, [this](Particle<D> p) { return constraint_force(p); });
@@ -144,6 +150,7 @@ class Sample {
     const Layout::Constraint& its = info(constraint);
     return sum_over(body, [&](Particle<D> p) { return moment(p, force_of(its, p), about); });
   }
+  /// Of all constraints on a body.
   template <MadeOfParticles<D> Body>
   [[nodiscard]] MomentOf<D> constraint_moment(const Body& body, const Vec<D>& about) const {
     return sum_over(body, [&](Particle<D> p) { return moment(p, constraint_force(p), about); });
@@ -174,6 +181,7 @@ class Sample {
   /// resultant; zero if it does not act on it [force]. Its equation is evaluated here, not in the run: a law
   /// must capture by value what it needs. Throws EquationFault if that fails.
   [[nodiscard]] Vec<D> force(Force force, Particle<D> particle) const;
+  /// The resultant on a body.
   template <MadeOfParticles<D> Body>
   [[nodiscard]] Vec<D> force(Force applied, const Body& body) const {
     return sum_over(body, [&](Particle<D> p) { return force(applied, p); });
@@ -181,7 +189,9 @@ class Sample {
   /// What it exerts on a rotor [force length].
   [[nodiscard]] double torque(Force force, Rotor rotor) const;
 
+  /// Names and places of its numbers.
   [[nodiscard]] const Layout& layout() const { return *layout_; }
+  /// Its numbers.
   [[nodiscard]] const FlatSample& flat() const { return flat_; }
 
  private:

@@ -29,19 +29,19 @@ class DenseOutput {
 
 /// A run as flat arrays: what a stepper fills and a Trajectory reads.
 struct Record {
-  std::shared_ptr<const Layout> layout;
+  std::shared_ptr<const Layout> layout;  ///< names and places of the numbers
   /// Where events change the scene: the layouts after it, and the first sample of each.
   struct Later {
-    std::size_t first;
-    std::shared_ptr<const Layout> layout;
+    std::size_t first;                     ///< sample
+    std::shared_ptr<const Layout> layout;  ///< from there on
   };
-  std::vector<Later> later{};
-  std::string stepper;
-  double tolerance = 0.0;
-  std::vector<double> times;
-  std::vector<double> values;  ///< per sample: q, v, a, lambda, constraint forces, energy
-  std::vector<char> unique;    ///< per sample and row, see FlatSample; empty if all are
-  Statistics statistics;
+  std::vector<Later> later{};                  ///< in the order of time
+  std::string stepper;                         ///< its name
+  double tolerance = 0.0;                      ///< of the run
+  std::vector<double> times;                   ///< of the samples, increasing
+  std::vector<double> values;                  ///< per sample: q, v, a, lambda, constraint forces, energy
+  std::vector<char> unique;                    ///< per sample and row, see FlatSample; empty if all are
+  Statistics statistics;                       ///< of the run
   std::shared_ptr<const DenseOutput> dense;    ///< if the option `dense` asks for it
   std::vector<Occurrence> events;              ///< in the order of time,
   std::shared_ptr<const Record> at_events;     ///< with a sample of each; null if none were asked for
@@ -52,12 +52,16 @@ struct Record {
 
   /// Samples that are appended from here on are of this layout, which differs in what forces and masses are.
   void go_on_with(const std::shared_ptr<const Layout>& layout);
+  /// The layout of a sample.
   [[nodiscard]] const std::shared_ptr<const Layout>& layout_of(std::size_t sample) const;
 
   /// Makes room, so that `append` allocates nothing for this many samples.
   void reserve(std::size_t samples, const FlatSample& like);
+  /// Adds a sample.
   void append(const FlatSample& sample);
+  /// Removes all samples.
   void clear();
+  /// The numbers of a sample.
   [[nodiscard]] FlatSample sample(std::size_t i) const;
   /// How many of `values` each sample has.
   [[nodiscard]] std::size_t stride() const;
@@ -97,16 +101,21 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   /// Goes from sample to sample.
   class Iterator {
    public:
-    using iterator_category = std::input_iterator_tag;
-    using value_type = Sample<D>;
-    using difference_type = std::ptrdiff_t;
-    using pointer = void;
-    using reference = Sample<D>;
+    using iterator_category = std::input_iterator_tag;  ///< of std::iterator_traits
+    using value_type = Sample<D>;                       ///< of std::iterator_traits
+    using difference_type = std::ptrdiff_t;             ///< of std::iterator_traits
+    using pointer = void;                               ///< of std::iterator_traits
+    using reference = Sample<D>;                        ///< of std::iterator_traits
 
+    /// At sample i.
     Iterator(const Record& record, std::size_t i) : record_(&record), i_(i) {}
+    /// The sample.
     Sample<D> operator*() const { return {*record_->layout_of(i_), record_->sample(i_)}; }
+    /// To the next sample.
     Iterator& operator++() { return ++i_, *this; }
+    /// To the next sample.
     Iterator operator++(int) { return {*record_, i_++}; }
+    /// Whether both are at the same sample of the same run.
     bool operator==(const Iterator&) const = default;
 
    private:
@@ -114,10 +123,14 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
     std::size_t i_;
   };
 
+  /// Reads a run; throws nothing.
   explicit Trajectory(std::shared_ptr<const Record> record);
 
+  /// Of samples.
   [[nodiscard]] std::size_t size() const { return record_->times.size(); }
+  /// Of the samples, increasing [time].
   [[nodiscard]] std::span<const double> times() const& { return record_->times; }
+  /// Sample i, counted from 0.
   [[nodiscard]] Sample<D> sample(std::size_t i) const&;
   /// The same run at other times, in any order, from its start to where it ended: no less accurate than at
   /// its samples. Needs the option `dense`. (Many times at once cost less than one after the other.)
@@ -128,12 +141,14 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   /// Throws InvalidArgument without that option, and outside the run; EquationFault where an equation goes
   /// wrong or nothing can be read, and where a law is broken (see Options::audit).
   [[nodiscard]] Trajectory at(std::span<const double> times) const;
+  /// The same for a list.
   [[nodiscard]] Trajectory at(std::initializer_list<double> times) const {
     return at(std::span(times.begin(), times.size()));
   }
   /// What happened, in the order of time, and the k-th such instant; see Event. `event_sample` throws
   /// InvalidArgument if there are not so many.
   [[nodiscard]] std::span<const Occurrence> events() const& { return record_->events; }
+  /// The state just before.
   [[nodiscard]] Sample<D> event_sample(std::size_t k) const&;
   /// The state that the run goes on with: with other velocities after an impact.
   [[nodiscard]] Sample<D> sample_after(std::size_t k) const&;
@@ -153,13 +168,17 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
       return own;
     }
   }
+  /// At the first sample.
   [[nodiscard]] Iterator begin() const { return {*record_, 0}; }
+  /// Behind the last.
   [[nodiscard]] Iterator end() const { return {*record_, size()}; }
   /// How well the run obeyed the laws of mechanics, see Audit; empty with the option audit = Audited::off.
   [[nodiscard]] const Audit& audit() const& { return record_->statistics.audit; }
   /// Its energies, work and momenta at every sample. Throws InvalidArgument without the option `ledger`.
   [[nodiscard]] const Ledger& ledger() const&;
+  /// What the run cost, and how exact it is.
   [[nodiscard]] const Statistics& statistics() const& { return record_->statistics; }
+  /// The same.
   [[nodiscard]] Statistics statistics() const&& { return record_->statistics; }
   /// Its flat numbers, for code that knows no dimension.
   [[nodiscard]] std::shared_ptr<const Record> record() const { return record_; }
@@ -167,20 +186,25 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   /// Of a particle at all times: D rows and a column per sample. Views, valid as long as a copy of this run
   /// lives. NaN where a force of constraint, and so an acceleration, is not determined.
   [[nodiscard]] AtAllSamples<D> positions(Particle<D> particle) const& { return all<D>(of(particle)); }
+  /// Likewise, its velocity.
   [[nodiscard]] AtAllSamples<D> velocities(Particle<D> particle) const& {
     return all<D>(of(particle) + record_->coordinates);
   }
+  /// Likewise, its acceleration.
   [[nodiscard]] AtAllSamples<D> accelerations(Particle<D> particle) const& {
     return all<D>(of(particle) + 2 * record_->coordinates);
   }
   /// The angle of a rotor and its derivatives, and the multipliers of a constraint, likewise.
   [[nodiscard]] AtAllSamples<1> angles(Rotor rotor) const& { return all<1>(of(rotor)); }
+  /// Likewise, its rate.
   [[nodiscard]] AtAllSamples<1> angular_velocities(Rotor rotor) const& {
     return all<1>(of(rotor) + record_->coordinates);
   }
+  /// Likewise, its acceleration.
   [[nodiscard]] AtAllSamples<1> angular_accelerations(Rotor rotor) const& {
     return all<1>(of(rotor) + 2 * record_->coordinates);
   }
+  /// Of a constraint at all times: a row per equation.
   template <int Rows>
   [[nodiscard]] AtAllSamples<Rows> multipliers(Constraint<Rows> constraint) const& {
     return all<Rows>(of(constraint));
@@ -204,6 +228,7 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
 
   /// See Record.
   void write_csv(std::ostream& out) const { record_->write_csv(out); }
+  /// The same into a file; throws Error if it cannot be written.
   void write_csv(const std::string& path) const { record_->write_csv(path); }
 
  private:

@@ -23,9 +23,9 @@ namespace dalembert {
 /// A particle as its user states it. Units are the user's own, consistent ones.
 template <int D>
 struct ParticleState {
-  double mass = 0.0;  ///< finite and > 0, no denormal number; there is no default
-  Vec<D> position = Vec<D>::Zero();
-  Vec<D> velocity = Vec<D>::Zero();
+  double mass = 0.0;                 ///< finite and > 0, no denormal number; there is no default
+  Vec<D> position = Vec<D>::Zero();  ///< at the start [length]
+  Vec<D> velocity = Vec<D>::Zero();  ///< at the start; must satisfy the constraints
 };
 
 /// A rotor as its user states it.
@@ -50,6 +50,7 @@ class Scene {
  public:
   static_assert(D == 2 || D == 3);
 
+  /// The name appears in errors and output.
   explicit Scene(std::string name = "scene");
 
   /// Throws InvalidScene unless mass, position and velocity are finite and the mass is positive.
@@ -102,6 +103,7 @@ class Scene {
     its.holds = detail::condition_of(constraint);
     its.holds.released = released;
   }
+  /// The same for a force.
   template <detail::AnyForce E>
   void replace(Force handle, E force) {
     detail::require_forces<E>();
@@ -111,9 +113,11 @@ class Scene {
     Surroundings around = admit(force, {its.kind, its.name});
     exchange(forces_, force, force_places_[number], number, its.label(), std::move(around));
   }
+  /// The same for gravity.
   void replace(Force handle, const UniformGravity<D>& gravity);
   /// Another mass and another initial state.
   void replace(Particle<D> particle, const ParticleState<D>& state);
+  /// Another inertia and another initial state.
   void replace(Rotor rotor, const RotorState& state);
 
   /// Takes a constraint out of force, and puts it back: while released it exerts no force, and its equation
@@ -124,6 +128,7 @@ class Scene {
     layout_.require(constraint);
     set_released(constraint.index, true);
   }
+  /// Puts a released constraint back into force.
   template <int Rows>
   void impose(Constraint<Rows> constraint) {
     layout_.require(constraint);
@@ -135,7 +140,9 @@ class Scene {
 
   /// Handles by name. Throws InvalidArgument if nothing of the kind has it.
   [[nodiscard]] Particle<D> particle(std::string_view name) const;
+  /// Of a rotor.
   [[nodiscard]] Rotor rotor(std::string_view name) const;
+  /// Of a force.
   [[nodiscard]] Force force(std::string_view name) const;
   /// `constraint<2>("hinge")` for one of two equations.
   template <int Rows = 1>
@@ -154,9 +161,11 @@ class Scene {
                   "force law also with their velocities, and for any scalar type");
   }
 
+  /// As it was given.
   [[nodiscard]] const std::string& name() const { return layout_.scene; }
   /// Initial coordinates and velocities, of particles and rotors in the order of adding.
   [[nodiscard]] std::span<const double> initial_positions() const { return q_; }
+  /// Likewise, their rates.
   [[nodiscard]] std::span<const double> initial_velocities() const { return v_; }
 
   /// What the scene consists of, at its initial positions; see System::describe.

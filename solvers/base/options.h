@@ -10,6 +10,7 @@ enum class Stepper {
   ida,  ///< implicit (BDF of SUNDIALS' IDA): for every scene, the stiff ones in particular
   erk   ///< explicit (Runge-Kutta of order 8): several times faster where nothing is stiff
 };
+/// As it appears in reports: "ida" or "erk".
 [[nodiscard]] const char* name(Stepper stepper);
 
 /// What happens where the results of a run break a law of mechanics that its scene states: see Law.
@@ -39,7 +40,7 @@ struct Options {
   /// time in velocity. Between 1e-13 and 1e-1. The error of the result grows with the length of the run; the
   /// benchmarks show how much.
   double tolerance = 1e-6;
-  Stepper stepper = Stepper::ida;
+  Stepper stepper = Stepper::ida;  ///< the integration method
   /// Keep the motion between the samples too, for Trajectory::at: for each coordinate 12 numbers per step of
   /// `ida`, 18 of `erk`, and in `ida` 18 for each multiplier if a constraint is compliant; two to four times
   /// the run time (`dalembert-bench leave-out`). `erk` then evaluates the equations in the middle of each

@@ -32,9 +32,11 @@ namespace dalembert {
 template <int D>
 class Certificate {
  public:
+  /// Made by `certify`.
   explicit Certificate(TwoRuns runs)
       : runs_(std::move(runs)), run_(runs_.run()), reference_(runs_.reference()) {}
 
+  /// To the last bit the run of `simulate`.
   [[nodiscard]] const Trajectory<D>& run() const& { return run_; }
   /// The more accurate one; it may have more samples, where events end it.
   [[nodiscard]] const Trajectory<D>& reference() const& { return reference_; }
@@ -52,6 +54,7 @@ class Certificate {
   [[nodiscard]] double event_error(const Quantity& quantity, std::size_t k) const {
     return compare(quantity, run_.event_sample(k), reference_, &Trajectory<D>::event_sample, runs_.event(k));
   }
+  /// Of the state after it.
   template <class Quantity>
   [[nodiscard]] double error_after(const Quantity& quantity, std::size_t k) const {
     return compare(quantity, run_.sample_after(k), reference_, &Trajectory<D>::sample_after, runs_.event(k));
@@ -62,18 +65,22 @@ class Certificate {
   [[nodiscard]] double position_error(const P& point, std::size_t i) const {
     return error_of_position([&](const Sample<D>& now) { return now.position(point); }, runs_.length(), i);
   }
+  /// Of the velocity of a point [speed].
   template <Point P>
   [[nodiscard]] double velocity_error(const P& point, std::size_t i) const {
     return std::max(error([&](const Sample<D>& now) { return now.velocity(point); }, i),
                     at(i).of_states * runs_.speed());
   }
+  /// Of the angle of a rotor [rad].
   [[nodiscard]] double angle_error(Rotor rotor, std::size_t i) const {
     return error_of_position([&](const Sample<D>& now) { return now.angle(rotor); }, 1.0, i);
   }
+  /// Of its rate [rad / time].
   [[nodiscard]] double angular_velocity_error(Rotor rotor, std::size_t i) const {
     return std::max(error([&](const Sample<D>& now) { return now.angular_velocity(rotor); }, i),
                     at(i).of_states * runs_.speed() / runs_.length());
   }
+  /// Of a multiplier, of several the norm [force].
   template <int Rows>
   [[nodiscard]] double multiplier_error(Constraint<Rows> constraint, std::size_t i) const {
     const double none = 0.0;
@@ -91,6 +98,7 @@ class Certificate {
     (void)run_.event_sample(k);  // is there one?
     return runs_.error_of_time(k);
   }
+  /// Of the impulse of a constraint at the k-th thing that happened [force time].
   template <int Rows>
   [[nodiscard]] double impulse_error(Constraint<Rows> constraint, std::size_t k) const {
     const auto own = run_.impulse(constraint, k);
@@ -110,6 +118,7 @@ class Certificate {
 
   /// Why an error at sample i is not known.
   [[nodiscard]] Doubt doubt(std::size_t i) const { return at(i).doubt; }
+  /// Why an error at the k-th thing that happened is not known.
   [[nodiscard]] Doubt event_doubt(std::size_t k) const {
     (void)run_.event_sample(k);
     return runs_.event(k).doubt;
@@ -122,6 +131,7 @@ class Certificate {
 
   /// All of it in words.
   [[nodiscard]] std::string statement() const;
+  /// Both runs, without dimension.
   [[nodiscard]] const TwoRuns& runs() const& { return runs_; }
 
  private:

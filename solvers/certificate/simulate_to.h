@@ -10,10 +10,10 @@ namespace dalembert {
 /// What errors a run may have: `simulate_to(scene, {.t_end = 10.0, .force_error = 1e-6})`. At least one of
 /// them is > 0; what is 0 is not asked for.
 struct Request {
-  double t_end = 0.0;  ///< as in Options, as are the next three
-  double t_start = 0.0;
-  int samples = 101;
-  std::vector<double> times{};
+  double t_end = 0.0;           ///< as in Options, as are the next three
+  double t_start = 0.0;         ///< time of the initial state [time]
+  int samples = 101;            ///< number of samples, equally spaced
+  std::vector<double> times{};  ///< or these times
 
   double force_error = 0.0;     ///< of every multiplier at every sample [force]
   double position_error = 0.0;  ///< of every particle at every sample [length]
@@ -28,7 +28,7 @@ struct Request {
 
 /// What came of it.
 struct RequestOutcome {
-  bool met = false;
+  bool met = false;             ///< whether the certificate meets the request
   int runs = 0;                 ///< of the scene, in all
   double processor_time = 0.0;  ///< of all of them, without set-up [s]
   std::string words{};          ///< whether it is met; if not what was reached, and why no more

@@ -24,11 +24,11 @@ enum class Doubt {
 
 /// What the difference of the two at one instant tells.
 struct Certainty {
-  Doubt doubt = Doubt::none;
+  Doubt doubt = Doubt::none;    ///< why it is not known
   std::size_t counterpart = 0;  ///< the instant of the more accurate run that this one is compared with
-  /// What round-off in the states may be, as a part of the scene's length and speed, and at most what part of
-  /// their difference that is.
-  double of_states = 0.0, round_off = 0.0;
+  /// What round-off in the states may be, as a part of the scene's length and speed,
+  double of_states = 0.0;
+  double round_off = 0.0;  ///< and at most what part of their difference that is
   double roundings = 0.0;  ///< of its magnitude that any quantity there may be off by
 };
 
@@ -47,6 +47,7 @@ struct Certainty {
 /// Beyond these nothing is claimed: see Doubt.
 class TwoRuns {
  public:
+  /// Part of the worse run's claim that the better one's may be.
   static constexpr double most_of_better = 0.2;
   /// Of the scene's length: differences that have grown so far are about to stop growing, so that the errors
   /// of the better run grow on unseen. Growth that is exponential passes the last decade in 2.3 of its times.
@@ -56,11 +57,14 @@ class TwoRuns {
   TwoRuns(std::shared_ptr<const Record> run, std::shared_ptr<const Record> reference,
           std::string stopped = {});
 
+  /// The one that was asked for.
   [[nodiscard]] const std::shared_ptr<const Record>& run() const { return run_; }
+  /// The more accurate one.
   [[nodiscard]] const std::shared_ptr<const Record>& reference() const { return reference_; }
 
   /// At a sample of the run, and at the k-th thing that happened in it.
   [[nodiscard]] const Certainty& sample(std::size_t i) const { return samples_[i]; }
+  /// What is known at the k-th thing that happened.
   [[nodiscard]] const Certainty& event(std::size_t k) const { return events_[k]; }
 
   /// The estimated error of a quantity of this magnitude that differs so much: no less than round-off of the
@@ -71,12 +75,15 @@ class TwoRuns {
                                       const Certainty& its) const {
     return std::max(error(difference, magnitude, its), its.of_states * unit);
   }
+  /// Of the scene [length].
   [[nodiscard]] double length() const { return length_; }
+  /// Length over time of the scene.
   [[nodiscard]] double speed() const { return length_ / time_; }
   /// What is no error because of round-off alone.
   [[nodiscard]] double round_off(double difference, double magnitude, const Certainty& its) const;
   /// Of the time of something that happened.
   [[nodiscard]] double error_of_time(std::size_t k) const;
+  /// Of the time of the k-th thing that happened [time].
   [[nodiscard]] double round_off_of_time(std::size_t k) const;
 
   /// Whether all errors are known, but those beside a jump.
@@ -87,6 +94,7 @@ class TwoRuns {
 
   /// From when on nothing is known, and why, in words; empty if all is.
   [[nodiscard]] double known_until() const { return known_until_; }
+  /// Why there is no more accurate run; empty if there is one.
   [[nodiscard]] const std::string& reservation() const { return reservation_; }
 
  private:

@@ -12,15 +12,15 @@ namespace dalembert {
 
 /// Which runs show what errors of a scene cost.
 struct WorkPrecisionOptions {
-  std::vector<Stepper> steppers{Stepper::ida, Stepper::erk};
-  std::vector<double> tolerances{1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
+  std::vector<Stepper> steppers{Stepper::ida, Stepper::erk};                        ///< each gives a curve
+  std::vector<double> tolerances{1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10};  ///< of the runs, falling
   int repeats = 3;  ///< the median of whose run times counts, >= 1
 };
 
 /// A run of such a curve: its largest errors, and what it cost.
 struct WorkPrecisionPoint {
-  std::string stepper;
-  double tolerance = 0.0;
+  std::string stepper;          ///< its name
+  double tolerance = 0.0;       ///< of the run
   double position_error = 0.0;  ///< [length]; NaN if it is not known, see Certificate
   double force_error = 0.0;     ///< [force]; likewise
   double event_error = 0.0;     ///< [time]; likewise
@@ -30,8 +30,8 @@ struct WorkPrecisionPoint {
 
 /// Error against run time of one scene, for work-precision diagrams.
 struct WorkPrecision {
-  std::string scene;
-  std::vector<WorkPrecisionPoint> points;
+  std::string scene;                       ///< its name
+  std::vector<WorkPrecisionPoint> points;  ///< of all steppers, in their order
 
   /// Columns: stepper, tolerance, steps, evaluations, error_position, error_force, error_event, run_time_s.
   void write_csv(std::ostream& out) const;
@@ -39,6 +39,7 @@ struct WorkPrecision {
   void write_plot(std::ostream& out) const;
   /// The same into files; throws Error if they cannot be written.
   void write_csv(const std::string& path) const;
+  /// Likewise.
   void write_plot(const std::string& path) const;
 };
 

@@ -16,8 +16,8 @@ namespace dalembert {
 /// A scene at one value of a parameter, and its rotation there.
 template <int D>
 struct Posed {
-  Scene<D> scene;
-  EquilibriumOptions<D> options{};
+  Scene<D> scene;                   ///< at this value
+  EquilibriumOptions<D> options{};  ///< with its rotation
 };
 
 /// The range of the parameter over which equilibria are followed.
@@ -31,8 +31,8 @@ struct BranchOptions {
 /// An equilibrium at one value of the parameter; State is an Equilibrium<D>.
 template <class State>
 struct BranchPoint {
-  double parameter;
-  State state;
+  double parameter;  ///< its value here
+  State state;       ///< the equilibrium here
   /// The lowest eigenvalue of the stiffness K on the tangent space, over the masses (see normal_modes), free
   /// motions at a state of rest included: below 0 the stiffness is not definite. With circulatory forces the
   /// lowest real part [1 / time^2]. Of a steady motion see `follow_steady`.
@@ -40,6 +40,7 @@ struct BranchPoint {
   double frequency = 0.0;  ///< at a flutter, of the vibration [rad / time]
 };
 
+/// The number of no bifurcation.
 inline constexpr std::size_t no_bifurcation = std::numeric_limits<std::size_t>::max();
 
 /// Why a branch ends.
@@ -53,9 +54,9 @@ enum class BranchEnd {
 /// Connected equilibria; the first branch begins at the scene's own equilibrium at `from`.
 template <class State>
 struct Branch {
-  std::vector<BranchPoint<State>> points;
-  std::size_t origin = no_bifurcation;  ///< the bifurcation where it emanates, if it does
-  BranchEnd end = BranchEnd::lost;
+  std::vector<BranchPoint<State>> points;  ///< in their order
+  std::size_t origin = no_bifurcation;     ///< the bifurcation where it emanates, if it does
+  BranchEnd end = BranchEnd::lost;         ///< why it ends
   /// Of `lost`: where, and what failed there; before that where a change of stability was not located.
   std::string why{};
 };
@@ -72,12 +73,12 @@ struct Diagram {
 
 /// For Systems, out of which `follow_branches` makes branches of Equilibrium<D>.
 struct PosedSystem {
-  std::shared_ptr<const System> system;
-  std::vector<double> guess;
-  double time;
-  Turning<3> turning;
-  std::vector<double> speeds{};  ///< of a steady motion: the guess of its velocities
-  std::vector<FlatKept> keep{};  ///< and what is to stay as stated
+  std::shared_ptr<const System> system;  ///< its equations
+  std::vector<double> guess;             ///< of its coordinates
+  double time;                           ///< of the state [time]
+  Turning<3> turning;                    ///< zero: rest
+  std::vector<double> speeds{};          ///< of a steady motion: the guess of its velocities
+  std::vector<FlatKept> keep{};          ///< and what is to stay as stated
 };
 struct FlatEquilibrium {
   std::shared_ptr<const Record> state;
@@ -90,7 +91,8 @@ struct FlatEquilibrium {
     return {std::move(record), turning};
   }
 };
-using FlatDiagram = Diagram<FlatEquilibrium>;
+using FlatDiagram = Diagram<FlatEquilibrium>;  ///< without dimension
+/// The same as `follow_branches` for Systems.
 [[nodiscard]] FlatDiagram find_branches(const std::function<PosedSystem(double)>& pose,
                                         const BranchOptions& options);
 

@@ -31,6 +31,7 @@ struct EquilibriumOptions {
 template <int D>
 class Equilibrium {
  public:
+  /// One of rest or of a uniform rotation.
   Equilibrium(std::shared_ptr<const Record> state, const Turning<3>& turning, std::string left_out = {})
       : state_(std::move(state)), turning_(turning), left_out_(std::move(left_out)) {}
   /// One along a symmetry, see `steady`.
@@ -47,6 +48,7 @@ class Equilibrium {
   [[nodiscard]] const Turning<3>& turning() const { return turning_; }
   /// Whose velocities, stated in the scene, are not those of this equilibrium, in a sentence; empty if none.
   [[nodiscard]] const std::string& left_out() const { return left_out_; }
+  /// Names and places of its numbers.
   [[nodiscard]] const Layout& layout() const& { return *state_->layout; }
   void layout() const&& = delete;
 

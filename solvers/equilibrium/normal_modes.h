@@ -14,6 +14,7 @@ enum class Stability {
   unstable,  ///< some mode grows
   undecided  ///< the linear terms do not decide
 };
+/// As it appears in reports.
 [[nodiscard]] const char* name(Stability stability);
 
 /// A solution of the equations of small motions, u = shape exp(eigenvalue t), as flat numbers.
@@ -53,7 +54,9 @@ class NormalModes {
   NormalModes(std::shared_ptr<const Layout> layout, Modes modes, std::string note = {})
       : layout_(std::move(layout)), modes_(std::move(modes)), note_(std::move(note)) {}
 
+  /// Of modes.
   [[nodiscard]] std::size_t size() const { return modes_.modes.size(); }
+  /// [1 / time]; of a conjugate pair the one with Im > 0.
   [[nodiscard]] std::complex<double> eigenvalue(std::size_t k) const { return mode(k).eigenvalue; }
   [[nodiscard]] double frequency(std::size_t k) const { return mode(k).eigenvalue.imag(); }  ///< [rad/time]
   [[nodiscard]] double damping(std::size_t k) const { return -mode(k).eigenvalue.real(); }   ///< [1/time]
@@ -85,6 +88,7 @@ class NormalModes {
     return read(re) + std::complex<double>(0.0, 1.0) * read(im);
   }
 
+  /// The verdict.
   [[nodiscard]] Stability stability() const { return modes_.stability; }
   /// The verdict with its reason, and the free motions with the bodies, particles and rotors that move most
   /// in them; and what the equilibrium leaves out.

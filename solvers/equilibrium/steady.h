@@ -13,7 +13,7 @@ namespace dalembert {
 /// A number of a state that is to stay what the scene states: a speed, a spin, a lean.
 template <int D>
 struct Kept {
-  std::string name;
+  std::string name;                               ///< for errors
   std::function<double(const Sample<D>&)> value;  ///< of positions and velocities
 };
 
@@ -25,8 +25,8 @@ struct SteadyOptions {
 
 /// For a System, out of which `steady` makes an Equilibrium.
 struct FlatKept {
-  std::string name;
-  std::function<double(const FlatSample&)> value;
+  std::string name;                                ///< for errors
+  std::function<double(const FlatSample&)> value;  ///< of positions and velocities
 };
 struct FoundSteady {
   std::shared_ptr<const Record> state;

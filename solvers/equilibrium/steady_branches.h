@@ -7,8 +7,8 @@ namespace dalembert {
 /// A scene at one value of a parameter, with the velocities there, and what of its steady motion is kept.
 template <int D>
 struct PosedSteady {
-  Scene<D> scene;
-  SteadyOptions<D> options{};
+  Scene<D> scene;              ///< at this value
+  SteadyOptions<D> options{};  ///< with the quantities that are kept
 };
 
 /// The same as `find_branches`, of steady motions.

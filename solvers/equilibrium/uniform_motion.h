@@ -16,9 +16,9 @@ namespace dalembert {
 /// bodies that spin about an axis of their own: as a body's particles are an affine basis of it, its spin is
 /// a constant matrix too, whichever way its axis points.
 struct UniformMotion {
-  Eigen::SparseMatrix<double, Eigen::RowMajor> A;
-  Eigen::VectorXd b;
-  double rate = 0.0;  ///< of the fastest part [rad / time]
+  Eigen::SparseMatrix<double, Eigen::RowMajor> A;  ///< of (1) [1 / time]
+  Eigen::VectorXd b;                               ///< of (1) [speed]
+  double rate = 0.0;                               ///< of the fastest part [rad / time]
   /// Columns: displacements by symmetries that carry the motion's states into others of the same motion.
   Eigen::MatrixXd symmetric{};
   /// Symmetries u -> A u of the same kind that leave the state as it is: a top that sleeps turned about its

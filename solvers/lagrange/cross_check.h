@@ -18,6 +18,7 @@ struct Difference {
   double time = 0.0;     ///< when it occurs, and
   std::string where{};   ///< of which particle or rotor
 
+  /// The largest over the unit.
   [[nodiscard]] double relative() const { return unit > 0.0 ? largest / unit : largest; }
 };
 
@@ -31,7 +32,7 @@ struct CrossCheck {
   Difference force;
   /// At random states that satisfy both sides' constraints, where the motion need never come: how far the
   /// embedding is from the scene's constraints, the accelerations relative to the largest, and Z as above.
-  Difference embedded, acceleration, reaction;
+  Difference embedded, acceleration, reaction;  ///< as functions of the Lagrangian's motion
   int states = 0;  ///< how many there were; of 10 those at which either side has no motion are left out
 
   /// One line for each.
