@@ -12,5 +12,5 @@ set xlabel "true error"
 set ylabel "estimated error"
 set terminal svg size 560,440 dynamic enhanced font "sans-serif,13"
 set output file("certificates.svg")
-plot for [i = 1:3] csv using "true_error":(of(word(kinds, i))) with points pointtype 6 pointsize 0.6 linecolor rgb colour(i) title word("position force event_times_and_impulses", i), \
+plot for [i = 1:3] csv using "true_error":(of(word(kinds, i))) with points pointtype 6 pointsize 0.6 linecolor rgb colour(i) title word("position force events", i), \
      x with lines linewidth 1.5 linecolor rgb "#444444" title "equal"

@@ -2,7 +2,10 @@
 
 import json
 import math
+import re
 from dataclasses import dataclass, field
+
+from markupsafe import Markup
 
 from tables import duration, number, plain, scientific
 
@@ -16,6 +19,12 @@ class Grid:
     caption: str = ""
     wrong: set = field(default_factory=set)
     folded: bool = False
+    first: bool = False  # before the charts
+
+    @property
+    def words(self):
+        """The columns of words, which stand to the left."""
+        return {k for k in range(len(self.columns)) if any(re.search("[A-Za-z]{3}", str(row[k])) for row in self.rows)}
 
 
 @dataclass
@@ -108,7 +117,7 @@ def ratios(folder):
                 elif row["outcome"] == "ok":
                     cells.append(plain(row["ratio_to_hand"]))
                 else:
-                    cells.append(f"{row['outcome']}: {scientific(row['error_reached'])} at best"
+                    cells.append(Markup("missed: {} at best").format(scientific(row["error_reached"]))
                                  if row["outcome"] == "missed" else row["outcome"])
             rows.append(cells)
     section.grids = [Grid(["scene", "error of position", "by hand"] + [s for s in steppers if s != "hand"], rows,
@@ -153,6 +162,7 @@ def extremes(folder):
                "steps": ("steps", str), "run_time_s": ("run time", duration)}
     if bad:
         section.grids.append(grid_of(table, formats, "Rows that are wrong", lambda row: True, rows=bad))
+        section.grids[0].first = True
     for case in cases:
         rows = table.where(case=case)
         lost = sum(beyond(row) for row in rows)
@@ -275,7 +285,7 @@ def audit(folder):
         if any(beyond(row, "worst") for row in own):
             wrong.add(len(rows))
         rows.append([law, len(own), scientific(most["worst"]), scientific(most["limit"]),
-                     plain(ratio(most, "worst")), f"{most['scene']}, {most['stepper']} at {most['tolerance']}"])
+                     plain(ratio(most, "worst")), f"{most['scene']}, {most['stepper']}" + (f" at {most['tolerance']}" if most["tolerance"] else "")])
     section.grids = [Grid(["law", "runs", "worst violation", "its limit", "part of the limit", "in"], rows,
                           "Of each law the run closest to its limit", wrong)]
     return section
@@ -285,8 +295,8 @@ def certificates(folder):
     section = Section("certificates", "Certificates", "How close are the errors that certify estimates to the true "
                       "ones?")
     table = folder.table("certificates")
-    section.charts = [Chart(folder.chart("certificates"), "Estimated over true error; what is round-off alone is left "
-                            "out")]
+    section.charts = [Chart(folder.chart("certificates"), "Estimated over true error, of runs and of single events; errors "
+                            "that may be round-off are left out")]
     if table is None:
         return section
     known = [row for row in table.rows if math.isfinite(number(row["estimated_error"])) and

@@ -94,12 +94,14 @@ def scientific(text, digits=2):
 
 
 def plain(text, digits=3):
-    """A number of everyday size, with so many digits that count."""
+    """A number of everyday size, with so many significant digits."""
     value = number(text)
     if not math.isfinite(value):
         return "–"
     if value == 0.0:
         return "0"
+    if abs(value) < 1e-3:
+        return scientific(text, digits)
     decimals = max(0, digits - 1 - math.floor(math.log10(abs(value))))
     return f"{value:,.{decimals}f}".replace(",", " ").replace("-", "−")
 

@@ -47,9 +47,9 @@ std::vector<ForceSlots> force_slots(const Layout& layout, const Layout::Constrai
   return all;
 }
 
-class Columns {
+class RunColumns {
  public:
-  explicit Columns(const Record& record)
+  explicit RunColumns(const Record& record)
       : record_(record), layout_(*record.layout), names_(coordinate_names(layout_, record.coordinates)) {}
 
   [[nodiscard]] std::vector<Column> all() {
@@ -101,6 +101,6 @@ class Columns {
 
 }  // namespace
 
-std::vector<Column> columns(const Record& record) { return Columns(record).all(); }
+std::vector<Column> columns(const Record& record) { return RunColumns(record).all(); }
 
 }  // namespace dalembert
