@@ -35,7 +35,7 @@ status=0
 measure() {
   local failed=0
   "$@" || failed=$?
-  ((failed == 0)) || { status=$failed && echo "${*:1:2} ended with status $failed" >>$report/failures.txt; }
+  ((failed == 0)) || { status=$failed && echo "${1##*/} ${2:-} ended with status $failed" >>$report/failures.txt; }
 }
 # Draws a chart, if its table is there: what is missing is named in the report.
 draw() { # table, script, definitions

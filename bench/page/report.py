@@ -139,7 +139,7 @@ def main():
         style=(HERE / "style.css").read_text())
     path = folder.path / "index.html"
     path.write_text(text)
-    print(path)
+    print(f"Report: {path}")
 
 
 if __name__ == "__main__":
