@@ -4,6 +4,7 @@
 #include <dalembert/bench/progress.h>
 #include <dalembert/bench/table.h>
 #include <dalembert/bench/work_precision.h>
+#include <dalembert/view/write_html.h>
 
 #include <cmath>
 #include <fstream>
@@ -93,6 +94,7 @@ void write_model(const models::Model<D>& model, const Pages& options) {
                                                     .tolerance = options.tolerance,
                                                     .stepper = options.stepper});
   const std::string path = options.directory + '/' + model.name;
+  write_html(certificate, path + ".html", {.title = model.name});
   write_table(path + "-motion.csv", Motion<D>(model, observed, certificate).table());
 }
 

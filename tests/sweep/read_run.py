@@ -17,6 +17,8 @@ with tempfile.TemporaryDirectory() as folder:
         events = file["events"][:]
     with open(os.path.join(folder, "pendulum.csv")) as file:
         table = list(csv.reader(line for line in file if not line.startswith("#")))
+    with open(os.path.join(folder, "pendulum.glb"), "rb") as file:
+        assert file.read(4) == b"glTF"
 
 text = lambda value: value.decode() if isinstance(value, bytes) else str(value)
 errors = ["bob.position.error", "bob.velocity.error", "rod.lambda.error"]
