@@ -13,8 +13,8 @@ namespace {
 using extremes::Case;
 using extremes::Verdict;
 
-const std::vector<std::string> columns = {"case",  "parameter", "stepper",    "outcome",
-                                          "error", "steps",     "run_time_s", "limit"};
+const std::vector<std::string> columns = {"case",  "parameter",  "stepper", "outcome", "error",
+                                          "steps", "run_time_s", "limit",   "varied"};
 
 std::vector<Case> select(const std::vector<std::string>& names) {
   std::vector<Case> all;
@@ -34,7 +34,7 @@ std::vector<std::string> row(const Case& extreme, double parameter, Stepper step
   const Statistics& s = v.result.statistics;
   return {extreme.name,           shortest_power(parameter),  name(stepper),
           v.result.outcome,       scientific(v.result.error), std::to_string(s.steps),
-          scientific(s.run_time), scientific(v.limit)};
+          scientific(s.run_time), scientific(v.limit),        extreme.parameter};
 }
 
 /// What went wrong, for a reader at the terminal.

@@ -6,6 +6,7 @@
 #include <dalembert/bench/leave_out.h>
 #include <dalembert/bench/modes.h>
 #include <dalembert/bench/own_constraint.h>
+#include <dalembert/bench/pages.h>
 #include <dalembert/bench/ratios.h>
 #include <dalembert/bench/requests.h>
 #include <dalembert/bench/scaling.h>
@@ -248,6 +249,20 @@ void add_diagrams(CLI::App& app) {
   command->callback([options] { bench::diagrams(*options); });
 }
 
+void add_pages(CLI::App& app) {
+  const auto options = std::make_shared<bench::Pages>();
+  CLI::App* command = app.add_subcommand(
+      "pages", "A certified run of each model against its hand derivation, which motion.gp draws");
+  command->add_option("--directory", options->directory, "Where the files go")->capture_default_str();
+  command->add_option("--model", options->models, "all, or names as in `list`")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--samples", options->samples, "Of each run")
+      ->check(CLI::Range(2, 10'000))
+      ->capture_default_str();
+  command->callback([options] { bench::pages(*options); });
+}
+
 /// A program of its own, beside this one.
 void add_program(CLI::App& app, const std::string& name, const std::string& program,
                  const std::string& what) {
@@ -287,6 +302,7 @@ int main(int argc, char** argv) try {
   add_certificates(app, failures);
   add_requests(app, failures);
   add_diagrams(app);
+  add_pages(app);
   // Its solvers are built with constants that vary; and what needs HDF5, oneTBB and MPI.
   add_program(app, "sensitivity", "dalembert-sensitivity",
               "Errors and work of many scenes with each of the solvers' constants halved and doubled");

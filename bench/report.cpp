@@ -3,6 +3,9 @@
 #include <dalembert/bench/sundials.h>
 #include <dalembert/core/errors.h>
 
+#include <Eigen/Core>
+#include <SuiteSparse_config.h>
+
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -27,6 +30,9 @@ void print(std::ostream& out, const std::string& question, const Table& table, c
   out << "# " << question << '\n'
       << "# " << processor() << ", " << std::thread::hardware_concurrency() << " threads\n"
       << "# " << BENCH_COMPILER << ", " << BENCH_BUILD_TYPE << ": " << BENCH_CXX_FLAGS << '\n'
+      << "# Eigen " << EIGEN_WORLD_VERSION << '.' << EIGEN_MAJOR_VERSION << '.' << EIGEN_MINOR_VERSION
+      << ", SuiteSparse " << SUITESPARSE_MAIN_VERSION << '.' << SUITESPARSE_SUB_VERSION << '.'
+      << SUITESPARSE_SUBSUB_VERSION << '\n'
       << "# " << sundials() << '\n';
   if (!note.empty()) out << "# " << note << '\n';
   out << '\n';

@@ -12,7 +12,7 @@ struct ReportOptions {
   std::string note;  ///< a line for the heading, such as the commit
 };
 
-/// Prints a table to stdout below a heading: what it answers, machine, compiler, flags, SUNDIALS, the note.
+/// Prints a table to stdout below a heading: what it answers, machine, compiler, flags, versions, the note.
 /// If a CSV file is asked for, writes it, and the heading and table beside it with the extension .txt. Throws
 /// Error if a file cannot be written.
 void report(const std::string& question, const Table& table, const ReportOptions& options);

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, measures and plots into build/report/.  Usage: bench/run.sh [--quick]
+# Installs what is missing, builds, measures and writes build/report/index.html.  Usage: bench/run.sh [--quick]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -20,56 +20,62 @@ case ${1:-} in
   *) echo "usage: bench/run.sh [--quick]" >&2 && exit 2 ;;
 esac
 
-cmake/dependencies.sh gnuplot-nox libbenchmark-dev
+cmake/dependencies.sh gnuplot-nox libbenchmark-dev python3-jinja2
 cmake --preset release
-cmake --build --preset release --target dalembert-benchmarks
+cmake --build --preset release --target dalembert-benchmarks dalembert-fuzz
 
 bench=build/release/bench/dalembert-bench
 report=build/report
+rm -rf $report # what an earlier run has left would look like results of this one
 mkdir -p $report
 
-# One paragraph per question: run the benchmark, then plot its table. What a stepper refuses is a row of the
-# table. A row that is wrong fails the report, but not before all of it is there.
+# Runs one benchmark. One that fails, or finds a row that is wrong, fails the whole, but not before the report is
+# there, which names it.
 status=0
-$bench work-precision --stepper ida,erk,hand --csv $report/work-precision.csv "${work_precision[@]}"
-for model in $(tail -n +2 $report/work-precision.csv | cut -d, -f1 | sort -u); do
-  gnuplot -e "csv='$report/work-precision.csv'; model='$model'; report='$report'" bench/plot.gp
+measure() {
+  local failed=0
+  "$@" || failed=$?
+  ((failed == 0)) || { status=$failed && echo "${1##*/} ${2:-} ended with status $failed" >>$report/failures.txt; }
+}
+# Draws a chart, if its table is there: what is missing is named in the report.
+draw() { # table, script, definitions
+  [[ ! -e $report/$1 ]] || measure gnuplot -e "report='$report'; ${3:-}" "bench/charts/$2.gp"
+}
+
+measure $bench work-precision --stepper ida,erk,hand --csv $report/work-precision.csv "${work_precision[@]}"
+measure $bench pages --directory $report
+for model in $(tail -qn +2 $report/work-precision.csv $report/models.csv | cut -d, -f1 | sort -u); do
+  draw work-precision.csv work-precision "model='$model'"
+  draw "$model-motion.csv" motion "model='$model'"
 done
+measure $bench ratios --csv $report/ratios.csv "${ratios[@]}"
+measure $bench scaling --stepper ida,erk,hand --tolerance 1e-5 --t-end 0.05 --csv $report/scaling.csv "${scaling[@]}"
+draw scaling.csv scaling
+measure $bench extremes --csv $report/extremes.csv "${extremes[@]}"
+draw extremes.csv extremes
+measure $bench audit --csv $report/audit.csv "${audit[@]}"
+measure $bench modes --csv $report/modes.csv
+measure $bench events --csv $report/events.csv
+measure $bench certificates --csv $report/certificates.csv "${certificates[@]}"
+draw certificates.csv certificates
+measure $bench requests --csv $report/requests.csv "${requests[@]}"
+measure $bench diagrams --directory $report "${chart[@]}"
+draw kapitza-boundary.csv diagrams
+measure $bench sensitivity --csv $report/sensitivity.csv "${sensitivity[@]}"
+measure $bench own-constraint --csv $report/own-constraint.csv
+measure $bench leave-out --stepper ida,erk --csv $report/leave-out.csv "${leave_out[@]}"
 
-$bench ratios --csv $report/ratios.csv "${ratios[@]}"
-
-$bench scaling --stepper ida,erk,hand --tolerance 1e-5 --t-end 0.05 --csv $report/scaling.csv "${scaling[@]}"
-
-$bench extremes --csv $report/extremes.csv "${extremes[@]}" || status=$?
-gnuplot -e "csv='$report/extremes.csv'; report='$report'" bench/extremes.gp
-
-$bench audit --csv $report/audit.csv "${audit[@]}" || status=$?
-$bench modes --csv $report/modes.csv || status=$?
-$bench events --csv $report/events.csv || status=$?
-$bench certificates --csv $report/certificates.csv "${certificates[@]}" || status=$?
-$bench requests --csv $report/requests.csv "${requests[@]}" || status=$?
-$bench diagrams --directory $report "${chart[@]}"
-gnuplot -e "report='$report'" bench/diagrams.gp
-
-$bench sensitivity --csv $report/sensitivity.csv "${sensitivity[@]}"
-
-$bench own-constraint --csv $report/own-constraint.csv
-
-$bench leave-out --stepper ida,erk --csv $report/leave-out.csv "${leave_out[@]}" || status=$?
-
-sweeps_bench=build/release/bench/dalembert-sweeps # not built where HDF5 is not found
-if [[ -x $sweeps_bench ]]; then
-  $bench sweep --csv $report/sweep.csv --directory $report "${sweep[@]}" || status=$?
-  side() { echo "sqrt($(stat -c %s "$1") / 4)"; } # of a square of 4-byte numbers
-  gnuplot -e "report='$report'; flips=$(side $report/flips.bin); kapitza=$(side $report/kapitza-runs.bin)" bench/sweeps.gp
+if [[ -x build/release/bench/dalembert-sweeps ]]; then # not built where HDF5 is not found
+  measure $bench sweep --csv $report/sweep.csv --directory $report "${sweep[@]}"
+  side() { echo "sqrt($(stat -c %s "$report/$1") / 4)"; } # of a square of 4-byte numbers
+  draw governors.csv sweeps "flips=$(side flips.bin); kapitza=$(side kapitza-runs.bin)"
 fi
 
 kernels_bench=build/release/bench/dalembert-kernels # not built where Google Benchmark is not found
 [[ ! -x $kernels_bench ]] ||
-  $kernels_bench --benchmark_out=$report/kernels.json --benchmark_out_format=json "${kernels[@]}"
+  measure $kernels_bench --benchmark_out=$report/kernels.json --benchmark_out_format=json "${kernels[@]}"
+measure build/release/tests/dalembert-fuzz --family products --scenes $products --pairs $report/pairs.csv
 
-cmake --build --preset release --target dalembert-fuzz
-build/release/tests/dalembert-fuzz --family products --scenes $products --pairs $report/pairs.csv || status=$?
-
-echo "Report in $report/:" $report/*
+commit=$(git describe --always --dirty 2>/dev/null || echo unknown)
+/usr/bin/python3 bench/page/report.py $report --commit "$commit" ${1:-}
 exit $status

@@ -18,6 +18,7 @@ struct Coincident {
   B b;
 
   auto points() const { return std::tie(a, b); }
+  [[nodiscard]] Sketch sketch() const { return {"ball"}; }
   auto operator()(const auto& r_a, const auto& r_b) const { return (r_b - r_a).eval(); }
 };
 template <class A, class B>

@@ -28,6 +28,7 @@ struct Compliant {
   double compliance;  ///< C, finite and >= 0
 
   decltype(auto) points() const { return rigid.points(); }
+  [[nodiscard]] Sketch sketch() const { return detail::sketch_of(rigid); }
   auto operator()(const auto&... a) const requires requires { rigid(a...); }
   { return rigid(a...); }
 

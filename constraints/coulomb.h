@@ -36,6 +36,7 @@ struct Coulomb {
   double mu, mu_static;    ///< of sliding and of sticking friction, 0 <= mu <= mu_static
 
   decltype(auto) points() const { return slip.points(); }
+  [[nodiscard]] Sketch sketch() const { return detail::sketch_of(slip); }
   auto operator()(const auto&... a) const requires requires { slip(a...); }
   { return slip(a...); }
 

@@ -43,6 +43,13 @@ struct LeaningDisk {
   return fault.empty() ? plane.fault() : fault;
 }
 
+[[nodiscard]] inline Sketch sketch_of_disk(double radius, const Plane<3>& plane) {
+  Sketch drawn{"disk", {radius}};
+  append<3>(drawn.sizes, plane.point);
+  append<3>(drawn.sizes, plane.normal);
+  return drawn;
+}
+
 }  // namespace detail
 
 /// The rim touches the plane, from the side its normal points to.
@@ -63,6 +70,7 @@ struct DiskContact {
   Plane<3> plane = {};  ///< that it touches
 
   auto points() const { return std::tie(centre, a, b); }
+  [[nodiscard]] Sketch sketch() const { return detail::sketch_of_disk(radius, plane); }
   auto operator()(const auto& c, const auto& r_a, const auto& r_b) const {
     using V = std::remove_cvref_t<decltype(c)>;
     return plane(c) - radius * detail::LeaningDisk<V>(plane.normal.normalized(), c, r_a, r_b).sine;
@@ -97,6 +105,7 @@ struct DiskRolling {
   Plane<3> plane = {};  ///< that it rolls on
 
   auto points() const { return std::tie(centre, a, b); }
+  [[nodiscard]] Sketch sketch() const { return detail::sketch_of_disk(radius, plane); }
   auto operator()(const auto& c, const auto& r_a, const auto& r_b, const auto& v, const auto& v_a,
                   const auto& v_b) const {
     using V = std::remove_cvref_t<decltype(c)>;

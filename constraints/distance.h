@@ -28,6 +28,7 @@ struct Distance {
   double length;  ///< [length], finite and > 0
 
   auto points() const { return std::tie(a, b); }
+  [[nodiscard]] Sketch sketch() const { return {"rod", {length}}; }
   auto operator()(const auto& r_a, const auto& r_b) const { return (r_b - r_a).norm() - length; }
 
   [[nodiscard]] std::string fault() const {

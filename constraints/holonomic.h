@@ -16,6 +16,13 @@ struct Holonomic {
 
   /// Its points.
   const Points& points() const { return on; }
+  /// Of one point it is a curve or surface.
+  [[nodiscard]] Sketch sketch() const {
+    using P = std::tuple_element_t<0, Points>;
+    if constexpr (std::tuple_size_v<Points> == 1 && !std::is_same_v<P, Rotor>)
+      return detail::figure_of<P::dimension>(equation);
+    return {};
+  }
   auto operator()(const auto&... a) const requires requires { equation(a...); }
   { return equation(a...); }
 };

@@ -24,6 +24,12 @@ struct InPlane {
   Angle angle;  ///< of time [rad]: `[](auto t) { return 2.0 * t; }`
 
   auto points() const { return std::tie(point); }
+  [[nodiscard]] Sketch sketch() const {
+    Sketch drawn{"axis"};
+    detail::append<3>(drawn.sizes, axis.point);
+    detail::append<3>(drawn.sizes, axis.direction);
+    return drawn;
+  }
   auto operator()(const auto& t, const auto& r) const {
     using std::cos;
     using std::sin;

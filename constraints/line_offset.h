@@ -25,6 +25,7 @@ struct LineOffset {
   double offset = 0.0;  ///< [length], finite
 
   auto points() const { return std::tie(point, a, b); }
+  [[nodiscard]] Sketch sketch() const { return {"track"}; }
   auto operator()(const auto& r, const auto& r_a, const auto& r_b) const {
     const auto e = (r_b - r_a).normalized().eval();
     const auto d = (r - r_a).eval();

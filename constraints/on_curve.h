@@ -24,6 +24,7 @@ struct OnCurve {
   Curve curve;  ///< an equation g([t,] r)
 
   auto points() const { return std::tie(point); }
+  [[nodiscard]] Sketch sketch() const { return detail::figure_of<2>(curve); }
   auto operator()(const auto&... a) const requires requires { curve(a...); }
   { return curve(a...); }
   [[nodiscard]] std::string fault() const {

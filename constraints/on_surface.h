@@ -37,6 +37,7 @@ struct OnSurface {
   decltype(detail::prepared(std::declval<const Surface&>())) equation = detail::prepared(surface);
 
   auto points() const { return std::tie(point); }
+  [[nodiscard]] Sketch sketch() const { return detail::figure_of<3>(surface); }
   auto operator()(const auto&... a) const requires requires { equation(a...); }
   { return equation(a...); }
   [[nodiscard]] std::string fault() const {

@@ -20,6 +20,7 @@ struct Prescribed {
   Motion motion;  ///< a function of time
 
   auto points() const { return std::tie(point); }
+  [[nodiscard]] Sketch sketch() const { return {"none"}; }
   auto operator()(const auto& t, const auto& r) const { return (r - motion(t)).eval(); }
 };
 template <class P, class Motion>

@@ -29,6 +29,7 @@ struct Rolling {
   double radius;  ///< [length], finite and > 0; the disk is on the left of the track
 
   auto points() const { return std::tie(centre, wheel, a, b); }
+  [[nodiscard]] Sketch sketch() const { return {"wheel", {radius}}; }
   auto operator()(const auto& r, const auto& /*phi*/, const auto& r_a, const auto& r_b, const auto& v,
                   const auto& spin, const auto& v_a, const auto& v_b) const {
     const auto track = (r_b - r_a).eval();

@@ -49,6 +49,7 @@ struct Slip {
   Vec<P::dimension> belt = Vec<P::dimension>::Zero();  ///< [speed]
 
   auto points() const { return std::tie(point); }
+  [[nodiscard]] Sketch sketch() const { return {"none"}; }
   auto operator()(const auto& r, const auto& v) const {
     using T = typename std::remove_cvref_t<decltype(v)>::Scalar;
     const VecOf<T, P::dimension> n = surface.normal_at(r), relative = v - belt;

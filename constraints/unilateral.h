@@ -31,6 +31,7 @@ struct Unilateral {
   Contact contact;  ///< its sign and its restitution
 
   decltype(auto) points() const { return bilateral.points(); }
+  [[nodiscard]] Sketch sketch() const { return detail::sketch_of(bilateral); }
   auto operator()(const auto&... a) const requires requires { bilateral(a...); }
   { return bilateral(a...); }
 

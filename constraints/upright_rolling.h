@@ -24,6 +24,7 @@ struct UprightRolling {
   double radius;  ///< [length], finite and > 0
 
   auto points() const { return std::tie(centre, heading, spin); }
+  [[nodiscard]] Sketch sketch() const { return {"upright wheel", {radius}}; }
   auto operator()(const auto& /*r*/, const auto& alpha, const auto& /*phi*/, const auto& v,
                   const auto& /*turning*/, const auto& spinning) const {
     using std::cos;

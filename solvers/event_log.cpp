@@ -15,6 +15,12 @@ namespace dalembert {
 
 namespace {
 
+std::vector<std::string> names_of(const std::vector<FlatEvent>& events) {
+  std::vector<std::string> names;
+  for (const FlatEvent& event : events) names.push_back(event.name);
+  return names;
+}
+
 std::vector<FlatEvent> with_transitions(std::vector<FlatEvent> events, const Transitions* transitions) {
   for (std::size_t i = 0; transitions != nullptr && i < transitions->functions(); ++i) {
     events.push_back({transitions->label(i),
@@ -29,6 +35,7 @@ std::vector<FlatEvent> with_transitions(std::vector<FlatEvent> events, const Tra
 EventLog::EventLog(std::vector<FlatEvent> events, Transitions* transitions,
                    const Transitions::Change* at_start, Auditor* auditor, Stepping& stepping)
     : asked_for_(events.size()),
+      names_(names_of(events)),
       transitions_(transitions),
       auditor_(auditor),
       seen_(stepping.system(), stepping.start(), changes(events)),
@@ -241,6 +248,7 @@ void EventLog::list(const Transitions::Change& change, const FlatSample& before,
 /// In the order of time: where one contact comes to rest, at the limit of its impacts, others may have
 /// impacts before that.
 void EventLog::write(Record& record) const {
+  record.event_names = names_;
   std::vector<std::size_t> order(occurred_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [this](std::size_t k) { return occurred_[k].time; });

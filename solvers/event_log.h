@@ -8,6 +8,7 @@
 #include <dalembert/solvers/stepping.h>
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace DALEMBERT_HIDDEN dalembert {
@@ -56,6 +57,7 @@ class EventLog {
   void audit(const Transitions::Change& change, const FlatSample& after);
 
   std::size_t asked_for_;
+  std::vector<std::string> names_;  // of these
   Transitions* transitions_;
   Auditor* auditor_;
   Moment seen_;

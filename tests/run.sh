@@ -6,7 +6,9 @@ preset=${1:-release}
 
 compiler=()
 [[ $preset == release ]] || compiler=(clang libclang-rt-dev)
-cmake/dependencies.sh "${compiler[@]}"
+browser=() # for the pages of runs
+[[ $preset == threads || $preset == clang ]] || browser=(chromium nodejs)
+cmake/dependencies.sh "${compiler[@]}" "${browser[@]}"
 cmake --preset "$preset"
 cmake --build --preset "$preset"
 ctest --preset "$preset" --parallel "$(nproc)"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/constraints/geometry/axis.h>
+#include <dalembert/core/equations/sketch.h>
 #include <dalembert/core/vec.h>
 
 #include <Eigen/Geometry>
@@ -20,6 +21,11 @@ template <class Surface>
   if constexpr (requires { surface.fault(); }) return surface.fault();
   return {};
 }
+
+/// A turn about an axis through a point.
+[[nodiscard]] inline Eigen::Isometry3d turned_about(const Vec<3>& point, const Vec<3>& axis, double angle) {
+  return Eigen::Translation3d(point) * Eigen::AngleAxisd(angle, axis) * Eigen::Translation3d(-point);
+}
 }  // namespace detail
 
 /// Shifted by path(t): `Translating{Sphere<2>{}, [](auto t) { return vec(0.1 * sin(t), 0.0); }}`.
@@ -30,6 +36,13 @@ struct Translating {
   Path path;        ///< its translation, a function of time [length]
 
   auto operator()(const auto& t, const auto& r) const { return surface((r - path(t)).eval()); }
+  [[nodiscard]] Sketch sketch() const {
+    constexpr int D = std::remove_cvref_t<decltype(path(0.0))>::RowsAtCompileTime;
+    return detail::carried(detail::figure_of<D>(surface), [path = path](double t) {
+      const auto shift = detail::place_of<D>(path(t).template cast<double>());
+      return Eigen::Isometry3d(Eigen::Translation3d(shift[0], shift[1], shift[2]));
+    });
+  }
   [[nodiscard]] std::string fault() const { return detail::fault_of(surface); }
 };
 template <class Surface, class Path>
@@ -51,6 +64,12 @@ struct Rotating {
     const auto s = sin(phi);
     const auto d = (r - centre).eval();
     return curve((centre + vec(c * d.x() + s * d.y(), c * d.y() - s * d.x())).eval());
+  }
+  [[nodiscard]] Sketch sketch() const {
+    return detail::carried(detail::figure_of<2>(curve), [centre = centre, angle = angle](double t) {
+      return detail::turned_about({centre.x(), centre.y(), 0.0}, Vec<3>::UnitZ(),
+                                  static_cast<double>(angle(t)));
+    });
   }
   [[nodiscard]] std::string fault() const { return detail::fault_of(curve); }
 };
@@ -74,6 +93,11 @@ struct RotatingAbout {
     // Rodrigues' rotation by -phi.
     const auto turned = (cos(phi) * d - sin(phi) * e.cross(d) + (1.0 - cos(phi)) * e.dot(d) * e).eval();
     return surface((axis.point + turned).eval());
+  }
+  [[nodiscard]] Sketch sketch() const {
+    return detail::carried(detail::figure_of<3>(surface), [axis = axis, angle = angle](double t) {
+      return detail::turned_about(axis.point, axis.direction.normalized(), static_cast<double>(angle(t)));
+    });
   }
   [[nodiscard]] std::string fault() const { return detail::fault_of(surface); }
 };

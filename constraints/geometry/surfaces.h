@@ -42,6 +42,12 @@ struct Plane {
     return [point = point, n = Vec<D>(normal.normalized())](const auto& r) { return n.dot(r - point); };
   }
   auto operator()(const auto& r) const { return prepared()(r); }
+  [[nodiscard]] Sketch sketch() const {
+    Sketch drawn{"plane"};
+    detail::append<D>(drawn.sizes, point);
+    detail::append<D>(drawn.sizes, normal);
+    return drawn;
+  }
   [[nodiscard]] auto normal_at(const auto& r) const {
     using T = typename std::remove_cvref_t<decltype(r)>::Scalar;
     return VecOf<T, D>(normal.normalized().template cast<T>());
@@ -60,6 +66,12 @@ struct Sphere {
   double radius = 1.0;             ///< > 0 [length]
 
   auto operator()(const auto& r) const { return (r - centre).norm() - radius; }
+  [[nodiscard]] Sketch sketch() const {
+    Sketch drawn{"sphere"};
+    detail::append<D>(drawn.sizes, centre);
+    drawn.sizes.push_back(radius);
+    return drawn;
+  }
   [[nodiscard]] auto normal_at(const auto& r) const { return (r - centre).normalized().eval(); }
   [[nodiscard]] std::string fault() const {
     return detail::first_fault(
@@ -80,6 +92,13 @@ struct Cylinder {
     };
   }
   auto operator()(const auto& r) const { return prepared()(r); }
+  [[nodiscard]] Sketch sketch() const {
+    Sketch drawn{"cylinder"};
+    detail::append<3>(drawn.sizes, point);
+    detail::append<3>(drawn.sizes, axis);
+    drawn.sizes.push_back(radius);
+    return drawn;
+  }
   [[nodiscard]] auto normal_at(const auto& r) const {
     const Vec<3> e = detail::unit_vector(axis);
     const auto d = (r - point).eval();
@@ -112,6 +131,13 @@ struct Cone {
     };
   }
   auto operator()(const auto& r) const { return prepared()(r); }
+  [[nodiscard]] Sketch sketch() const {
+    Sketch drawn{"cone"};
+    detail::append<3>(drawn.sizes, apex);
+    detail::append<3>(drawn.sizes, axis);
+    drawn.sizes.push_back(half_angle);
+    return drawn;
+  }
   [[nodiscard]] auto normal_at(const auto& r) const {
     const Vec<3> e = detail::unit_vector(axis);
     const auto d = (r - apex).eval();

@@ -26,6 +26,7 @@ struct Cylindrical {
       : frames(a, b, point, detail::joint_axes(axis)) {}
 
   auto points() const { return frames.axis(); }
+  [[nodiscard]] Sketch sketch() const { return {"slider"}; }
   auto operator()(const auto& c_a, const auto& x_a, const auto& y_a, const auto& c_b, const auto& z_b) const {
     const auto d = (c_b - c_a).eval();
     const double l = frames.length, l2 = l * l;

@@ -33,6 +33,7 @@ struct AngleDrive {
       : frames(detail::turning_frames(of)), rotor(armature), angle(std::move(law)) {}
 
   auto points() const { return std::tuple_cat(frames.turning(), std::tie(rotor)); }
+  [[nodiscard]] Sketch sketch() const { return {"none"}; }
   auto operator()(const auto& t, const auto& x_a, const auto& y_a, const auto& x_b, const auto& phi_r) const {
     return vec(detail::out_of_mesh(detail::angle_between(x_a, y_a, x_b) - phi_r[0]), phi_r[0] - angle(t));
   }
@@ -60,6 +61,7 @@ struct PathDrive {
   auto points() const {
     return std::tie(frames.a.origin, frames.a.axes[detail::along<A::dimension>], frames.b.origin);
   }
+  [[nodiscard]] Sketch sketch() const { return {"none"}; }
   auto operator()(const auto& t, const auto& c_a, const auto& z_a, const auto& c_b) const {
     return z_a.dot(c_b - c_a) / frames.length - path(t);
   }

@@ -48,6 +48,10 @@ struct Gear {
     const auto& b = frames.b;
     return std::tie(a.origin, a.axes[0], a.axes[1], b.origin, b.axes[0], b.axes[1]);
   }
+  [[nodiscard]] Sketch sketch() const {
+    const double tooth = distance / (teeth_a + teeth_b);
+    return {"gear", {std::abs(tooth * teeth_a), std::abs(tooth * teeth_b)}};
+  }
   auto operator()(const auto& c_a, const auto& x_a, const auto& y_a, const auto& c_b, const auto& x_b,
                   const auto& y_b) const {
     const auto line = (c_b - c_a).eval();

@@ -29,6 +29,7 @@ struct Planar {
     const auto& b = frames.b;
     return std::tie(a.origin, a.axes[0], a.axes[1], a.axes[2], b.origin, b.axes[2]);
   }
+  [[nodiscard]] Sketch sketch() const { return {"slider"}; }
   auto operator()(const auto& c_a, const auto& x_a, const auto& y_a, const auto& z_a, const auto& c_b,
                   const auto& z_b) const {
     const double l = frames.length, l2 = l * l;

@@ -25,6 +25,7 @@ struct Prismatic {
       : frames(a, b, point, detail::joint_axes(direction)) {}
 
   auto points() const { return frames.whole(); }
+  [[nodiscard]] Sketch sketch() const { return {"slider"}; }
   auto operator()(const auto& c_a, const auto& y_a, const auto& c_b, const auto& x_b) const {
     const double l = frames.length;
     return vec(y_a.dot(c_b - c_a) / l, y_a.dot(x_b) / (l * l));

@@ -41,6 +41,7 @@ struct RackAndPinion {
     const auto& b = frames.b;
     return std::tie(a.origin, a.axes[0], a.axes[1], b.origin, b.axes[0]);
   }
+  [[nodiscard]] Sketch sketch() const { return {"none"}; }
   auto operator()(const auto& c_a, const auto& x_a, const auto& y_a, const auto& c_b, const auto& x_b) const {
     const auto phase = x_a.dot(c_b - c_a) / (frames.length * radius) + detail::angle_between(x_a, y_a, x_b);
     return radius * detail::out_of_mesh(phase);

@@ -36,6 +36,7 @@ struct Revolute {
       return frames.axis();
     }
   }
+  [[nodiscard]] Sketch sketch() const { return {"hinge"}; }
   auto operator()(const auto& c_a, const auto& c_b) const { return (c_b - c_a).eval(); }
   auto operator()(const auto& c_a, const auto& x_a, const auto& y_a, const auto& c_b, const auto& z_b) const {
     const auto d = (c_b - c_a).eval();

@@ -37,6 +37,7 @@ struct Screw {
     const auto& b = frames.b;
     return std::tie(a.origin, a.axes[0], a.axes[1], a.axes[2], b.origin, b.axes[0], b.axes[2]);
   }
+  [[nodiscard]] Sketch sketch() const { return {"slider"}; }
   auto operator()(const auto& c_a, const auto& x_a, const auto& y_a, const auto& z_a, const auto& c_b,
                   const auto& x_b, const auto& z_b) const {
     const auto d = (c_b - c_a).eval();

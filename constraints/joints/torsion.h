@@ -28,6 +28,7 @@ struct TorsionSpring {
       : frames(detail::turning_frames(of)), stiffness(its_stiffness), relaxed_angle(its_relaxed_angle) {}
 
   auto points() const { return frames.turning(); }
+  [[nodiscard]] Sketch sketch() const { return {"none"}; }
   auto energy(const auto& x_a, const auto& y_a, const auto& x_b) const {
     using std::atan2;
     using std::cos;
@@ -74,6 +75,7 @@ struct TorsionDamper {
       : frames(detail::turning_frames(of)), coefficient(its_coefficient) {}
 
   auto points() const { return frames.turning(); }
+  [[nodiscard]] Sketch sketch() const { return {"none"}; }
   auto force(const auto& x_a, const auto& y_a, const auto& x_b, const auto& x_a_rate, const auto& y_a_rate,
              const auto& x_b_rate) const {
     using V = std::remove_cvref_t<decltype(x_b)>;

@@ -25,6 +25,7 @@ struct Weld {
       : frames(a, b, point, JointFrames<A, B>::Axes::Identity()) {}
 
   auto points() const { return frames.whole(); }
+  [[nodiscard]] Sketch sketch() const { return {"weld"}; }
   auto operator()(const auto& c_a, const auto& y_a, const auto& c_b, const auto& x_b) const {
     const auto d = (c_b - c_a).eval();
     return vec(d.x(), d.y(), y_a.dot(x_b) / (frames.length * frames.length));

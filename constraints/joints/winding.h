@@ -31,6 +31,7 @@ struct Winding {
   Winding(const J& of, Rotor turning) : frames(detail::turning_frames(of)), rotor(turning) {}
 
   auto points() const { return std::tuple_cat(frames.turning(), std::tie(rotor)); }
+  [[nodiscard]] Sketch sketch() const { return {"none"}; }
   auto operator()(const auto& x_a, const auto& y_a, const auto& x_b, const auto& angle) const {
     return detail::out_of_mesh(detail::angle_between(x_a, y_a, x_b) - angle[0]);
   }

@@ -3,6 +3,7 @@
 #include <dalembert/core/autodiff/mistakes.h>
 #include <dalembert/core/equations/batch.h>
 #include <dalembert/core/equations/contact.h>
+#include <dalembert/core/equations/sketch.h>
 
 #include <cmath>
 #include <concepts>

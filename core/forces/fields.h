@@ -115,6 +115,7 @@ struct ElasticString {
   double relaxed_length;  ///< [length], finite and > 0
 
   auto points() const { return std::tie(a, b); }
+  [[nodiscard]] Sketch sketch() const { return {"string", {relaxed_length}}; }
   auto energy(const auto& r_a, const auto& r_b) const {
     using S = typename std::remove_cvref_t<decltype(r_a)>::Scalar;
     const S square = (r_b - r_a).squaredNorm();

@@ -25,6 +25,7 @@ struct Spring {
   double relaxed_length = 0.0;  ///< [length], finite and >= 0
 
   auto points() const { return std::tie(a, b); }
+  [[nodiscard]] Sketch sketch() const { return {"spring", {relaxed_length}}; }
   auto energy(const auto& r_a, const auto& r_b) const {
     using S = typename std::remove_cvref_t<decltype(r_a)>::Scalar;
     if (relaxed_length == 0.0) return S(0.5 * stiffness * (r_b - r_a).squaredNorm());
@@ -56,6 +57,7 @@ struct Damper {
   double coefficient;  ///< [force / speed], finite and >= 0
 
   auto points() const { return std::tie(a, b); }
+  [[nodiscard]] Sketch sketch() const { return {"damper"}; }
   auto force(const auto& r_a, const auto& r_b, const auto& v_a, const auto& v_b) const {
     using V = std::remove_cvref_t<decltype(r_a)>;
     const V e = (r_b - r_a).normalized();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/core/equations/contact.h>
+#include <dalembert/core/equations/sketch.h>
 #include <dalembert/core/places.h>
 #include <dalembert/core/points/handles.h>
 #include <dalembert/core/points/points.h>
@@ -44,6 +45,7 @@ struct Layout {
     std::uint64_t scene;
     Condition holds{};      ///< when, if not always
     std::string meaning{};  ///< what its multiplier is, with its direction and sign, in words
+    std::shared_ptr<const Drawing> drawing{};
 
     /// Those of its multipliers, in lambda.
     [[nodiscard]] Places own_rows() const {
@@ -58,6 +60,7 @@ struct Layout {
     std::string kind;
     std::string name;
     std::uint64_t scene;
+    std::shared_ptr<const Drawing> drawing{};  ///< null of gravity
 
     [[nodiscard]] std::string label() const { return kind + " \"" + name + '"'; }
   };

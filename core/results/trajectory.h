@@ -43,6 +43,7 @@ struct Record {
   std::vector<char> unique;                    ///< per sample and row, see FlatSample; empty if all are
   Statistics statistics;                       ///< of the run
   std::shared_ptr<const DenseOutput> dense;    ///< if the option `dense` asks for it
+  std::vector<std::string> event_names{};      ///< of the events that were asked for
   std::vector<Occurrence> events;              ///< in the order of time,
   std::shared_ptr<const Record> at_events;     ///< with a sample of each; null if none were asked for
   std::shared_ptr<const Record> after_events;  ///< and of the state after it,

@@ -179,7 +179,7 @@ template <int D>
 Force Scene<D>::add(const UniformGravity<D>& gravity, const std::string& name) {
   check(gravity);
   const std::string own = unique_name("UniformGravity", name, gravities_.size());
-  const Force force = enter_force({no_group, gravities_.size()}, "UniformGravity", own, {});
+  const Force force = enter_force({no_group, gravities_.size()}, "UniformGravity", own, {}, nullptr);
   gravities_.push_back({force.index, gravity});
   return force;
 }
@@ -234,11 +234,12 @@ void Scene<D>::require_compliance(double compliance, const Label& label) {
 
 template <int D>
 int Scene<D>::enter(Place place, const std::string& name, Surroundings around, const Condition& holds,
-                    std::string_view meaning) {
+                    std::string_view meaning, std::shared_ptr<const Drawing> drawing) {
   const int number = static_cast<int>(layout_.constraints.size());
   const ConstraintShape shape = constraints_[place.group].batch->shape();
   layout_.constraints.push_back({std::string(shape.kind), name, shape.rows, shape.width, shape.inputs,
-                                 shape.internal, 0, 0, identity_.number(), holds, std::string(meaning)});
+                                 shape.internal, 0, 0, identity_.number(), holds, std::string(meaning),
+                                 std::move(drawing)});
   place.around = std::move(around);
   constraint_places_.push_back(std::move(place));
   names_.insert({name, {Kind::constraint, number}});
@@ -246,10 +247,10 @@ int Scene<D>::enter(Place place, const std::string& name, Surroundings around, c
 }
 
 template <int D>
-Force Scene<D>::enter_force(Place place, std::string_view kind, const std::string& name,
-                            Surroundings around) {
+Force Scene<D>::enter_force(Place place, std::string_view kind, const std::string& name, Surroundings around,
+                            std::shared_ptr<const Drawing> drawing) {
   const int number = static_cast<int>(layout_.forces.size());
-  layout_.forces.push_back({std::string(kind), name, identity_.number()});
+  layout_.forces.push_back({std::string(kind), name, identity_.number(), std::move(drawing)});
   place.around = std::move(around);
   force_places_.push_back(std::move(place));
   names_.insert({name, {Kind::force, number}});

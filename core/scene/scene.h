@@ -71,7 +71,8 @@ class Scene {
     const std::string own = unique_name(kind, name, layout_.constraints.size());
     Surroundings around = admit(constraint, {kind, own});
     const Place place = put(constraints_, constraint, layout_.constraints.size());
-    return {enter(place, own, std::move(around), detail::condition_of(constraint), detail::meaning_of<C>()),
+    return {enter(place, own, std::move(around), detail::condition_of(constraint), detail::meaning_of<C>(),
+                  detail::drawing_of(constraint)),
             identity_.number()};
   }
 
@@ -84,7 +85,7 @@ class Scene {
     const std::string own = unique_name(kind, name, layout_.forces.size() - gravities_.size());
     Surroundings around = admit(force, {kind, own});
     const Place place = put(forces_, force, layout_.forces.size());
-    return enter_force(place, kind, own, std::move(around));
+    return enter_force(place, kind, own, std::move(around), detail::drawing_of(force));
   }
 
   /// States a constraint or force anew: one of the same type with other parameters, or points; a lambda is of
@@ -102,6 +103,7 @@ class Scene {
     exchange(constraints_, constraint, constraint_places_[number], number, its.label(), std::move(around));
     its.holds = detail::condition_of(constraint);
     its.holds.released = released;
+    its.drawing = detail::drawing_of(constraint);
   }
   /// The same for a force.
   template <detail::AnyForce E>
@@ -109,9 +111,10 @@ class Scene {
     detail::require_forces<E>();
     layout_.require(handle);
     const auto number = static_cast<std::size_t>(handle.index);
-    const Layout::Force& its = layout_.forces[number];
+    Layout::Force& its = layout_.forces[number];
     Surroundings around = admit(force, {its.kind, its.name});
     exchange(forces_, force, force_places_[number], number, its.label(), std::move(around));
+    its.drawing = detail::drawing_of(force);
   }
   /// The same for gravity.
   void replace(Force handle, const UniformGravity<D>& gravity);
@@ -292,8 +295,9 @@ class Scene {
   }
   /// Takes the element last put into the layout.
   int enter(Place place, const std::string& name, Surroundings around, const Condition& holds,
-            std::string_view meaning);
-  Force enter_force(Place place, std::string_view kind, const std::string& name, Surroundings around);
+            std::string_view meaning, std::shared_ptr<const Drawing> drawing);
+  Force enter_force(Place place, std::string_view kind, const std::string& name, Surroundings around,
+                    std::shared_ptr<const Drawing> drawing);
 
   detail::Identity identity_;
   Layout layout_;

@@ -1,0 +1,26 @@
+#include "dalembert/core/equations/sketch.h"
+
+#include <cmath>
+#include <utility>
+
+namespace dalembert::detail {
+
+bool is_direction(std::span<const double> map, std::size_t rows) {
+  const std::size_t columns = map.size() / rows;
+  double sum = 0.0;  // of the weights of the first coordinates: 1 of a place, 0 of a vector
+  for (std::size_t k = 0; k < columns; k += rows) sum += map[k];
+  return std::abs(sum) < 0.5;
+}
+
+Sketch carried(Sketch sketch, std::function<Eigen::Isometry3d(double t)> pose) {
+  if (sketch.pose) {
+    sketch.pose = [first = std::move(sketch.pose), then = std::move(pose)](double t) {
+      return Eigen::Isometry3d(then(t) * first(t));
+    };
+  } else {
+    sketch.pose = std::move(pose);
+  }
+  return sketch;
+}
+
+}  // namespace dalembert::detail

@@ -1,0 +1,67 @@
+#include "dalembert/view/quantities.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace dalembert {
+
+Quantities::Quantities(std::vector<Shown> shown, const TwoRuns* certified)
+    : shown_(std::move(shown)), certified_(certified), columns_(shown_.size()) {}
+
+std::vector<std::size_t> Quantities::add(int numbers, const Reading& read) {
+  std::vector<double> now(static_cast<std::size_t>(numbers));
+  std::vector<std::vector<double>> all(now.size(), std::vector<double>(shown_.size()));
+  for (std::size_t i = 0; i < shown_.size(); ++i) {
+    read(shown_[i].sample(), now);
+    for (std::size_t k = 0; k < now.size(); ++k) all[k][i] = now[k];
+  }
+  std::vector<std::size_t> columns;
+  for (const auto& column : all) columns.push_back(columns_.add([&](std::size_t i) { return column[i]; }));
+  return columns;
+}
+
+std::size_t Quantities::add_error(int numbers, Kind kind, const Reading& read) {
+  return columns_.add([&](std::size_t i) { return error(shown_[i], numbers, kind, read); });
+}
+
+/// As Certificate has them: what round-off in the states, or in the largest force, is at least.
+double Quantities::floor_of(Kind kind, const Certainty& its) const {
+  switch (kind) {
+    case Kind::position:
+      return its.of_states * certified_->length();
+    case Kind::velocity:
+      return its.of_states * certified_->speed();
+    case Kind::angle:
+      return its.of_states;
+    case Kind::angular_velocity:
+      return its.of_states * certified_->speed() / certified_->length();
+    case Kind::force:
+      return certified_->error(0.0, certified_->largest_force(), its);
+    case Kind::other:
+      break;
+  }
+  return 0.0;
+}
+
+double Quantities::error(const Shown& at, int numbers, Kind kind, const Reading& read) const {
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  if (at.certainty == nullptr) return unknown;
+  Certainty its = *at.certainty;
+  const bool place = kind == Kind::position || kind == Kind::angle;
+  if (place && its.doubt == Doubt::at_a_jump) its.doubt = Doubt::none;  // positions do not jump
+  if (its.doubt != Doubt::none) return unknown;
+  std::vector<double> own(static_cast<std::size_t>(numbers)), other(own.size());
+  read(at.sample(), own);
+  read(at.reference->sample(its.counterpart), other);
+  double size = 0.0, apart = 0.0;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    size += own[k] * own[k];
+    apart += (own[k] - other[k]) * (own[k] - other[k]);
+  }
+  if (std::isnan(apart)) return unknown;
+  return std::max(certified_->error(std::sqrt(apart), std::sqrt(size), its), floor_of(kind, its));
+}
+
+}  // namespace dalembert
