@@ -8,6 +8,7 @@
 #include <dalembert/view/quantities.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -308,11 +309,11 @@ void PageData::add_ledger() {
   account("", ledger.potential);
   for (const auto& its : ledger.elastic) account("elastic energy of ", its);
   for (const auto& its : ledger.work) account("work of ", its);
+  const std::array<std::string, 3> along{"x", "y", "z"};
   for (std::size_t k = 0; k < static_cast<std::size_t>(D_); ++k)
-    add(std::string("momentum ") + "xyz"[k], [&](std::size_t i) { return ledger.momentum[i][k]; });
+    add("momentum " + along[k], [&](std::size_t i) { return ledger.momentum[i][k]; });
   for (std::size_t k = D_ == 2 ? 2 : 0; k < 3; ++k)
-    add(std::string("angular momentum ") + "xyz"[k],
-        [&](std::size_t i) { return ledger.angular_momentum[i][k]; });
+    add("angular momentum " + along[k], [&](std::size_t i) { return ledger.angular_momentum[i][k]; });
 }
 
 void PageData::write_point(Json& json, const SketchedPoint& point, const Numbers& path) const {
