@@ -45,7 +45,7 @@ function(add_pages target library)
         break()
       endif()
       string(FIND "${program}" "int main() {" main)
-      if(main EQUAL -1) # a part: looked for below, without its indentation
+      if(main EQUAL -1) # a part: it stands on the page twice
         string(FIND "${whole}" "${program}" first)
         string(FIND "${whole}" "${program}" last REVERSE)
         if(first EQUAL last)
