@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-cmake/dependencies.sh doxygen
+cmake/dependencies.sh doxygen python3
 cmake --preset install
 cmake --build --preset install --target docs
 ln -sfn install/docs/html build/docs

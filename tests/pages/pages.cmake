@@ -45,7 +45,7 @@ function(add_pages target library)
         break()
       endif()
       string(FIND "${program}" "int main() {" main)
-      if(main EQUAL -1) # a part: looked for below, without its indentation
+      if(main EQUAL -1) # a part: it stands on the page twice
         string(FIND "${whole}" "${program}" first)
         string(FIND "${whole}" "${program}" last REVERSE)
         if(first EQUAL last)
@@ -86,7 +86,7 @@ function(add_pages target library)
   add_executable(${target} ${CMAKE_CURRENT_SOURCE_DIR}/pages/main.cpp ${CMAKE_CURRENT_SOURCE_DIR}/pages/compare.cpp ${table} ${sources})
   target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(${target} PRIVATE ${library})
-  set_target_properties(${target} PROPERTIES UNITY_BUILD OFF) # a page is a file already
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 5) # pages are short
 endfunction()
 
 # What has not changed is not compiled again.
