@@ -132,7 +132,7 @@ class PageData {
   }
 
   Drawn drawn(const Drawing& drawing);
-  [[nodiscard]] Eigen::AlignedBox3d box() const;
+  [[nodiscard]] const Eigen::AlignedBox3d& box();
   Acting acting(const Layout::Constraint& constraint);
   void add_arrows(Acting& its);
   std::optional<Arrow> torque_arrow(const Acting& its);
@@ -165,26 +165,33 @@ class PageData {
   std::vector<Moving> particles_, rotors_;
   std::vector<Acting> constraints_;
   std::vector<Drawn> forces_;
+  Eigen::AlignedBox3d box_;
   std::vector<std::pair<std::string, std::size_t>> ledger_;
 };
 
-/// All places that the particles of the run come to, and somewhat more.
-Eigen::AlignedBox3d PageData::box() const {
-  Eigen::AlignedBox3d box;
+/// All places that particles and points of constraints come to, and somewhat more.
+const Eigen::AlignedBox3d& PageData::box() {
+  if (!box_.isEmpty()) return box_;
+  const auto extend = [&](const SketchedPoint& point, const FlatSample& at) {
+    if (point.direction || point.rotor) return;
+    const Sketch::Place r = place_at(point, at, D_);
+    box_.extend(Eigen::Vector3d(r[0], r[1], r[2]));
+  };
   for (const Shown& shown : all_.shown()) {
     const FlatSample at = shown.sample();
+    for (const auto& constraint : layout_.constraints)
+      for (const SketchedPoint& point : constraint.drawing->points) extend(point, at);
     for (const auto& p : layout_.particles) {
-      Eigen::Vector3d r = Eigen::Vector3d::Zero();
-      for (int k = 0; k < D_; ++k) r[k] = at.q[static_cast<std::size_t>(p.coordinate + k)];
-      box.extend(r);
+      SketchedPoint point;
+      for (int k = 0; k < D_; ++k) point.coordinates.push_back(p.coordinate + k);
+      extend(point, at);
     }
   }
   constexpr double more = 0.25;  // of its size, which a curve is drawn beyond where something was
-  const Eigen::Vector3d around = Eigen::Vector3d::Constant(more * box.sizes().maxCoeff());
-  box.extend(box.min() - around);
-  box.extend(box.max() + around);
-  if (D_ == 2) box.min().z() = box.max().z() = 0.0;
-  return box;
+  const Eigen::Vector3d around = Eigen::Vector3d::Constant(more * box_.sizes().maxCoeff());
+  box_ = Eigen::AlignedBox3d(box_.min() - around, box_.max() + around);
+  if (D_ == 2) box_.min().z() = box_.max().z() = 0.0;
+  return box_;
 }
 
 PageData::Drawn PageData::drawn(const Drawing& drawing) {
@@ -248,34 +255,32 @@ void PageData::add_arrows(Acting& its) {
   if (auto torque = torque_arrow(its)) its.arrows.push_back(std::move(*torque));
 }
 
-/// On the second body of a joint, or the first if that is the ground: sum s x f over its directions s.
+/// On the second body of a joint, or the first if that is the ground: sum r_i x f_i over what the forces at
+/// its directions are on its particles; as these add up to 0 it does not depend on the origin.
 std::optional<PageData::Arrow> PageData::torque_arrow(const Acting& its) {
   const auto& points = its.drawn.drawing->points;
   std::optional<std::size_t> place;
   for (std::size_t k = 0; k < points.size(); ++k)
     if (!points[k].direction && !points[k].rotor && !points[k].map.empty()) place = k;
   if (!place) return {};
-  struct Turned {
-    const SketchedPoint* direction;
-    std::size_t slot;
-  };
-  std::vector<Turned> turned;
+  const std::vector<int>& coordinates = points[*place].coordinates;
+  std::vector<std::size_t> slots;  // the first one of each direction
   std::size_t slot = static_cast<std::size_t>(its.constraint->first_slot);
   for (const SketchedPoint& point : points) {
-    if (point.direction && !point.map.empty() && point.coordinates == points[*place].coordinates)
-      turned.push_back({&point, slot});
+    if (point.direction && point.coordinates == coordinates) slots.push_back(slot);
     slot += point.coordinates.size();
   }
-  if (turned.empty()) return {};
+  if (slots.empty()) return {};
   const int D = D_, numbers = D == 2 ? 1 : 3;
-  const auto torque = [turned, D](const FlatSample& at, std::span<double> out) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const auto& [direction, first] : turned) {
-      const Sketch::Place s = place_at(*direction, at, D);
-      Eigen::Vector3d f = Eigen::Vector3d::Zero();
-      for (std::size_t i = 0; i < direction->coordinates.size(); ++i)
-        f[static_cast<int>(i) % D] += at.forces[first + i];
-      sum += Eigen::Vector3d(s[0], s[1], s[2]).cross(f);
+  const auto torque = [slots, coordinates, D](const FlatSample& at, std::span<double> out) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero(), r = sum, f = sum;
+    for (const std::size_t first : slots) {
+      for (std::size_t i = 0; i < coordinates.size(); ++i) {
+        const int k = static_cast<int>(i) % D;
+        r[k] = at.q[static_cast<std::size_t>(coordinates[i])];
+        f[k] = at.forces[first + i];
+        if (k == D - 1) sum += r.cross(f);
+      }
     }
     if (D == 2) {
       out[0] = sum.z();

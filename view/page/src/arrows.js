@@ -79,7 +79,9 @@ export class Arrows {
     this.size = size;
     this.root = new Group();
     this.all = [];
-    this.thick = 0.0085 * size;
+    // The more there are, the smaller.
+    this.room = Math.min(1, Math.sqrt(5 / Math.max(1, run.constraints.length)));
+    this.thick = 0.0085 * size * Math.max(0.55, this.room);
     this.hidden = new Set(); // constraints, by index
     this.selected = null;
     this.visible = true;
@@ -104,7 +106,7 @@ export class Arrows {
       }
     }
   }
-  // Such that the largest one is a third of the scene's size, but where a few are much larger than all others.
+  // Such that the largest one is at most a third of the scene's size, but where a few are much larger than all others.
   scaleOf(which) {
     const sizes = [], every = Math.max(1, Math.floor(this.run.rows / 2000));
     for (const one of this.all) {
@@ -117,7 +119,7 @@ export class Arrows {
     if (sizes.length === 0) return 0;
     sizes.sort((a, b) => a - b);
     const largest = sizes.at(-1), usual = sizes[Math.floor(0.95 * (sizes.length - 1))];
-    return (0.33 * this.size) / Math.min(largest, 3 * usual);
+    return (0.33 * this.size * this.room) / Math.min(largest, 3 * usual);
   }
   update(frame) {
     for (const one of this.all) {

@@ -97,8 +97,17 @@ class Page {
     const sizeOf = (q) => Math.max(...rows.map((row) => Math.abs(q.read(row))).filter(Number.isFinite), 0);
     const forces = all.filter((q) => q.group === "Multipliers").slice(0, 60);
     const largest = forces.reduce((best, q) => (best === null || sizeOf(q) > sizeOf(best) * (1 + 1e-9) ? q : best), null);
-    const position = all.find((q) => q.group === "Positions") ?? all.find((q) => q.group === "Bodies" && q.unit === "rad") ??
-      all.find((q) => q.group === "Bodies") ?? all.find((q) => q.group === "Rotors");
+    // What moves most: a place of a particle, else of a body or a rotor.
+    const some = Array.from({ length: 40 }, (_, k) => Math.round((k / 39) * (this.run.rows - 1)));
+    const rangeOf = (q) => {
+      const values = some.map(q.read);
+      return Math.max(...values) - Math.min(...values);
+    };
+    const inGroup = (group) => all.filter((q) => q.group === group && q.unit !== "rad").slice(0, 60);
+    const angle = all.find((q) => q.group === "Bodies" && q.unit === "rad");
+    const position = [...inGroup("Positions"), ...(angle ? [angle] : inGroup("Bodies"))]
+      .reduce((best, q) => (best === null || rangeOf(q) > rangeOf(best) * (1 + 1e-6) ? q : best), null) ??
+      all.find((q) => q.group === "Rotors");
     this.shown = [];
     for (const q of [largest, position, largest ? null : all.find((x) => x.group === "Energy")]) if (q) this.addPlot(q);
     $("add-plot").addEventListener("click", () => this.addPlot(all.find((q) => q.group === "Energy")));

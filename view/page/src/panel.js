@@ -36,13 +36,13 @@ export class Forces {
         element("th", { text: `\u03bb now${page.run.units.force ? " [" + page.run.units.force + "]" : ""}`, scope: "col" }),
         element("th", { text: "show", scope: "col" }))), body));
     for (const constraint of page.run.constraints.slice(0, 300)) {
-      const swatch = element("span", { class: "swatch" });
+      const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
       const name = element("button", { class: "link", text: constraint.name, title: constraint.meaning,
                                        onclick: () => page.select(constraint) });
       const value = element("td", { class: "number" });
       const box = element("input", { type: "checkbox", checked: true, "aria-label": `arrow of ${constraint.name}`,
                                      onchange: () => page.hide(constraint, !box.checked) });
-      const row = element("tr", {}, element("td", {}, swatch, name), value, element("td", {}, box));
+      const row = element("tr", {}, element("td", { class: "name" }, swatch, name), value, element("td", {}, box));
       body.append(row);
       this.rows.push({ constraint, swatch, value, row, text: "" });
     }
@@ -58,9 +58,10 @@ export class Forces {
       const size = Math.hypot(...lambda);
       let text = !determined ? "not determined"
         : lambda.length === 1 ? withError(lambda[0], error, "", most(run))
-        : `|${lambda.map((x) => number(x, 4)).join(", ")}| = ${withError(size, error, "", most(run))}`;
+        : `|\u03bb| = ${withError(size, error, "", most(run))}`;
       if (determined && !unique) text += " (not unique)";
       if (text !== one.text) one.value.textContent = one.text = text;
+      if (lambda.length > 1) one.value.title = lambda.map((x) => number(x, 5)).join(", ");
       one.row.classList.toggle("selected", this.page.selected === one.constraint);
     }
   }

@@ -1,7 +1,7 @@
 // Plots of quantities over time, with their errors, events, and a line at the present.
 import uPlot from "uplot";
 
-import { number, short } from "./numbers.js";
+import { number, roundDown, short } from "./numbers.js";
 
 const axesNames = ["x", "y", "z"];
 
@@ -109,7 +109,7 @@ export class Plot {
     const pad = span > 1e-6 * size ? 0.06 * span : size > 0 ? 0.1 * size : 1;
     this.range = [low - pad, high + pad];
   }
-  // An error that could not be seen is drawn enlarged, by a power of ten that the note says.
+  // An error that could not be seen is drawn enlarged, by a round number that the note says.
   findBand() {
     const { run, quantity } = this;
     this.magnified = 1;
@@ -121,7 +121,7 @@ export class Plot {
     this.errors = errors;
     const visible = 0.12 * (this.range[1] - this.range[0]);
     if (largest > 0 && largest < 0.02 * (this.range[1] - this.range[0])) {
-      this.magnified = 10 ** Math.floor(Math.log10(visible / largest));
+      this.magnified = roundDown(visible / largest);
     }
     this.largest = largest;
   }
@@ -141,7 +141,7 @@ export class Plot {
       });
       data.push(edge(1), edge(-1));
       series.push({ stroke: "transparent", points: { show: false } }, { stroke: "transparent", points: { show: false } });
-      bands.push({ series: [2, 3], fill: colour + "33" });
+      bands.push({ series: [2, 3], fill: colour + (page.theme === "dark" ? "66" : "38") });
     }
     const grid = { stroke: theme.grid, width: 0.5 }, axis = { stroke: theme.ink, grid, ticks: grid, font: "11px system-ui, sans-serif" };
     const u = new uPlot({

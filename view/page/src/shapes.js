@@ -5,6 +5,8 @@ import {
   TubeGeometry, Vector3,
 } from "three";
 
+import { Frame } from "./run.js";
+
 const up = new Vector3(0, 1, 0), forward = new Vector3(0, 0, 1);
 const tubeGeometry = new CylinderGeometry(1, 1, 1, 14);
 const ballGeometry = new SphereGeometry(1, 24, 16);
@@ -13,13 +15,14 @@ const boxEdges = new EdgesGeometry(boxGeometry);
 const ringGeometry = new TorusGeometry(1, 0.16, 10, 40);
 const helix = (() => {
   const points = [], coils = 7, ends = 0.08;
-  points.push(new Vector3(0, -0.5, 0));
+  const long = 12; // of its radius, at which its wire is round
+  points.push(new Vector3(0, -long / 2, 0));
   for (let i = 0; i <= coils * 16; ++i) {
     const s = i / (coils * 16), phi = 2 * Math.PI * coils * s;
-    points.push(new Vector3(Math.cos(phi), -0.5 + ends + s * (1 - 2 * ends), Math.sin(phi)));
+    points.push(new Vector3(Math.cos(phi), long * (-0.5 + ends + s * (1 - 2 * ends)), Math.sin(phi)));
   }
-  points.push(new Vector3(0, 0.5, 0));
-  return new TubeGeometry(new CatmullRomCurve3(points), coils * 24, 0.13, 6);
+  points.push(new Vector3(0, long / 2, 0));
+  return new TubeGeometry(new CatmullRomCurve3(points), coils * 24, 0.16, 6).scale(1, 1 / long, 1);
 })();
 
 export const vector = (p) => new Vector3(p[0], p[1], p[2]);
@@ -77,10 +80,15 @@ export class Shapes {
   particles() {
     const run = this.run, inBody = new Set(run.bodies.flatMap((body) => body.particles));
     const heaviest = Math.max(...run.particles.map((p) => p.mass), 1e-300);
-    const many = Math.min(1, 8 / Math.sqrt(Math.max(1, run.particles.length)));
+    const rods = run.constraints.filter((c) => c.shape === "rod").map((c) => c.sizes[0]);
+    const largest = Math.min(0.027 * this.size, 0.22 * Math.min(Infinity, ...rods));
+    // A wheel is drawn as such, not as the particle in its centre.
+    const centres = new Set(run.constraints.filter((c) => ["wheel", "upright wheel", "disk"].includes(c.shape))
+      .map((c) => c.points[0].coordinates?.[0]));
     run.particles.forEach((particle, index) => {
       if (inBody.has(index)) return;
-      const radius = Math.max(0.4, Math.cbrt(particle.mass / heaviest)) * 0.027 * this.size * Math.max(0.35, many);
+      const centre = centres.has(particle.coordinate);
+      const radius = centre ? 1.5 * this.thick : Math.max(0.4, Math.cbrt(particle.mass / heaviest)) * largest;
       const coordinates = particle.position.map((_, k) => particle.coordinate + k);
       this.ballAt((frame) => frame.place({ coordinates }), this.look.mass, radius);
     });
@@ -108,8 +116,18 @@ export class Shapes {
         group.matrix.makeBasis(...axes).setPosition(vector(frame.place(centre)));
         group.matrixWorldNeedsUpdate = true;
       });
-      const seen = new Set();
+      const seen = new Set(), first = new Frame(this.run);
+      const inside = (touched) => {
+        const r = vector(first.place(touched)).sub(vector(first.place(centre)));
+        for (const axis of body.axes) {
+          const half = vector(first.place(axis)), along = r.dot(half) / half.lengthSq();
+          if (Math.abs(along) > 1.001) return false;
+          r.addScaledVector(half, -along);
+        }
+        return r.length() < 3 * this.thick;
+      };
       for (const touched of body.touched) {
+        if (inside(touched)) continue;
         const key = JSON.stringify(touched.map.map((x) => x.toPrecision(8)));
         if (seen.has(key)) continue;
         seen.add(key);

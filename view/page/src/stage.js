@@ -34,7 +34,7 @@ class Look {
       rod: solid(), mass: solid(), spring: solid(), link: solid(), joint: solid(), mark: solid(), ground: solid(),
       arm: solid(), outline: solid(),
       groundFlat: new MeshBasicMaterial({ side: DoubleSide }),
-      body: solid({ transparent: true, opacity: spatial ? 0.55 : 0.45, side: DoubleSide, depthWrite: false }),
+      body: solid({ transparent: true, opacity: spatial ? 0.42 : 0.45, side: DoubleSide, depthWrite: false }),
       surface: solid(clear(0.22)), floor: new MeshBasicMaterial(clear(0.35)),
       edge: new LineBasicMaterial(), grid: new LineBasicMaterial(),
     };
@@ -145,7 +145,7 @@ export class Stage {
   addGround() {
     const has = this.run.constraints.some((c) => c.shape === "disk" || (c.shape === "plane" && c.oneSided !== undefined));
     if (!this.run.spatial || has) return;
-    this.ground = new GridHelper(1.5 * this.size, 12, "#888888", "#888888");
+    this.ground = new GridHelper(1.2 * this.size, 10, "#888888", "#888888");
     this.ground.rotation.x = Math.PI / 2;
     const centre = this.box.getCenter(new Vector3());
     const upright = this.run.dimension === 2;
