@@ -94,8 +94,8 @@ void write_model(const models::Model<D>& model, const Pages& options) {
                                                     .tolerance = options.tolerance,
                                                     .stepper = options.stepper});
   const std::string path = options.directory + '/' + model.name;
-  write_html(certificate, path + ".html", {.title = model.name});
   write_table(path + "-motion.csv", Motion<D>(model, observed, certificate).table());
+  write_html(certificate, path + ".html", {.title = model.name});
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 set(page ${PROJECT_SOURCE_DIR}/view/page/page.html)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${page})
 
-function(embed_pieces name text result)
+function(embed_pieces text result)
   set(pieces "")
   string(LENGTH "${text}" length)
   set(begin 0)
@@ -12,7 +12,7 @@ function(embed_pieces name text result)
     string(APPEND pieces "    R\"dalembert(${piece})dalembert\",\n")
     math(EXPR begin "${begin} + 16000")
   endwhile()
-  set(${result} "constexpr std::string_view ${name}[] = {\n${pieces}};\n" PARENT_SCOPE)
+  set(${result} "  static const std::string_view pieces[] = {\n${pieces}  };\n  return pieces;" PARENT_SCOPE)
 endfunction()
 
 file(READ ${page} text)
@@ -25,21 +25,20 @@ string(SUBSTRING "${text}" 0 ${place} before)
 string(LENGTH "${mark}" length)
 math(EXPR place "${place} + ${length}")
 string(SUBSTRING "${text}" ${place} -1 behind)
-embed_pieces(before_data "${before}" before)
-embed_pieces(behind_data "${behind}" behind)
+embed_pieces("${before}" before)
+embed_pieces("${behind}" behind)
 set(embedded ${PROJECT_BINARY_DIR}/page_template.cpp)
 file(CONFIGURE OUTPUT ${embedded} @ONLY CONTENT "// Made from view/page/page.html by cmake/embed_page.cmake.
 #include <dalembert/view/page_template.h>
 
 namespace dalembert {
 
-namespace {
+std::span<const std::string_view> page_before_data() {
 @before@
+}
+std::span<const std::string_view> page_behind_data() {
 @behind@
-}  // namespace
-
-std::span<const std::string_view> page_before_data() { return before_data; }
-std::span<const std::string_view> page_behind_data() { return behind_data; }
+}
 
 }  // namespace dalembert
 ")

@@ -69,8 +69,9 @@ void append_simplex(const std::vector<Eigen::Vector3d>& corners, int dimension, 
 /// What of the level set is in one triangle or tetrahedron.
 void cut(std::vector<Corner> simplex, std::vector<double>& out) {
   const int dimension = static_cast<int>(simplex.size()) - 1;
-  const auto below = std::ranges::partition(simplex, [](const Corner& c) { return c.value < 0.0; }).begin() -
-                     simplex.begin();
+  const auto below =
+      std::partition(simplex.begin(), simplex.end(), [](const Corner& c) { return c.value < 0.0; }) -
+      simplex.begin();
   const auto corner = [&](std::ptrdiff_t i) -> const Corner& { return simplex[static_cast<std::size_t>(i)]; };
   std::vector<Eigen::Vector3d> all;
   for (std::ptrdiff_t i = 0; i < below; ++i)

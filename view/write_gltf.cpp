@@ -48,6 +48,7 @@ class AnimatedRun {
     for (const auto& constraint : layout_.constraints)
       if (!constraint.internal) add_lines(constraint.name, constraint.drawing);
     for (const auto& force : layout_.forces) add_lines(force.name, force.drawing);
+    leave_out_unused();
   }
 
   Animation result{};
@@ -150,6 +151,17 @@ class AnimatedRun {
               length > 0.0 ? Eigen::Vector3d(along / length) : Eigen::Vector3d::UnitZ().eval());
     }
     result.moving.push_back(std::move(line));
+  }
+
+  /// Solids that nothing is.
+  void leave_out_unused() {
+    for (std::size_t k = result.solids.size(); k-- > 0;) {
+      if (std::ranges::find(result.moving, k, &MovingSolid::solid) != result.moving.end()) continue;
+      result.solids.erase(result.solids.begin() + static_cast<std::ptrdiff_t>(k));
+      result.colours.erase(result.colours.begin() + static_cast<std::ptrdiff_t>(k));
+      for (MovingSolid& one : result.moving)
+        if (one.solid > k) --one.solid;
+    }
   }
 
   /// Appends the least rotation from the one before that brings `axis` to `direction`: a line has no twist.

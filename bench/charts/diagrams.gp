@@ -29,7 +29,7 @@ do for [name in "hoop governor"] {
 
 set output file("kapitza-chart.svg")
 set xlabel "amplitude A/l"
-set ylabel "gravity g/(l {/Symbol w}^2)"
+set ylabel "gravity g/(l ω^2)"
 set xrange [0:0.6]
 set yrange [0:0.12]
 set ytics 0.02

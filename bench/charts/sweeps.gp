@@ -23,9 +23,9 @@ set terminal svg size 560,460 dynamic enhanced font "sans-serif,13"
 
 # Row by row angle1, along each row angle2.
 set output file("sweep-flips.svg")
-set xlabel "angle of the lower rod / {/Symbol p}"
-set ylabel "angle of the upper rod / {/Symbol p}"
-set cblabel "time / (l/g)^{1/2}; white: none until 50"
+set xlabel "angle of the lower rod / π"
+set ylabel "angle of the upper rod / π"
+set cblabel "time / (l/g)^{1/2}; blank: none until 50"
 set size ratio -1
 set xrange [-1:1]
 set yrange [-1:1]
@@ -44,8 +44,8 @@ set size noratio
 # Row by row amplitude, along each row gravity: transposed.
 set output file("sweep-kapitza.svg")
 set xlabel "amplitude A/l"
-set ylabel "gravity g/(l {/Symbol w}^2)"
-set cblabel "periods of the drive until it is off by a hundred times; white: stays for 100"
+set ylabel "gravity g/(l ω^2)"
+set cblabel "periods until 100 times as far off; blank: never in 100"
 set xrange [0:0.6]
 set yrange [0:0.12]
 set xtics 0.1

@@ -141,7 +141,7 @@ export class Plot {
       });
       data.push(edge(1), edge(-1));
       series.push({ stroke: "transparent", points: { show: false } }, { stroke: "transparent", points: { show: false } });
-      bands.push({ series: [2, 3], fill: colour + "33" });
+      bands.push({ series: [2, 3], fill: colour + (page.theme === "dark" ? "66" : "38") });
     }
     const grid = { stroke: theme.grid, width: 0.5 }, axis = { stroke: theme.ink, grid, ticks: grid, font: "11px system-ui, sans-serif" };
     const u = new uPlot({
