@@ -365,6 +365,14 @@ std::optional<std::string> Comparisons::would_stick(const Switch& one) {
   return Sticking::message(switches, *friction);
 }
 
+/// Whether the motion before the switch would return by itself: it touches where it turns, and either side
+/// goes on.
+bool Comparisons::turns_back(const Switch& one, double from) {
+  for (double ahead = from; ahead < 1e-3 * one.step; ahead *= 2.0)
+    if (margin_ahead(one.margin, one.at, ahead) > 0.0) return true;
+  return false;
+}
+
 void Comparisons::require_leaving(const Switch& one, std::span<const double> a) {
   Motion at = one.at;
   at.a.assign(a.begin(), a.end());
@@ -372,7 +380,8 @@ void Comparisons::require_leaving(const Switch& one, std::span<const double> a) 
     const double margin = margin_ahead(one.margin, at, ahead);
     if (margins_[one.margin].side != 0 && std::abs(margin) < clearly * one.distance) continue;
     if (margin < 0.0) return;
-    chatters(one);
+    if (!turns_back(one, ahead)) chatters(one);
+    return;
   }
 }
 

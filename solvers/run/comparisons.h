@@ -92,6 +92,7 @@ class Comparisons {
   [[nodiscard]] Switch behind(const Root& root, double step);
   [[nodiscard]] std::optional<std::size_t> corner(const Switch& one);
   [[nodiscard]] bool matters(const Switch& one, double to);
+  [[nodiscard]] bool turns_back(const Switch& one, double from);
   [[nodiscard]] std::optional<std::string> would_stick(const Switch& one);
 
   const System* system_;
