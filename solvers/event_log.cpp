@@ -30,6 +30,11 @@ std::vector<FlatEvent> with_transitions(std::vector<FlatEvent> events, const Tra
   return events;
 }
 
+EventWatch::Rate rates_of_transitions(std::size_t asked_for, const Transitions* transitions) {
+  if (transitions == nullptr) return {};
+  return [=](std::size_t event, const FlatSample& now) { return transitions->rate(event - asked_for, now); };
+}
+
 }  // namespace
 
 EventLog::EventLog(std::vector<FlatEvent> events, Transitions* transitions,
@@ -39,8 +44,8 @@ EventLog::EventLog(std::vector<FlatEvent> events, Transitions* transitions,
       transitions_(transitions),
       auditor_(auditor),
       seen_(stepping.system(), stepping.start(), changes(events)),
-      watch_(with_transitions(std::move(events), transitions), *stepping.system().layout(),
-             stepping.tolerance()),
+      watch_(with_transitions(std::move(events), transitions), rates_of_transitions(asked_for_, transitions),
+             *stepping.system().layout(), stepping.tolerance()),
       changes_(asked_for_),
       looked_to_(stepping.time()) {
   const double t = stepping.time();

@@ -100,6 +100,7 @@ std::unique_ptr<Stepping::Stretch> Stepping::stretch(const Problem& problem, Sta
   }
   auto made = std::make_unique<Stretch>(Stretch{problem, std::move(start), std::move(comparisons), by,
                                                 std::move(reader), std::move(stepper), std::nullopt});
+  if (const Branches::Sides* const held = made->comparisons.held()) made->stepper->listen(*held);
   // A run by the explicit stepper finds itself where friction sticks.
   if (problem.system().frictional() && options_.stepper == Stepper::ida)
     made->sticking.emplace(problem, made->start, options_.tolerance);

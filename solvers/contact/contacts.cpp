@@ -134,6 +134,17 @@ double Contacts::switching(std::size_t contact, const FlatSample& now) const {
   return std::abs(gap) <= none ? 0.0 : gap / since;
 }
 
+double Contacts::rate(std::size_t contact, const FlatSample& now) const {
+  const Contact& c = contacts_[contact];
+  if (c.closed || now.time == c.opened_at) return never;
+  if (gaps_at_ != now.time) find_gaps({now.time, now.q, now.v});
+  const double gap = c.sign * g_[c.row], rate = c.sign * psi_[c.row];
+  if (gap <= no_gap(c, now.q)) return never;
+  if (!c.opened_at) return rate;
+  const double since = now.time - *c.opened_at;
+  return (rate - gap / since) / since;
+}
+
 /// Contacts that have fallen, that have no gap, that have just reached 0, and those that will within the
 /// resolution of times; and those closed in the islands of these.
 std::vector<std::size_t> Contacts::touching(const Instant& at, const std::vector<std::size_t>& fallen) const {

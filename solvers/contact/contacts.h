@@ -61,6 +61,8 @@ class Contacts {
   /// just opened and is not above the surface yet, within the error of a step, but separates counts by its
   /// rate.) A force that is 0 to the tolerance, relative to the others, has not fallen.
   [[nodiscard]] double switching(std::size_t contact, const FlatSample& now) const;
+  /// Its derivative by time while the contact is open; NaN where it is not known.
+  [[nodiscard]] double rate(std::size_t contact, const FlatSample& now) const;
   /// Notes which open contacts have separated where a step ends, or a change. Throws StepFailure, naming it,
   /// if one has been penetrated unnoticed.
   void require_open(const FlatSample& now);

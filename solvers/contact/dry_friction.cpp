@@ -155,6 +155,19 @@ DryFriction::Motion DryFriction::solve(const std::vector<std::size_t>& open, con
   return motion;
 }
 
+/// Those nearest to the ones of an instant that leave what sticks no slip.
+std::vector<double> DryFriction::velocities_at_rest(const std::vector<std::size_t>& open,
+                                                    const Instant& at) const {
+  const Problem problem(with_modes(open));
+  const System& system = problem.system();
+  auto e = system.evaluation();
+  system.evaluate(at, e);
+  Manifold manifold(problem, independent_rows(system, e.w), scales_.lengths());
+  std::vector<double> v(at.v.begin(), at.v.end()), impulses(system.rows());
+  if (!manifold.project_impulsively(at.t, at.q, v, impulses)) throw linearly_dependent(at.t);
+  return v;
+}
+
 /// These, numbers among all, without their friction.
 SlipCoupling DryFriction::released(const std::vector<std::size_t>& which,
                                    const std::vector<std::size_t>& open, const Instant& at) const {

@@ -104,6 +104,8 @@ class DryFriction {
 
   [[nodiscard]] std::shared_ptr<const System> with_modes(const std::vector<std::size_t>& open) const;
   [[nodiscard]] Motion solve(const std::vector<std::size_t>& open, const Instant& at) const;
+  [[nodiscard]] std::vector<double> velocities_at_rest(const std::vector<std::size_t>& open,
+                                                       const Instant& at) const;
   [[nodiscard]] Eigen::VectorXd slip_acceleration(const Rough& rough, const Instant& at,
                                                   const Motion& motion) const;
   [[nodiscard]] SlipCoupling released(const std::vector<std::size_t>& which,
@@ -111,6 +113,7 @@ class DryFriction {
 
   void begin(Rough& rough, const std::vector<std::size_t>& open, double t, Fallen fallen);
   [[nodiscard]] double same_time(double t) const;
+  void rest_with_others(const std::vector<std::size_t>& open, const Instant& at);
   void begin_slow(Rough& rough, const std::vector<std::size_t>& open, const Instant& at);
   void start_sliding(Rough& rough, const Eigen::VectorXd& direction) const;
   void decide(const std::vector<std::size_t>& open, const Instant& at);

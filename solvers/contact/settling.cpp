@@ -95,6 +95,29 @@ void DryFriction::begin(Rough& rough, const std::vector<std::size_t>& open, doub
   rough.turns.reset();
 }
 
+/// What others that are at rest leave no slip is at rest, too: the slow slip that it still has is an error of
+/// the steps, and its direction one of round-off.
+void DryFriction::rest_with_others(const std::vector<std::size_t>& open, const Instant& at) {
+  const auto may_rest = [&](const Rough& r) {
+    return r.mode == Mode::slides && !r.at_rest && slip(r).norm() <= r.slow;
+  };
+  for (bool more = std::ranges::any_of(all_, &Rough::at_rest); more;) {
+    more = false;
+    if (std::ranges::none_of(all_, may_rest)) return;
+    const std::vector<double> v = velocities_at_rest(open, at);
+    const auto before = u_;
+    find_slip({at.t, at.q, v});
+    const auto after = std::exchange(u_, before);
+    slip_at_ = at.t;
+    for (Rough& r : all_) {
+      if (!may_rest(r) || part(r, after).norm() > no_slip()) continue;
+      r.at_rest = more = true;
+      r.reached = r.shared = false;
+      r.mode = Mode::sticks;
+    }
+  }
+}
+
 /// Whether two slow slip velocities come to rest: then with the direction that they have.
 void DryFriction::begin_slow(Rough& rough, const std::vector<std::size_t>& open, const Instant& at) {
   const SlipCoupling coupling = released({static_cast<std::size_t>(&rough - all_.data())}, open, at);
@@ -257,6 +280,7 @@ std::vector<DryFriction::Happening> DryFriction::settle(const std::vector<std::s
   const auto before = all_;
   find_slip(at);
   for (Rough& r : all_) begin(r, open, at.t, fallen);
+  rest_with_others(open, at);
   for (Rough& r : all_)
     if (r.mode == Mode::slides && r.pace == Pace::leaves && r.blur == 0.0) begin_slow(r, open, at);
   if (std::ranges::any_of(all_, &Rough::at_rest)) decide(open, at);

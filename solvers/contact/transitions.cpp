@@ -1,5 +1,6 @@
 #include "dalembert/solvers/contact/transitions.h"
 
+#include <limits>
 #include <utility>
 
 namespace dalembert {
@@ -18,6 +19,11 @@ std::string Transitions::label(std::size_t function) const {
 double Transitions::switching(std::size_t function, const FlatSample& now) const {
   return function < contacts_.size() ? contacts_.switching(function, now)
                                      : friction_.switching(function - contacts_.size(), now);
+}
+
+double Transitions::rate(std::size_t function, const FlatSample& now) const {
+  return function < contacts_.size() ? contacts_.rate(function, now)
+                                     : std::numeric_limits<double>::quiet_NaN();
 }
 
 void Transitions::add(const std::vector<Contacts::Happening>& contacts,

@@ -34,6 +34,8 @@ class Transitions {
   [[nodiscard]] std::size_t functions() const { return contacts_.size() + friction_.functions(); }
   [[nodiscard]] std::string label(std::size_t function) const;
   [[nodiscard]] double switching(std::size_t function, const FlatSample& now) const;
+  /// Its derivative by time; NaN where it is not known.
+  [[nodiscard]] double rate(std::size_t function, const FlatSample& now) const;
   /// See Contacts.
   void require_open(const FlatSample& now) { contacts_.require_open(now); }
 

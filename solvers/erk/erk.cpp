@@ -27,6 +27,7 @@ double ErkStepper::State::attempt(double step) {
   scales.way = covered;
   passed_switch = passed_several = false;
   (void)Branches::strayed();
+  strayed = false;
   try {
     if (to.rows != manifold.exchanges()) find_sine(to);
     projected = close_to_singular(step);
@@ -39,7 +40,7 @@ double ErkStepper::State::attempt(double step) {
     if (steps % check_interval == 0) watch_stability(step);
     const double correction = project();
     note_sine(next);
-    const double of_switch = Branches::strayed() ? effect_of_switch(to, next, step) : 0.0;
+    const double of_switch = strayed || Branches::strayed() ? effect_of_switch(to, next, step) : 0.0;
     return std::max({e, correction / (constants.most_correction + round_off_of_projection()),
                      disagreement(step) / constants.most_disagreement, of_switch, error_of_switch(step)});
   } catch (const EquationFault& error) {
@@ -133,6 +134,18 @@ void ErkStepper::step(double wanted) {
 
 const Scales& ErkStepper::scales() const { return state_->scales; }
 void ErkStepper::begins_at_switch() { state_->begins_at_switch = true; }
+void ErkStepper::listen(const Branches::Sides& held) { state_->held = &held; }
+/// The last attempt may have been another step than that which was taken.
+std::span<const Compared> ErkStepper::compared() const {
+  const State& s = *state_;
+  if (s.held == nullptr || s.crossed) return {};
+  const double h = s.to.t - s.from.t;
+  for (std::size_t j = 0; j < s.compared.size(); ++j) {
+    const double t = s.from.t + State::pair.c[State::noted[j]] * h;
+    if (!(std::abs(s.compared[j].t - t) <= 1e-3 * h)) return {};
+  }
+  return s.compared;
+}
 double ErkStepper::time() const { return state_->to.t; }
 double ErkStepper::sine() const { return state_->to.sine; }
 StepError ErkStepper::error() const { return state_->reached; }

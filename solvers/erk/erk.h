@@ -36,6 +36,8 @@ class ErkStepper final : public TimeStepper {
   /// The step may replace the last one and end before it.
   void step(double wanted) override;
   void begins_at_switch() override;
+  void listen(const Branches::Sides& held) override;
+  [[nodiscard]] std::span<const Compared> compared() const override;
   [[nodiscard]] double time() const override;
   [[nodiscard]] const Scales& scales() const;
   [[nodiscard]] StepError error() const override;

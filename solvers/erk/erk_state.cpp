@@ -110,6 +110,23 @@ bool ErkStepper::State::close_to_singular(double step) const {
   return to.sine < constants.close_to_dependent && step * rate > constants.changing_angle * to.sine;
 }
 
+void ErkStepper::State::run_stage(std::size_t i, double t, bool onto_constraints) {
+  const auto [v, v_dot] = halves(stage[i]);
+  require(onto_constraints ? manifold.project(t, stage_q, v, v_dot)
+                           : manifold.accelerate({t, stage_q, v}, v_dot));
+}
+
+/// Of an attempt.
+void ErkStepper::State::listen_to_stage(std::size_t i, double t, bool onto_constraints) {
+  const auto its = std::ranges::find(noted, i);
+  if (its == noted.end()) return run_stage(i, t, onto_constraints);
+  Compared& here = compared[static_cast<std::size_t>(its - noted.begin())];
+  here.t = t;
+  const Branches listening(&here.sides, held);
+  run_stage(i, t, onto_constraints);
+  strayed = strayed || Branches::strayed();
+}
+
 void ErkStepper::State::run_stages(const Node& start, double step, std::size_t last, bool onto_constraints) {
   k[0] = start.va.data();
   angles.fill(start.angle());
@@ -117,10 +134,11 @@ void ErkStepper::State::run_stages(const Node& start, double step, std::size_t l
   rows_of_angles = start.rows;
   for (std::size_t i = 1; i <= last; ++i) {
     a[i].move(step, k, start.q.data(), stage_q.data(), start.va.data(), stage[i].data(), n);
-    const auto [v, v_dot] = halves(stage[i]);
     const double t = start.t + pair.c[i] * step;
-    require(onto_constraints ? manifold.project(t, stage_q, v, v_dot)
-                             : manifold.accelerate({t, stage_q, v}, v_dot));
+    if (held != nullptr && &start == &to)
+      listen_to_stage(i, t, onto_constraints);
+    else
+      run_stage(i, t, onto_constraints);
     note_angle(i, t);
     if (&start == &to) look(i, t);
   }

@@ -47,6 +47,8 @@ struct ErkStepper::State {
   static void require(bool regular);
   /// Stages 2 to `last` of a step from `start`: a stage's velocity is written where its derivative is kept.
   void run_stages(const Node& start, double step, std::size_t last, bool onto_constraints);
+  void run_stage(std::size_t i, double t, bool onto_constraints);
+  void listen_to_stage(std::size_t i, double t, bool onto_constraints);
   [[nodiscard]] bool close_to_singular(double step) const;
   void find_sine(Node& node);
   void note_sine(Node& node) const;
@@ -120,6 +122,11 @@ struct ErkStepper::State {
   Node next;               // where a step goes until it is accepted
   std::array<std::vector<double>, stages> stage;
   std::array<const double*, stages> k{};
+  /// Stages 4, 5 and 9 at 0.16, 0.39 and 0.90 of the step, whose comparisons are noted.
+  static constexpr std::array<std::size_t, 3> noted{3, 4, 8};
+  const Branches::Sides* held = nullptr;  // that the steps are taken on, if anything is compared
+  std::array<Compared, noted.size()> compared;
+  bool strayed = false;                                        // at a stage that was noted, see Branches
   std::vector<double> stage_q;                                 // work
   std::vector<double> difference, weight;                      // of positions and velocities
   std::vector<double> noise, noise_q, noise_v;                 // of accelerations, see measure_noise; work

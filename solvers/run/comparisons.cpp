@@ -20,6 +20,7 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::infinity();
 /// A difference so many times that at the switch is no round-off of it.
 constexpr double clearly = 8.0;
+constexpr std::size_t most_parts_of_step = 4096;
 
 /// Comparisons of equal numbers.
 std::size_t undecided(const Branches::Sides& sides) {
@@ -108,16 +109,18 @@ void Comparisons::list_margins() {
   at_from_.clear();
   for (std::size_t b = 0; b < held_.size(); ++b)
     for (std::size_t k = 0; k < held_[b].size(); ++k) margins_.push_back({b, k, held_[b][k].side});
-  for (std::vector<double>* all : {&at_from_, &at_middle_, &at_end_}) all->reserve(margins_.size());
+  in_step_.clear();
+  for (std::vector<double>* all : {&at_from_, &at_end_}) all->reserve(margins_.size());
+  for (std::vector<double>* all : {&least_, &bend_}) all->resize(margins_.size());
   suspects_.reserve(margins_.size());
   passed_.reserve(margins_.size());
   for (std::vector<double>* all : {&motion_.q, &motion_.v}) all->resize(a_.size());
 }
 
-/// How far what was heard last is from leaving its side: negative behind.
-double Comparisons::margin(const Margin& of) const {
-  if (of.batch >= heard_.size() || of.comparison >= heard_[of.batch].size()) return unknown;
-  const double difference = heard_[of.batch][of.comparison].difference;
+/// How far what was heard is from leaving its side: negative behind.
+double Comparisons::margin(const Margin& of, const Branches::Sides& heard) {
+  if (of.batch >= heard.size() || of.comparison >= heard[of.batch].size()) return unknown;
+  const double difference = heard[of.batch][of.comparison].difference;
   if (std::isnan(difference)) return unknown;
   return of.side == 0 ? (difference == 0.0 ? 1.0 : -1.0) : of.side * difference;
 }
@@ -137,62 +140,89 @@ bool Comparisons::hear_step(double t, bool sketched) {
 void Comparisons::find_margins(double t, bool sketched, std::vector<double>& all) {
   all.assign(margins_.size(), unknown);
   if (!hear_step(t, sketched)) return;
-  for (std::size_t k = 0; k < all.size(); ++k) all[k] = margin(margins_[k]);
+  for (std::size_t k = 0; k < all.size(); ++k) all[k] = margin(margins_[k], heard_);
 }
 
+/// Of the motion in the step. All are heard together, each time once: one evaluation of the equations serves
+/// every margin.
 double Comparisons::margin_at(std::size_t k, double t) {
-  return hear_step(t, false) ? margin(margins_[k]) : unknown;
+  std::vector<double>& all = in_step_[t];
+  if (all.empty()) find_margins(t, false, all);
+  return all[k];
 }
 
-/// Those that may have left their side in the step: they are behind at its end or middle, or closer to where
-/// they switch than they bend within the step. Where something depends on time, which steps do not follow,
-/// all that vary: three of their values do not tell how often they do.
+/// By how much margins bend over the part of a step that is looked at: with all their values between its
+/// ends.
+void Comparisons::note_bend(double t, double to, const Branches::Sides& heard) {
+  const double x = (t - from_) / (to - from_);
+  for (std::size_t k = 0; k < margins_.size(); ++k) {
+    const double value = margin(margins_[k], heard);
+    least_[k] = std::min(least_[k], value);
+    const double bend = 2.0 * std::abs(value - ((1.0 - x) * at_from_[k] + x * at_end_[k]));
+    if (!(bend <= bend_[k])) bend_[k] = bend;
+  }
+}
+
+/// Those that may have left their side in the step: they are behind somewhere, or closer to where they switch
+/// than they bend within the step. What the stepper compared on its way costs nothing; it leaves out what
+/// lies around 0.65. Where something depends on time, which steps do not follow, all that vary.
 const std::vector<std::size_t>& Comparisons::suspects(double to) {
+  constexpr double between_stages = 0.65;
   if (at_from_.empty()) find_margins(from_, false, at_from_);
-  find_margins(0.5 * (from_ + to), true, at_middle_);
   find_margins(to, false, at_end_);
+  for (std::size_t k = 0; k < margins_.size(); ++k) least_[k] = std::min(at_from_[k], at_end_[k]);
+  bend_.assign(margins_.size(), 0.0);
+  const auto on_the_way = from_ == start_of_step_ ? stepper_->compared() : std::span<const Compared>{};
+  for (const Compared& one : on_the_way) note_bend(one.t, to, one.sides);
+  const double x = on_the_way.empty() ? 0.5 : between_stages, t = from_ + x * (to - from_);
+  if (!hear_step(t, true)) heard_.clear();
+  note_bend(t, to, heard_);
   suspects_.clear();
   for (std::size_t k = 0; k < margins_.size(); ++k) {
-    const double least = std::min({at_from_[k], at_middle_[k], at_end_[k]});
-    const double bend = std::abs(at_from_[k] - 2.0 * at_middle_[k] + at_end_[k]);
     if (std::ranges::find(passed_, margins_[k]) != passed_.end()) continue;
-    const bool constant = at_from_[k] == at_middle_[k] && at_middle_[k] == at_end_[k] && least > 0.0;
-    if (!constant && (system_->timed_batch(margins_[k].batch) || !(least > bend))) suspects_.push_back(k);
+    const bool constant = bend_[k] == 0.0 && at_from_[k] == at_end_[k] && least_[k] > 0.0;
+    if (!constant && (system_->timed_batch(margins_[k].batch) || !(least_[k] > bend_[k])))
+      suspects_.push_back(k);
   }
   return suspects_;
 }
 
-/// Where a margin first becomes negative, if it does, among its interpolants.
-std::optional<Comparisons::Bracket> Comparisons::first_root(std::size_t k, double to) {
+/// Where a margin first becomes negative, if it does before `until`, among its interpolants: those of all
+/// margins have the same nodes. Throws StepFailure where it cannot be followed.
+std::optional<Comparisons::Bracket> Comparisons::first_root(std::size_t k, double until, double to) {
   const FunctionOfTime f = [&](double t) { return margin_at(k, t); };
-  const bool timed = system_->timed_batch(margins_[k].batch);
-  const int degree = timed ? std::max(stepper_->degree(), least_degree) : stepper_->degree();
-  Interpolant whole = interpolate(f, from_, to, degree);
+  const int degree = std::max(stepper_->degree(), least_degree);
+  const Interpolant whole = interpolate(f, from_, to, degree);
   if (!std::ranges::all_of(whole.values, [](double x) { return std::isfinite(x); })) return std::nullopt;
   if (whole.values.front() < 0.0) return Bracket{from_, 1.0, from_, whole.values.front(), k};
   std::vector<double> checks;
   for (const double t : check_times(from_, to, degree)) checks.push_back(f(t));
   const double rounding = constants.roundings_at_contacts * epsilon * largest(whole.values);
-  constexpr std::size_t most_parts = 128;
-  auto parts = resolve(f, whole, checks, rounding, most_parts);
-  if (parts.empty()) parts.push_back(std::move(whole));  // faster than can be followed: as far as is seen
-  for (const Interpolant& p : parts) {
-    for (std::size_t j = 1; j < p.nodes.size(); ++j) {
+  std::optional<Bracket> first;
+  const auto leaves_in = [&](const Interpolant& p) {
+    for (std::size_t j = 1; j < p.nodes.size() && !first; ++j) {
       const double a = p.nodes[j - 1], b = p.nodes[j], f_a = p.values[j - 1], f_b = p.values[j];
-      if (f_b < 0.0) return Bracket{a, f_a, b, f_b, k};
-      if (!(p.slope(j - 1) < 0.0 && p.slope(j) > 0.0)) continue;
-      const double t = p.turn(a, b, 1), f_t = f(t);
-      if (f_t < 0.0) return Bracket{a, f_a, t, f_t, k};
+      if (f_b < 0.0) {
+        first = Bracket{a, f_a, b, f_b, k};
+      } else if (p.slope(j - 1) < 0.0 && p.slope(j) > 0.0) {
+        const double t = p.turn(a, b, 1), f_t = f(t);
+        if (f_t < 0.0) first = Bracket{a, f_a, t, f_t, k};
+      }
     }
-  }
-  return std::nullopt;
+    return first.has_value() || p.nodes.back() >= until;
+  };
+  if (resolve(f, whole, checks, rounding, most_parts_of_step, leaves_in)) return first;
+  throw StepFailure{system_->label_of_batch(margins_[k].batch) +
+                        " compares what varies faster than can be followed within a step of " +
+                        std::to_string(to - from_) + "; choose a max_step in the options that is shorter",
+                    from_};
 }
 
 std::optional<Comparisons::Root> Comparisons::first_switch(double to) {
   std::optional<Root> first;
   for (const std::size_t k : suspects(to)) {
-    const auto bracket = first_root(k, first ? first->t : to);
-    if (!bracket) continue;
+    const auto bracket = first_root(k, first ? first->t : to, to);
+    if (!bracket || (first && bracket->a >= first->t)) continue;
     const auto f = [&](double t) { return margin_at(k, t); };
     const double exact = 4.0 * epsilon * std::max(std::abs(bracket->a), std::abs(bracket->b));
     const double t = bracket->a < bracket->b
@@ -206,7 +236,7 @@ std::optional<Comparisons::Root> Comparisons::first_switch(double to) {
 /// The margin of a motion that goes on with its own accelerations.
 double Comparisons::margin_ahead(std::size_t k, const Motion& from, double ahead) {
   move(from, ahead, other_);
-  return hear(other_.instant(), &held_, heard_) ? margin(margins_[k]) : -unknown;
+  return hear(other_.instant(), &held_, heard_) ? margin(margins_[k], heard_) : -unknown;
 }
 
 /// What roundings of the coordinates, up and down by turns, make of a margin.
@@ -217,7 +247,8 @@ double Comparisons::rounding(std::size_t k, const Motion& at) {
     move(at, 0.0, other_);
     for (std::size_t i = 0; i < at.q.size(); ++i)
       other_.q[i] *= i / turns % 2 == 0 ? 1.0 + epsilon : 1.0 - epsilon;
-    if (hear(other_.instant(), &held_, heard_)) most = std::max(most, std::abs(margin(margins_[k]) - here));
+    if (hear(other_.instant(), &held_, heard_))
+      most = std::max(most, std::abs(margin(margins_[k], heard_) - here));
   }
   return most;
 }
@@ -226,7 +257,7 @@ Comparisons::Switch Comparisons::behind(const Root& root, double step) {
   Switch one{};
   one.margin = root.margin;
   one.step = step;
-  one.distance = std::abs(margin_at(root.margin, root.t));
+  one.distance = hear_step(root.t, false) ? std::abs(margin(margins_[root.margin], heard_)) : unknown;
   one.at = motion_;
   if (!accelerate(one.at, held_)) throw linearly_dependent(root.t);
   one.distance = std::max(one.distance, rounding(root.margin, one.at));
@@ -266,7 +297,9 @@ std::optional<Comparisons::Switch> Comparisons::leave(TimeStepper& stepper) {
   const double from = from_, to = stepper.time();
   if (!any_ || !(to > from)) return std::nullopt;
   stepper_ = &stepper;
+  start_of_step_ = from;
   passed_.clear();
+  in_step_.clear();
   const Branches holding(nullptr, &held_);
   while (const auto root = first_switch(to)) {
     Switch one = behind(*root, to - from);
@@ -332,6 +365,14 @@ std::optional<std::string> Comparisons::would_stick(const Switch& one) {
   return Sticking::message(switches, *friction);
 }
 
+/// Whether the motion before the switch would return by itself: it touches where it turns, and either side
+/// goes on.
+bool Comparisons::turns_back(const Switch& one, double from) {
+  for (double ahead = from; ahead < 1e-3 * one.step; ahead *= 2.0)
+    if (margin_ahead(one.margin, one.at, ahead) > 0.0) return true;
+  return false;
+}
+
 void Comparisons::require_leaving(const Switch& one, std::span<const double> a) {
   Motion at = one.at;
   at.a.assign(a.begin(), a.end());
@@ -339,7 +380,8 @@ void Comparisons::require_leaving(const Switch& one, std::span<const double> a) 
     const double margin = margin_ahead(one.margin, at, ahead);
     if (margins_[one.margin].side != 0 && std::abs(margin) < clearly * one.distance) continue;
     if (margin < 0.0) return;
-    chatters(one);
+    if (!turns_back(one, ahead)) chatters(one);
+    return;
   }
 }
 

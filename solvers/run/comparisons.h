@@ -7,6 +7,7 @@
 #include <dalembert/solvers/run/sticking.h>
 #include <dalembert/solvers/run/time_stepper.h>
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -77,19 +78,21 @@ class Comparisons {
   [[nodiscard]] bool hear(const Instant& at, const Branches::Sides* held, Branches::Sides& out);
   [[nodiscard]] bool accelerate(Motion& at, const Branches::Sides& held);
   void list_margins();
-  [[nodiscard]] double margin(const Margin& of) const;
+  [[nodiscard]] static double margin(const Margin& of, const Branches::Sides& heard);
   [[nodiscard]] bool hear_step(double t, bool sketched);
   void find_margins(double t, bool sketched, std::vector<double>& all);
   [[nodiscard]] double margin_at(std::size_t k, double t);
+  void note_bend(double t, double to, const Branches::Sides& heard);
   [[nodiscard]] double margin_ahead(std::size_t k, const Motion& from, double ahead);
   [[nodiscard]] double rounding(std::size_t k, const Motion& at);
 
   [[nodiscard]] const std::vector<std::size_t>& suspects(double to);
-  [[nodiscard]] std::optional<Bracket> first_root(std::size_t k, double to);
+  [[nodiscard]] std::optional<Bracket> first_root(std::size_t k, double until, double to);
   [[nodiscard]] std::optional<Root> first_switch(double to);
   [[nodiscard]] Switch behind(const Root& root, double step);
   [[nodiscard]] std::optional<std::size_t> corner(const Switch& one);
   [[nodiscard]] bool matters(const Switch& one, double to);
+  [[nodiscard]] bool turns_back(const Switch& one, double from);
   [[nodiscard]] std::optional<std::string> would_stick(const Switch& one);
 
   const System* system_;
@@ -104,9 +107,12 @@ class Comparisons {
   std::vector<Margin> passed_;      // in the step that is looked at, without effect
   TimeStepper* stepper_ = nullptr;  // of the step that is looked at
   double from_;                     // up to where the sides are known to hold
-  std::vector<double> at_from_;     // the margins there, if they are known,
-  std::vector<double> at_middle_;   // in the middle of the step,
-  std::vector<double> at_end_;      // and where it ends
+  double start_of_step_ = 0.0;      // that is looked at
+  std::vector<double> at_from_;     // the margins at `from_`, if they are known,
+  std::vector<double> at_end_;      // and where the step ends
+  std::vector<double> least_;       // the least values of margins that are known in between,
+  std::vector<double> bend_;        // and how far they are off the line between the ends, twice
+  std::map<double, std::vector<double>> in_step_;  // the margins at times in between
   std::vector<std::size_t> suspects_;
   Motion motion_, other_;  // work
 };

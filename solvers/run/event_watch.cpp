@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dalembert {
 
@@ -21,8 +22,8 @@ bool wanted(Crossing crossing, int before) {
 
 }  // namespace
 
-EventWatch::EventWatch(std::vector<FlatEvent> events, const Layout& layout, double tolerance)
-    : events_(std::move(events)), tolerance_(tolerance), largest_(events_.size()) {
+EventWatch::EventWatch(std::vector<FlatEvent> events, Rate rate, const Layout& layout, double tolerance)
+    : events_(std::move(events)), rate_(std::move(rate)), tolerance_(tolerance), largest_(events_.size()) {
   for (const FlatEvent& event : events_) {
     if (!event.function)
       throw InvalidArgument("Event \"" + event.name + "\" of scene \"" + layout.scene + "\" has no function");
@@ -126,16 +127,36 @@ void EventWatch::find(std::size_t event, const Step& step, const std::vector<Int
   }
 }
 
-/// The interpolants that show a function. Those of contacts are known as forces are, to the root of the
-/// tolerance.
-std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& step, Interpolant whole,
-                                              const std::vector<double>& at_checks) {
-  if (event >= resolved_) return {std::move(whole)};
+/// Whether an interpolant shows a function of the motion. (What would take the whole step to reach 0, at its
+/// largest rate, does not reach it.)
+bool EventWatch::shows(std::size_t event, const Values& values) const {
+  double fastest = 0.0, least = std::numeric_limits<double>::infinity();
+  for (const double rate : values.rates) fastest = std::max(fastest, std::isnan(rate) ? 0.0 : std::abs(rate));
+  for (const double value : values.whole.values) least = std::min(least, value);
+  const double length = values.whole.nodes.back() - values.whole.nodes.front();
+  return fastest * length < least ||
+         agrees_in_slope(values.whole, values.rates, round_off() * largest_[event]);
+}
+
+/// The interpolants that show a function. Those of contacts that depend on time are known as forces are, to
+/// the root of the tolerance.
+std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& step, Values values) {
   const auto function = [&](double t) { return value(event, step.read(t)); };
   constexpr std::size_t most_parts = 4096;  // of a step: some hundred periods are still resolved
-  const double known = event < asked_for_ ? round_off() : std::sqrt(tolerance_);
-  auto parts = resolve(function, std::move(whole), at_checks, known * largest_[event], most_parts);
-  if (parts.empty()) {
+  double known = event < asked_for_ ? round_off() : std::sqrt(tolerance_);
+  if (event >= resolved_) {
+    if (shows(event, values)) return {std::move(values.whole)};
+    const int degree = std::max(step.degree, least_degree);
+    values.whole = interpolate(function, from_, step.to, degree);
+    for (const double t : check_times(from_, step.to, degree)) values.at_checks.push_back(function(t));
+    known = round_off();
+  }
+  std::vector<Interpolant> parts;
+  const auto collect = [&](const Interpolant& part) {
+    parts.push_back(part);
+    return false;
+  };
+  if (!resolve(function, values.whole, values.at_checks, known * largest_[event], most_parts, collect)) {
     const std::string& name = events_[event].name;
     throw StepFailure{(event < asked_for_ ? "Event \"" + name + '"' : name) +
                           " varies faster than it can be followed within a step of " +
@@ -149,25 +170,31 @@ std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& ste
 
 std::vector<EventWatch::Found> EventWatch::look(const Step& step) {
   const int degree = resolved_ > 0 ? std::max(step.degree, least_degree) : step.degree;
-  std::vector<Interpolant> whole(events_.size());
-  std::vector<std::vector<double>> at_checks(events_.size());
-  for (std::size_t e = 0; e < events_.size(); ++e) whole[e] = {{from_}, {at_from_[e]}};
+  std::vector<Values> all(events_.size());
+  const bool rates = rate_ && resolved_ == asked_for_;
+  for (std::size_t e = 0; e < events_.size(); ++e) {
+    all[e].whole = {{from_}, {at_from_[e]}};
+    if (rates && e >= asked_for_) all[e].rates = {std::numeric_limits<double>::quiet_NaN()};
+  }
   for (int j = 1; j <= degree; ++j) {
     const double t = chebyshev_node(from_, step.to, j, degree);
     const FlatSample at = step.read(t);
     for (std::size_t e = 0; e < events_.size(); ++e) {
-      whole[e].nodes.push_back(t);
-      whole[e].values.push_back(value(e, at));
+      all[e].whole.nodes.push_back(t);
+      all[e].whole.values.push_back(value(e, at));
+      if (rates && e >= asked_for_) all[e].rates.push_back(rate_(e, at));
     }
   }
   for (const double t : resolved_ > 0 ? check_times(from_, step.to, degree) : std::vector<double>{}) {
     const FlatSample at = step.read(t);
-    for (std::size_t e = 0; e < resolved_; ++e) at_checks[e].push_back(value(e, at));
+    for (std::size_t e = 0; e < resolved_; ++e) all[e].at_checks.push_back(value(e, at));
   }
   std::vector<Found> found;
   for (std::size_t e = 0; e < events_.size(); ++e) {
-    at_from_[e] = whole[e].values.back();
-    find(e, step, resolved(e, step, std::move(whole[e]), at_checks[e]), found);
+    const double at_end = all[e].whole.values.back();
+    const auto parts = resolved(e, step, std::move(all[e]));
+    at_from_[e] = at_end;
+    find(e, step, parts, found);
   }
   std::ranges::stable_sort(found, {}, [](const Found& one) { return one.what.time; });
   from_ = step.to;

@@ -18,7 +18,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///
 /// Within a step a function is known at the nodes of a Chebyshev interpolant of the polynomial's degree. What
 /// may be faster than the motion, which steps follow, is known at those of at least 6, and of as many as
-/// resolve it: events that were asked for, and all functions where forces or constraints depend on time.
+/// resolve it: events that were asked for, all functions where forces or constraints depend on time, and
+/// those whose own rates at the nodes differ from the slopes there.
 /// Where one turns towards 0 between two nodes of one sign, or first crosses the 0 that it began with, the
 /// function itself is evaluated: so two roots within a step are found as well.
 class EventWatch {
@@ -39,8 +40,11 @@ class EventWatch {
     bool wanted;
   };
 
-  /// Of a run at this tolerance. Throws InvalidArgument for an event without function.
-  EventWatch(std::vector<FlatEvent> events, const Layout& layout, double tolerance);
+  /// The derivative by time of an event of contacts; NaN if it is not known.
+  using Rate = std::function<double(std::size_t event, const FlatSample& at)>;
+
+  /// Of a run at this tolerance; `rate` may be empty. Throws InvalidArgument for an event without function.
+  EventWatch(std::vector<FlatEvent> events, Rate rate, const Layout& layout, double tolerance);
 
   /// Every crossing in a step, in the order of time; of contacts those that were asked for. Throws
   /// StepFailure if a function throws, gives no number or cannot be followed.
@@ -64,10 +68,17 @@ class EventWatch {
   [[nodiscard]] int side_at_end(std::size_t event, const Place& before, const Place& end) const;
   void find(std::size_t event, const Step& step, const std::vector<Interpolant>& parts,
             std::vector<Found>& found);
-  [[nodiscard]] std::vector<Interpolant> resolved(std::size_t event, const Step& step, Interpolant whole,
-                                                  const std::vector<double>& at_checks);
+  /// Of an event, over a step.
+  struct Values {
+    Interpolant whole{};
+    std::vector<double> at_checks{};  ///< if it is resolved
+    std::vector<double> rates{};      ///< at the nodes, if they may be known
+  };
+  [[nodiscard]] bool shows(std::size_t event, const Values& values) const;
+  [[nodiscard]] std::vector<Interpolant> resolved(std::size_t event, const Step& step, Values values);
 
   std::vector<FlatEvent> events_;
+  Rate rate_;
   double tolerance_;
   double from_ = 0.0;
   std::size_t asked_for_ = 0;    ///< the first of them; behind are those of contacts

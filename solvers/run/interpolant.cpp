@@ -82,11 +82,6 @@ std::vector<double> check_times(double from, double to, int degree) {
 
 namespace {
 
-struct Part {
-  Interpolant p;
-  bool resolved;
-};
-
 /// How much an interpolant and its function disagree.
 double disagreement_of(const Interpolant& p, const std::vector<double>& at_checks) {
   const auto times = check_times(p.nodes.front(), p.nodes.back(), p.degree());
@@ -95,10 +90,10 @@ double disagreement_of(const Interpolant& p, const std::vector<double>& at_check
   return most;
 }
 
-bool agrees(const Interpolant& p, const std::vector<double>& at_checks, double round_off) {
-  const double error = disagreement_of(p, at_checks);
+/// Whether an error of so much matters to where an interpolant, or one of some more values, is 0.
+bool is_small(double error, const Interpolant& p, const std::vector<double>& more, double round_off) {
   double low = p.values[0], high = p.values[0], least = std::abs(p.values[0]);
-  for (const auto* part : {&p.values, &at_checks}) {
+  for (const auto* part : {&p.values, &more}) {
     for (const double value : *part) {
       low = std::min(low, value);
       high = std::max(high, value);
@@ -109,7 +104,24 @@ bool agrees(const Interpolant& p, const std::vector<double>& at_checks, double r
   return low * high > 0.0 && constants.beside_a_kink * error < least;
 }
 
+bool agrees(const Interpolant& p, const std::vector<double>& at_checks, double round_off) {
+  return is_small(disagreement_of(p, at_checks), p, at_checks, round_off);
+}
+
 }  // namespace
+
+/// A slope that differs by d next to a node displaces the cubic between it and the next one, at a distance h,
+/// by at most 4/27 h d.
+bool agrees_in_slope(const Interpolant& p, const std::vector<double>& rates, double round_off) {
+  double error = 0.0;
+  for (std::size_t j = 0; j < rates.size(); ++j) {
+    if (std::isnan(rates[j])) continue;
+    const double before = j > 0 ? p.nodes[j] - p.nodes[j - 1] : 0.0,
+                 behind = j + 1 < rates.size() ? p.nodes[j + 1] - p.nodes[j] : 0.0;
+    error = std::max(error, 4.0 / 27.0 * std::max(before, behind) * std::abs(p.slope(j) - rates[j]));
+  }
+  return is_small(error, p, {}, round_off);
+}
 
 namespace {
 
@@ -126,44 +138,58 @@ bool is_noise(const FunctionOfTime& f, const Interpolant& p, const std::vector<d
   return false;
 }
 
-/// Both halves of a part in its place.
-void halve(const FunctionOfTime& f, const Interpolant& p, double round_off, std::vector<Part>& out) {
-  const double a = p.nodes.front(), b = p.nodes.back();
-  for (const auto& [from, to] : {std::pair(a, 0.5 * (a + b)), std::pair(0.5 * (a + b), b)}) {
-    Part half{interpolate(f, from, to, p.degree()), false};
-    std::vector<double> checks;
-    for (const double time : check_times(from, to, p.degree())) checks.push_back(f(time));
-    half.resolved = agrees(half.p, checks, round_off);
-    out.push_back(std::move(half));
+/// Parts of a function that are still to be shown, the next one last.
+class Parts {
+ public:
+  Parts(const FunctionOfTime& f, const Interpolant& whole, double round_off)
+      : f_(f),
+        degree_(whole.degree()),
+        round_off_(round_off),
+        shortest_(shortest_part * (whole.nodes.back() - whole.nodes.front())) {
+    halve(whole);
   }
-}
+  [[nodiscard]] bool any() const { return !left_.empty(); }
+  /// The next one, halved until it is resolved or as short as may be.
+  [[nodiscard]] Interpolant next() {
+    for (;;) {
+      const auto [a, b] = left_.back();
+      left_.pop_back();
+      Interpolant p = interpolate(f_, a, b, degree_);
+      std::vector<double> checks;
+      for (const double t : check_times(a, b, degree_)) checks.push_back(f_(t));
+      const bool shortest = b - a <= std::max(shortest_, 64.0 * epsilon * std::abs(b));
+      if (shortest || agrees(p, checks, round_off_)) return p;
+      halve(p);
+    }
+  }
+
+ private:
+  void halve(const Interpolant& p) {
+    const double a = p.nodes.front(), b = p.nodes.back(), middle = 0.5 * (a + b);
+    left_.emplace_back(middle, b);
+    left_.emplace_back(a, middle);
+  }
+
+  const FunctionOfTime& f_;
+  int degree_;
+  double round_off_, shortest_;
+  std::vector<std::pair<double, double>> left_;
+};
 
 }  // namespace
 
-std::vector<Interpolant> resolve(const FunctionOfTime& f, Interpolant first,
-                                 const std::vector<double>& at_checks, double round_off,
-                                 std::size_t most_parts) {
-  if (agrees(first, at_checks, round_off) || is_noise(f, first, at_checks)) return {std::move(first)};
-  const double length = first.nodes.back() - first.nodes.front();
-  std::vector<Part> parts{{std::move(first), false}};
-  for (bool all = false; !all;) {
-    all = true;
-    std::vector<Part> next;
-    for (Part& part : parts) {
-      const double a = part.p.nodes.front(), b = part.p.nodes.back();
-      const bool shortest = b - a <= std::max(shortest_part * length, 64.0 * epsilon * std::abs(b));
-      all = all && (part.resolved || shortest);
-      if (part.resolved || shortest)
-        next.push_back(std::move(part));
-      else
-        halve(f, part.p, round_off, next);
-    }
-    if (next.size() > most_parts) return {};
-    parts = std::move(next);
+bool resolve(const FunctionOfTime& f, const Interpolant& first, const std::vector<double>& at_checks,
+             double round_off, std::size_t most_parts, const ShowPart& show) {
+  if (agrees(first, at_checks, round_off) || is_noise(f, first, at_checks)) {
+    (void)show(first);
+    return true;
   }
-  std::vector<Interpolant> all;
-  for (Part& part : parts) all.push_back(std::move(part.p));
-  return all;
+  Parts parts(f, first, round_off);
+  for (std::size_t shown = 0; parts.any(); ++shown) {
+    if (shown == most_parts) return false;
+    if (show(parts.next())) return true;
+  }
+  return true;
 }
 
 }  // namespace dalembert

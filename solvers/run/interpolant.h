@@ -34,15 +34,22 @@ using FunctionOfTime = std::function<double(double)>;
 /// nodes, what it does not resolve shows.
 [[nodiscard]] std::vector<double> check_times(double from, double to, int degree);
 
-/// Looks where a function itself varies: interpolants of a function over parts of an interval, in their
+/// Whether an interpolant shows a function whose derivatives at the nodes are `rates`, NaN where they are not
+/// known: as far as slopes that differ tell, it agrees, or lies further from 0 than it disagrees.
+[[nodiscard]] bool agrees_in_slope(const Interpolant& p, const std::vector<double>& rates, double round_off);
+
+/// Where a part of a function is shown; true if the parts behind it need not be.
+using ShowPart = std::function<bool(const Interpolant& part)>;
+
+/// Looks where a function itself varies: shows interpolants of a function over parts of an interval, in their
 /// order, each of which agrees with it at the times of the check, or lies further from 0 than it disagrees.
 /// `first` is that of the whole and `at_checks` the function's values there; differences below `round_off`
 /// are none. At a kink or a jump parts end where they are as short as the flat top of a smooth function.
 ///
-/// Empty if the function varies faster than `most_parts` parts resolve. (What differs as much between times
+/// False if the function varies faster than `most_parts` parts resolve. (What differs as much between times
 /// next to each other is round-off, and remains as it is.)
-[[nodiscard]] std::vector<Interpolant> resolve(const FunctionOfTime& f, Interpolant first,
-                                               const std::vector<double>& at_checks, double round_off,
-                                               std::size_t most_parts);
+[[nodiscard]] bool resolve(const FunctionOfTime& f, const Interpolant& first,
+                           const std::vector<double>& at_checks, double round_off, std::size_t most_parts,
+                           const ShowPart& show);
 
 }  // namespace dalembert

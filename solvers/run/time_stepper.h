@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/core/autodiff/branches.h>
 #include <dalembert/core/results/statistics.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/base/step_failure.h>
@@ -10,6 +11,12 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
+/// What the equations compare at a time.
+struct Compared {
+  double t = 0.0;
+  Branches::Sides sides{};
+};
+
 /// Advances a system in time, by whatever method.
 class TimeStepper {
  public:
@@ -19,6 +26,10 @@ class TimeStepper {
   virtual void step(double wanted) = 0;
   /// Before the first step: that begins at a switch, where the equations may have no higher derivatives.
   virtual void begins_at_switch() {}
+  /// Steps are taken on these sides: what they compare on their way may be noted.
+  virtual void listen(const Branches::Sides& /*held*/) {}
+  /// Inside the last step, to what a look at the motion needs. Empty if nothing was noted.
+  [[nodiscard]] virtual std::span<const Compared> compared() const { return {}; }
   /// Where the last step ended.
   [[nodiscard]] virtual double time() const = 0;
   /// What the last step may have erred by.

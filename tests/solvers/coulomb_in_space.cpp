@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace dalembert::coulomb_in_space_test {
@@ -77,6 +78,38 @@ TEST_P(CoulombFrictionInSpace, GoesTheWayItIsPulled) {
   EXPECT_NEAR(run.events()[0].time, goes, bound);
   const double v = (k * (t * t - goes * goes) / 2.0 - mu * 2.0 * g * (t - goes)) / 2.0;
   EXPECT_NEAR((run.velocity(puck, 10) - v * way).norm(), 0.0, bound * v);
+}
+
+// All decelerate by mu g, without a load on the bars between them, and stop together after v/(mu g), at
+// v^2/(2 mu g). What an error of the steps leaves of the others' slip once one of them sticks is none.
+TEST_P(CoulombFrictionInSpace, OfThreeFeetThatSlideStraightOnStopsThemTogether) {
+  constexpr double mu = 0.3, v0 = 1.0;
+  for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-11, 1e-12, 1e-13}) {
+    Scene<3> scene("feet");
+    scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
+    std::vector<Particle<3>> feet;
+    for (int i = 0; i < 3; ++i) {
+      const double angle = 2.0 * std::numbers::pi / 3.0 * i;
+      feet.push_back(scene.add_particle(
+          {.mass = 1.0, .position = {std::cos(angle), std::sin(angle), 0.0}, .velocity = {v0, 0.0, 0.0}}));
+    }
+    for (std::size_t i = 0; i < 3; ++i) scene.add(Distance{feet[i], feet[(i + 1) % 3], std::sqrt(3.0)});
+    for (const auto& foot : feet)
+      scene.add(coulomb(scene.add(OnSurface{foot, Plane<3>{}}), Slip{foot, Plane<3>{}}, mu));
+    const auto run = simulate(scene, {.t_end = 1.0,
+                                      .samples = 3,
+                                      .tolerance = tolerance,
+                                      .stepper = GetParam(),
+                                      .max_steps = 2000,
+                                      .assemble = true});
+    const Vec<3> due(v0 * v0 / (2.0 * mu * g), 0.0, 0.0);
+    for (const auto& foot : feet) {
+      EXPECT_LE((run.position(foot, 2) - run.position(foot, 0) - due).norm(), 100.0 * tolerance + 1e-13)
+          << tolerance;
+    }
+    EXPECT_EQ(run.events().size(), 3U) << tolerance;
+    for (const auto& event : run.events()) EXPECT_EQ(event.what, Happened::sticks);
+  }
 }
 
 TEST_P(CoulombFrictionInSpace, OfCoupledPucksGoesAgainstTheirAccelerations) {

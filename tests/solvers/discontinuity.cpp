@@ -156,6 +156,22 @@ TEST_P(Kinks, OfASquareWaveAreAllMet) {
   }
 }
 
+// F = 1 beyond x = 2 and 2 in front of it: thrown at it so that it just gets there, the particle turns at the
+// switch. An error of 3 tol of the place leaves it behind for sqrt(2 * 3 tol) twice, at another force by 1 N.
+TEST_P(Kinks, ThatAreTouchedAtATurningPointArePassed) {
+  for (int k = 0; k < 100; ++k) {
+    const double v = (k % 2 == 0 ? 0.5 : 1.0) + 0.01 * k, x0 = 2.0 + 0.5 * v * v;
+    OnALine line(x0, -v);
+    line.push([](const auto&, const auto& x, const auto&) { return x > 2.0 ? 1.0 : 2.0; }, "kink");
+    const auto run = simulate(line.scene, explicitly(2.0 * v + 1.0, GetParam()));
+    const double bound = 2.0 * std::sqrt(6.0 * GetParam()) * (v + 1.0);
+    for (std::size_t i = 0; i < run.size(); ++i) {
+      const double t = run.times()[i];
+      EXPECT_NEAR(run.position(line.body, i).x(), x0 - v * t + 0.5 * t * t, bound) << v;
+    }
+  }
+}
+
 // a = -+3 on the two sides of x + v = 0: v - 3 < 0 and v + 3 > 0 there, so both lead to it.
 TEST(Chatter, IsSaidByTheNameOfTheForce) {
   OnALine line(0.0, 1.0);
