@@ -94,7 +94,8 @@ class PageData {
     std::vector<Arrow> arrows;
     Numbers lambda;
     std::optional<std::size_t> error;
-    Numbers unique;  ///< none if all always are
+    Numbers unique;                         ///< none if all always are
+    std::optional<std::size_t> released{};  ///< whether it is out of force, if it ever is
   };
   /// A particle or rotor.
   struct Moving {
@@ -135,6 +136,7 @@ class PageData {
   [[nodiscard]] const Eigen::AlignedBox3d& box();
   Acting acting(const Layout::Constraint& constraint);
   void add_arrows(Acting& its);
+  [[nodiscard]] std::optional<std::size_t> released(std::size_t constraint);
   std::optional<Arrow> torque_arrow(const Acting& its);
   void add_ledger();
 
@@ -234,7 +236,21 @@ PageData::Acting PageData::acting(const Layout::Constraint& constraint) {
           std::ranges::copy(own.in(at.unique), out.begin());
         });
   add_arrows(its);
+  its.released = released(static_cast<std::size_t>(&constraint - layout_.constraints.data()));
   return its;
+}
+
+/// An event may change it: then the layout does.
+std::optional<std::size_t> PageData::released(std::size_t constraint) {
+  const auto out = [constraint](const Layout& layout) {
+    return layout.constraints[constraint].holds.released;
+  };
+  const auto ever = [&](const auto& later) { return out(*later.layout); };
+  if (!out(layout_) && std::ranges::none_of(run_.later, ever)) return {};
+  return all_.columns().add([&](std::size_t i) {
+    const Shown& shown = all_.shown()[i];
+    return out(*shown.record->layout_of(shown.number)) ? 1.0 : 0.0;
+  });
 }
 
 /// The force on a point of a body is the sum of those on its particles: the weights of a place add up to 1.
@@ -403,6 +419,7 @@ void PageData::write_constraints(Json& json) const {
       json.member("lambda", its.lambda);
       write_error(json, its.error);
       if (!its.unique.empty()) json.member("unique", its.unique);
+      if (its.released) json.member("released", *its.released);
       json.list("arrows", its.arrows, [&](const Arrow& arrow) {
         json.object([&] {
           json.member("point", arrow.point);

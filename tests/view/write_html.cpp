@@ -230,6 +230,40 @@ TEST_F(WriteHtml, DrawsWhatTheSceneStates) {
   EXPECT_EQ(page.column(std::next(path.begin())->second).back(), std::sin(0.2));
 }
 
+TEST_F(WriteHtml, ATorqueOfAHingeIsTheMomentOfTheWeight) {
+  // A body at rest, its centre a beside a vertical hinge: the hinge holds it with -m g a about y.
+  Scene<3> shelf("shelf");
+  const double m = 2.0, g = 10.0, a = 0.5;
+  shelf.add(UniformGravity<3>{{0.0, 0.0, -g}});
+  const auto board =
+      add_body(shelf, BodyState<3>{.mass = m, .inertia = {0.3, 0.4, 0.5}, .centre = {a, 0.0, 0.0}}, "board");
+  shelf.add(Revolute{Ground<3>{}, board, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}}, "hinge");
+  const Page page = page_of(simulate(shelf, {.t_end = 0.1, .samples = 2, .tolerance = 1e-8}));
+  const ptree& arrows = page.first("constraints").get_child("arrows");
+  ASSERT_EQ(arrows.size(), 2U);
+  const ptree& torque = std::next(arrows.begin())->second;
+  EXPECT_TRUE(torque.get<bool>("torque"));
+  const auto component = [&](int k) {
+    return page.column(std::next(torque.get_child("force").begin(), k)->second).front();
+  };
+  const double promised = 100.0 * 1e-8 * m * g;  // force of constraint at the start, to the tolerance
+  EXPECT_NEAR(component(0), 0.0, promised);
+  EXPECT_NEAR(component(1), -m * g * a, promised);
+  EXPECT_NEAR(component(2), 0.0, promised);
+}
+
+TEST_F(WriteHtml, ShowsWhenAConstraintIsReleased) {
+  const Event<2> lets_go{.name = "lets go",
+                         .function = [](const Sample<2>& now) { return now.time() - 0.55; },
+                         .change = [rod = rod](Scene<2>& changed) { changed.release(rod); }};
+  const Page page = page_of(simulate(scene, {.t_end = 1.0, .samples = 11}, {lets_go}));
+  EXPECT_EQ(page.first("events").get<std::string>("name"), "lets go");
+  // Samples at 0 to 0.5, the event before and after, samples at 0.6 to 1.
+  std::vector<double> expected(13, 1.0);
+  std::fill_n(expected.begin(), 7, 0.0);
+  EXPECT_EQ(page.column(page.first("constraints").get_child("released")), expected);
+}
+
 TEST(BodyBoxes, HaveTheInertiaOfTheBody) {
   Scene<3> scene("body");
   const Vec<3> h(0.5, 0.2, 0.1);  // half edges of a uniform box

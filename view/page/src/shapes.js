@@ -138,9 +138,17 @@ export class Shapes {
 
   // All of a constraint or force.
   element(element) {
+    const outer = this.root, group = new Group();
+    outer.add(group);
+    this.root = group;
     const make = this[element.shape.replace(/ (.)/, (_, c) => c.toUpperCase())];
     const places = (element.points ?? []).filter((p) => !p.direction && p.rotor === undefined);
     if (typeof make === "function") make.call(this, element, places.map((p) => (frame) => frame.place(p)), places);
+    // What an event takes out of force is not there any more.
+    if (element.released !== undefined) {
+      this.updates.push((f) => (group.visible = this.run.at(element.released, f.row) === 0));
+    }
+    this.root = outer;
     if (["rod", "string", "spring", "damper", "ball", "lines"].includes(element.shape)) this.supports(places);
     if (element.oneSided !== undefined && places.length > 0 && element.shape !== "string" && element.shape !== "rod") {
       this.contact(element, places[0]);
