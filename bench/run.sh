@@ -77,5 +77,5 @@ kernels_bench=build/release/bench/dalembert-kernels # not built where Google Ben
 measure build/release/tests/dalembert-fuzz --family products --scenes $products --pairs $report/pairs.csv
 
 commit=$(git describe --always --dirty 2>/dev/null || echo unknown)
-/usr/bin/python3 bench/page/report.py $report --commit "$commit" ${1:-}
+/usr/bin/python3 -B bench/page/report.py $report --commit "$commit" ${1:-}
 exit $status

@@ -11,8 +11,8 @@ import jinja2
 from markupsafe import Markup
 
 import sections
-from sections import Chart, Grid
-from tables import Folder, duration, number, plain, scientific
+from parts import Chart, Grid, Section, counted, grid_of
+from tables import Folder, duration, number, scientific
 
 HERE = Path(__file__).parent
 COMPARED = "1e-08"  # the tolerance of the table of all models
@@ -24,6 +24,7 @@ class Model:
     notes: str
     reference: str
     t_end: str
+    outcome: str  # "ok", or the error that refused its run
     page: str | None
     charts: list
     grid: Grid | None
@@ -43,18 +44,18 @@ def model(folder, name, row, curves):
     page = folder.path / f"{name}.html"
     if not page.exists():
         folder.missing.append(page.name)
-    charts = [Chart(folder.chart(f"{name}-motion"), "Motion and force of constraint by dalembert (lines) and by hand (circles); "
-                    "errors, estimated by the certificate (lines) and true (circles)"),
+    charts = [Chart(folder.chart(f"{name}-motion"), "Motion and force of constraint by dalembert (lines) and by hand "
+                    "(circles); errors, estimated by the certificate (lines) and true (circles)"),
               Chart(folder.chart(name), "Error against run time over falling tolerances")]
-    row = row or {"notes": "", "reference": "", "t_end": ""}
+    row = row or {"notes": "", "reference": "", "t_end": "", "outcome": "not run"}
     grid = numbers(curves, name) if curves else None
-    return Model(name, row["notes"], row["reference"], row["t_end"], page.name if page.exists() else None, charts, grid,
-                 folder.missing[before:])
+    return Model(name, row["notes"], row["reference"], row["t_end"], row["outcome"],
+                 page.name if page.exists() else None, charts, grid, folder.missing[before:])
 
 
 def numbers(curves, name):
     rows = curves.where(model=name)
-    return sections.grid_of(curves, {
+    return grid_of(curves, {
         "stepper": ("stepper", str), "tolerance": ("tolerance", scientific), "steps": ("steps", str),
         "evaluations": ("evaluations", str), "factorisations": ("factorisations", str),
         "error_position": ("position", scientific), "error_force": ("force", scientific),
@@ -87,7 +88,7 @@ def comparison(folder):
 
 def catalogue(folder, all_models):
     """The section of the models: what they show, and what of it is missing."""
-    section = sections.Section("models", "Systems against hand derivations", "How close are motion and forces of "
+    section = Section("models", "Systems against hand derivations", "How close are motion and forces of "
                                "constraint to a hand derivation that shares no code with the solver?")
     curves = folder.table("work-precision")
     listed = folder.table("models")
@@ -102,7 +103,7 @@ def catalogue(folder, all_models):
     section.verdict = Markup(f"{len(all_models)} systems. At tolerance 10<sup>−8</sup> the error of force is "
                              f"{scientific(middle)} of the weight in the median and at most "
                              f"{scientific(worst['error_force'])} ({worst['model']}). "
-                             f"{sections.counted(len(curves.rows), 'run')}, {refused} refused.")
+                             f"{counted(len(curves.rows), 'run')}, {refused} refused.")
     return section
 
 

@@ -43,7 +43,7 @@ def report(tables):
     with tempfile.TemporaryDirectory() as folder:
         for name, text in tables.items():
             (pathlib.Path(folder) / name).write_text(text)
-        subprocess.run([sys.executable, PROGRAM, folder, "--commit", "abc"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([sys.executable, "-B", PROGRAM, folder, "--commit", "abc"], check=True, stdout=subprocess.DEVNULL)
         return (pathlib.Path(folder) / "index.html").read_text()
 
 
@@ -70,6 +70,12 @@ class Report(unittest.TestCase):
 
     def test_names_the_benchmarks_that_failed(self):
         self.assertIn("modes ended with status 139", report({"failures.txt": "modes ended with status 139\n"}))
+
+    def test_says_which_run_was_refused(self):
+        text = report({"models.csv": "model,notes,reference,t_end,stepper,tolerance,outcome\n"
+                                     "cone,mex133,by hand,10,erk,1e-08,IntegrationFailure\n"})
+        self.assertIn("IntegrationFailure", text)
+        self.assertIn("cone-motion.svg", text)
 
     def test_text_of_a_table_is_no_markup(self):
         self.assertIn("gradient&lt;2&gt;", report({"kernels.json": '{"benchmarks": [{"name": "gradient<2>", '
