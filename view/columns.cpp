@@ -72,7 +72,7 @@ std::size_t Columns::keep(std::vector<double> column) {
   const auto same = [&](double x) {
     return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(column.front());
   };
-  if (!column.empty() && std::ranges::all_of(column, same)) column.resize(1);
+  if (!column.empty() && std::ranges::all_of(column, same)) column.erase(column.begin() + 1, column.end());
   all_.push_back(std::move(column));
   return all_.size() - 1;
 }

@@ -5,6 +5,10 @@
 
 namespace dalembert::detail {
 
+void append_numbers(std::vector<double>& sizes, std::span<const double> numbers) {
+  for (const double x : numbers) sizes.push_back(x);
+}
+
 bool is_direction(std::span<const double> map, std::size_t rows) {
   const std::size_t columns = map.size() / rows;
   double sum = 0.0;  // of the weights of the first coordinates: 1 of a place, 0 of a vector

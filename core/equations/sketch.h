@@ -60,9 +60,10 @@ template <int D>
 }
 
 /// Appends numbers of a vector to those of a sketch.
+void append_numbers(std::vector<double>& sizes, std::span<const double> numbers);
 template <int D>
 void append(std::vector<double>& sizes, const Vec<D>& r) {
-  sizes.insert(sizes.end(), r.begin(), r.end());
+  append_numbers(sizes, {r.data(), static_cast<std::size_t>(D)});
 }
 
 /// Whether a map of the particles of a body, of D rows, gives a vector: one that a shift of all does not
