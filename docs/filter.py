@@ -26,6 +26,7 @@ ALIKE = [
     (r"(static )?(auto|Vec<\w+>|VecOf<.*>) normal_at\(", "The normal of unit length."),
     (r"auto prepared\(\) const", "Its equation with everything computed that does not depend on position."),
     (r"(\[\[nodiscard\]\] )?std::string fault\(\) const", "Which of its parameters makes no sense, and why; empty if none."),
+    (r"(auto|Sketch(<\w+>)?) sketch\(", "How a page that plays a run draws it."),
     (r"JointFrames<A, B> frames;", "The frames that it holds together, one on each body."),
     (r"[A-Z]\w*\(.*\) -> [A-Z]\w*<.*>;", "Deduces the types of its points."),
     (r"[A-Z]\w* (a|b|c|point|centre|start|end|bilateral|rigid|slip);", "As it was stated."),
