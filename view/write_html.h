@@ -13,9 +13,11 @@ struct PageOptions {
   std::string title{};  ///< the scene's name if it is empty
   /// The user's own units, shown behind numbers: {"m", "s", "N"}. Empty ones are not shown.
   struct Units {
-    std::string length{}, time{}, force{};
+    std::string length{};  ///< such as m
+    std::string time{};    ///< such as s
+    std::string force{};   ///< such as N
   };
-  Units units{};
+  Units units{};  ///< none unless given
   /// A page beyond this many bytes keeps 7 digits of each number in place of 16, and if that does not do,
   /// every second, third, ... sample. It says so.
   std::size_t most_bytes = 20'000'000;

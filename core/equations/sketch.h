@@ -24,10 +24,10 @@ namespace dalembert {
 /// normal), "sphere" (centre, radius), "cylinder" (point, axis, radius), "cone" (apex, axis, half angle),
 /// "axis" (point, direction), "implicit" (where `equation` is 0), "lines" and "none".
 struct Sketch {
-  using Place = std::array<double, 3>;
+  using Place = std::array<double, 3>;  ///< [length]; in the plane the third is 0
 
-  std::string_view shape = "lines";
-  std::vector<double> sizes{};
+  std::string_view shape = "lines";  ///< one of those above
+  std::vector<double> sizes{};       ///< of the shape, in the order above
   /// Where what is drawn is carried at time t, if it moves.
   std::function<Eigen::Isometry3d(double t)> pose{};
   /// A curve or surface, as it is before it is carried anywhere.
@@ -46,7 +46,7 @@ struct SketchedPoint {
 
 /// A constraint or force as a picture needs it.
 struct Drawing {
-  Sketch sketch{};
+  Sketch sketch{};                      ///< its own
   std::vector<SketchedPoint> points{};  ///< in the order of its equation
 };
 
