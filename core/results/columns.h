@@ -15,7 +15,7 @@ struct Column {
   std::string name;  ///< "t", "bob.x", "rod.lambda", "rod.on.bob.Zx"
   std::string
       dimension;  ///< "time", "length", "length/time", "angle", "force", ..., in the scene's own units
-  std::function<double(const FlatSample&)> read;
+  std::function<double(const FlatSample&)> read;  ///< the number of this column at a sample
 };
 
 /// Those of a run: t; position and velocity of each particle, angle and rate of each rotor; multipliers of

@@ -16,20 +16,24 @@ namespace dalembert {
 template <int N>
 class LagrangianCertificate {
  public:
+  /// Of a run of `system.rotor_scene(t_start)`.
   LagrangianCertificate(const LagrangianSystem<N>& system, Certificate<2> rotors)
       : rotors_(std::move(rotors)),
         run_(system, rotors_.run(), rotors_.run().record()->tolerance),
         reference_(system, rotors_.reference(), rotors_.reference().record()->tolerance) {}
 
+  /// The motion that was asked for.
   [[nodiscard]] const LagrangianMotion<N>& run() const& { return run_; }
+  /// The more accurate one.
   [[nodiscard]] const LagrangianMotion<N>& reference() const& { return reference_; }
   void run() const&& = delete;  // keep the certificate
   void reference() const&& = delete;
 
-  /// Of each coordinate at sample i, and of its rate.
+  /// The error of each coordinate at sample i.
   [[nodiscard]] Vec<N> position_error(std::size_t i) const {
     return of_each([&](Rotor rotor) { return rotors_.angle_error(rotor, i); });
   }
+  /// The error of each rate.
   [[nodiscard]] Vec<N> velocity_error(std::size_t i) const {
     return of_each([&](Rotor rotor) { return rotors_.angular_velocity_error(rotor, i); });
   }
@@ -46,6 +50,7 @@ class LagrangianCertificate {
   } catch (const UndeterminedForce&) {
     return std::numeric_limits<double>::infinity();
   }
+  /// The error of a multiplier, or the norm of that of several.
   template <int Rows>
   [[nodiscard]] double multiplier_error(Constraint<Rows> constraint, std::size_t i) const {
     return error([&](const auto& motion, std::size_t k) { return motion.multiplier(constraint, k); }, i);
@@ -53,6 +58,7 @@ class LagrangianCertificate {
 
   /// Why an error at sample i is not known.
   [[nodiscard]] Doubt doubt(std::size_t i) const { return rotors_.doubt(i); }
+  /// Whether all errors are known.
   [[nodiscard]] bool complete() const { return rotors_.complete(); }
   /// All of it in words; a coordinate is told in units of its scale.
   [[nodiscard]] std::string statement() const { return rotors_.statement(); }
