@@ -43,7 +43,7 @@ double near_singularity(double e3, double e4, double e6) {
 /// projected: all are found again after a rounding of time, positions and velocities, up or down by chance
 /// (the stochastic arithmetic of Vignes, Math. Comput. Simulation 35 (1993) 233-261). That shows what cancels
 /// in the user's own equations, too. One sample may be small by chance: earlier ones are not forgotten at
-/// once, but count no more than in proportion to the accelerations, as those of a close encounter.
+/// once.
 void ErkStepper::State::measure_noise() {
   const auto rounded = [this](double x) { return x * (chance() % 2 == 0 ? 1.0 + epsilon : 1.0 - epsilon); };
   for (std::size_t i = 0; i < n; ++i) {
@@ -61,9 +61,8 @@ void ErkStepper::State::measure_noise() {
     switches.find({to.t, noise_q, noise_v}, multipliers, stage_side);
     if (switches.rests(stage_side) || !switches.same(to.side, stage_side)) return;
   }
-  const double before = std::exchange(largest_at_noise, largest(std::span(to.va).subspan(n)));
-  const double kept = constants.forgetting * std::min(1.0, before > 0.0 ? largest_at_noise / before : 1.0);
-  for (std::size_t i = 0; i < n; ++i) noise[i] = std::max(kept * noise[i], std::abs(a[i] - to.va[n + i]));
+  for (std::size_t i = 0; i < n; ++i)
+    noise[i] = std::max(constants.forgetting * noise[i], std::abs(a[i] - to.va[n + i]));
   const double off = position_violation(*system, manifold.equations(), lengths).size,
                off_speed = velocity_violation(*system, manifold.equations(), lengths).size;
   noise_of_positions = std::max(constants.forgetting * noise_of_positions, off);

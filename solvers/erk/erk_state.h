@@ -130,7 +130,6 @@ struct ErkStepper::State {
   std::vector<double> stage_q;                                 // work
   std::vector<double> difference, weight;                      // of positions and velocities
   std::vector<double> noise, noise_q, noise_v;                 // of accelerations, see measure_noise; work
-  double largest_at_noise = 0.0;                               // acceleration, where it was measured last
   double noise_of_positions = 0.0, noise_of_velocities = 0.0;  // of their projection, as lengths
   StepError estimated, reached;                                // of an attempt; of the last step
   std::minstd_rand chance;
