@@ -39,9 +39,7 @@ BodyPoint<3, 3> Lamina::vector(const Vec<2>& local) const {
 Eigen::Matrix3d Lamina::axes(const Sample<3>& sample) const {
   const double far = arms.norm();  // as far as particles, for small round-off
   const Vec<3> x = sample.position(vector({far, 0.0})) / far, y = sample.position(vector({0.0, far})) / far;
-  Eigen::Matrix3d axes;
-  axes << x, y, x.cross(y);
-  return axes;
+  return detail::by_columns(x, y, x.cross(y));
 }
 
 Lamina add_lamina(Scene<3>& scene, const LaminaState& s, const std::string& name) {

@@ -31,7 +31,7 @@ struct Particles {
       const Equimomental<3> set(arms);
       for (int i = 0; i < count; ++i) {
         share[i] = set.share(i);
-        place.col(i) = set.place(i);
+        place.col(i) = Eigen::Vector3d(set.place(i));
       }
     }
   }
@@ -49,7 +49,9 @@ Vec<3> arms_of(const BodyState<3>& s, const std::string& name) {
       s.inertia.allFinite() && second_moments.minCoeff() > 0.0, name,
       "each principal moment of inertia must be finite and less than the sum of the other two; a lamina is "
       "three particles held by Distances, a thin rod two");
-  return (second_moments / s.mass).cwiseSqrt();
+  Vec<3> arms;
+  for (int k = 0; k < 3; ++k) arms[k] = std::sqrt(second_moments[k] / s.mass);
+  return arms;
 }
 
 Eigen::Matrix2d axes_of(const BodyState<2>& s) {
@@ -111,7 +113,8 @@ typename RigidBody<D>::Axes RigidBody<D>::axes(const Sample<D>& sample) const {
   const Vec<D> origin = sample.position(centre());
   // Points as far from the centre as particles keep round-off small whatever the size of the body.
   const double far = arms.norm();
-  for (int k = 0; k < D; ++k) axes.col(k) = (sample.position(point(far * Vec<D>::Unit(k))) - origin) / far;
+  for (int k = 0; k < D; ++k)
+    axes.col(k) = Eigen::Matrix<double, D, 1>((sample.position(point(far * Vec<D>::Unit(k))) - origin) / far);
   return axes;
 }
 

@@ -2,6 +2,7 @@
 
 #include <dalembert/core/autodiff/branches.h>
 #include <dalembert/core/autodiff/functions.h>
+#include <dalembert/core/vec.h>
 
 #include <Eigen/Core>
 
@@ -145,34 +146,9 @@ class Dual : Functions<Dual<N, Order>> {
   }
 };
 
-}  // namespace dalembert
-
-namespace Eigen {
-
+namespace detail {
 template <int N, int Order>
-struct NumTraits<dalembert::Dual<N, Order>> : NumTraits<double> {
-  using Real = dalembert::Dual<N, Order>;
-  using NonInteger = Real;
-  using Nested = Real;
-  using Literal = Real;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = N,
-    AddCost = 2 * N,
-    MulCost = 4 * N
-  };
-};
+inline constexpr bool is_scalar<Dual<N, Order>> = true;
+}  // namespace detail
 
-template <int N, int Order, class Op>
-struct ScalarBinaryOpTraits<dalembert::Dual<N, Order>, double, Op> {
-  using ReturnType = dalembert::Dual<N, Order>;
-};
-template <int N, int Order, class Op>
-struct ScalarBinaryOpTraits<double, dalembert::Dual<N, Order>, Op> {
-  using ReturnType = dalembert::Dual<N, Order>;
-};
-
-}  // namespace Eigen
+}  // namespace dalembert

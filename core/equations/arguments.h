@@ -111,10 +111,15 @@ template <class S, Point P>
   using Time = Dual<1, 2>;
   if constexpr (std::is_same_v<S, double>) {
     const VecOf<Time, P::dimension> path = point.path(Time::input(t, 0)).template cast<Time>();
-    return path.unaryExpr([](const Time& x) { return x.gradient[0]; });
+    VecOf<S, P::dimension> rate;
+    for (int k = 0; k < P::dimension; ++k) rate[k] = path[k].gradient[0];
+    return rate;
   } else {
     const VecOf<Time, P::dimension> path = point.path(Time::input(t.value, 0)).template cast<Time>();
-    return path.unaryExpr([&t](const Time& x) { return S::chain(t, x.gradient[0], x.hessian(0, 0), 0.0); });
+    VecOf<S, P::dimension> rate;
+    for (int k = 0; k < P::dimension; ++k)
+      rate[k] = S::chain(t, path[k].gradient[0], path[k].hessian(0, 0), 0.0);
+    return rate;
   }
 }
 
@@ -207,7 +212,8 @@ template <class Element>
   Vec<PointFacts<Element>::inputs> inputs;
   int next = 0;
   for_each_moving_point(element, [&]<class P>(const P& point) {
-    inputs.template segment<P::inputs>(next) = point.gather(x);
+    const auto own = point.gather(x);
+    for (int k = 0; k < P::inputs; ++k) inputs[next + k] = own[k];
     next += P::inputs;
   });
   return inputs;

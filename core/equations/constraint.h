@@ -69,12 +69,12 @@ using ProbeMotion =
 template <class T>
 inline constexpr int rows_in = 1;
 template <class T>
-  requires std::is_base_of_v<Eigen::EigenBase<T>, T>
+  requires is_vector<T>
 inline constexpr int rows_in<T> = T::RowsAtCompileTime;
 
 template <class S, class T>
 [[nodiscard]] S row_of(const T& residual, [[maybe_unused]] int k) {
-  if constexpr (std::is_base_of_v<Eigen::EigenBase<T>, T>) {
+  if constexpr (is_vector<T>) {
     return S(residual[k]);
   } else {
     return S(residual);
@@ -216,7 +216,7 @@ template <AnyConstraint C>
 constexpr void require_equations() {
   static_assert(Equations<Residual<C>>,
                 "a constraint's equation returns a number or a plain column of fixed size, vec(g_1, g_2): no "
-                "row, matrix or vector of dynamic size, and of an Eigen expression its .eval()");
+                "row, matrix or vector of dynamic size");
 }
 
 }  // namespace detail

@@ -53,13 +53,13 @@ constexpr void require_forces() {
                 "a force states one of energy(r), force(r, v) and friction(lambda, r, v)");
   using Batch = typename BatchFor<E>::type;
   static_assert(!PotentialForce<E> || Batch::gives_what_it_should,
-                "a potential returns its energy, one number; of an Eigen expression its .value()");
+                "a potential returns its energy, one number");
   static_assert(!LawForce<E> || Batch::gives_what_it_should,
                 "a force law returns one column of its point's dimension, or one for each point, "
-                "std::tuple{f_a, f_b}; of an Eigen expression its .eval()");
+                "std::tuple{f_a, f_b}");
   static_assert(!FrictionForce<E> || Batch::gives_what_it_should,
                 "a friction law returns one column of its point's dimension, or one for each point, "
-                "std::tuple{f_a, f_b}; of an Eigen expression its .eval()");
+                "std::tuple{f_a, f_b}");
 }
 
 }  // namespace detail

@@ -24,7 +24,7 @@ struct ForceOf {
 /// of vectors for several.
 template <std::size_t I, class T>
 [[nodiscard]] const auto& force_on(const T& forces) {
-  if constexpr (std::is_base_of_v<Eigen::EigenBase<T>, T>) {
+  if constexpr (is_vector<T>) {
     return forces;
   } else {
     return std::get<I>(forces);
@@ -35,7 +35,8 @@ template <std::size_t I, class S, class E, class Law>
 void collect_force_on(const Law& law, VecOf<S, PointFacts<E>::inputs>& all) {
   using P = std::tuple_element_t<I, PointTuple<E>>;
   if constexpr (P::inputs > 0) {
-    all.template segment<P::inputs>(PointFacts<E>::first_input[I]) = force_on<I>(law).template cast<S>();
+    const auto own = force_on<I>(law).template cast<S>();
+    for (int k = 0; k < P::inputs; ++k) all[PointFacts<E>::first_input[I] + k] = own[k];
   }
 }
 
@@ -128,14 +129,15 @@ class PotentialBatch final : public ForceBatch {
     detail::for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
       const S V = potential<S>(e, at, detail::AsInput<S>{});
       detail::require_finite(isfinite(V), i, "is not a finite number or has no finite gradient");
-      detail::scatter(e, -V.gradient, elements_.coordinates(i), F);
+      detail::scatter(e, Vec<inputs>(-V.gradient), elements_.coordinates(i), F);
     });
   }
 
   void power(const Instant& at, const Multipliers& /*lambda*/, std::span<double> out) const override {
     using S = Dual<inputs, 1>;
     detail::for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      out[i] = -potential<S>(e, at, detail::AsInput<S>{}).gradient.dot(detail::gather_inputs(e, at.v));
+      out[i] = -Vec<inputs>(potential<S>(e, at, detail::AsInput<S>{}).gradient)
+                    .dot(detail::gather_inputs(e, at.v));
     });
   }
 

@@ -67,7 +67,10 @@ typename LagrangeEquations<N>::Solved LagrangeEquations<N>::solved(const Instant
   Vec<N> f = terms.force(v);
   for (const auto& Q : forces) f += Q(at.t, q, v);
   f = scale.cwiseProduct(f);
-  const typename LagrangeTerms<N>::Matrix inertia = scale.asDiagonal() * terms.L_vv * scale.asDiagonal();
+  typename LagrangeTerms<N>::Matrix inertia = terms.L_vv;
+  for (int k = 0; k < N; ++k) {
+    for (int row = 0; row < N; ++row) inertia(row, k) *= scale[row] * scale[k];
+  }
   if (!std::isfinite(terms.L) || !inertia.allFinite() || !terms.force(v).allFinite())
     throw std::domain_error("has no finite value or derivatives");
   if (!f.allFinite()) throw std::domain_error("has a generalized force that is not finite");
@@ -76,7 +79,7 @@ typename LagrangeEquations<N>::Solved LagrangeEquations<N>::solved(const Instant
   if (found.without_inertia.size() > 0)
     throw std::domain_error(detail::no_inertia(q, scale.cwiseProduct(Vec<N>(found.without_inertia))));
   if (sign != 0 && found.sign != sign) throw std::domain_error(detail::inertia_lost(q));
-  const Vec<N> a = found.a;
+  const Vec<N> a(found.a);
   return {a, inertia * a - f, rows, found.sign};
 }
 

@@ -68,7 +68,9 @@ class Sample {
     } else if constexpr (P::driven) {
       using Time = Dual<1, 2>;
       const VecOf<Time, D> path = point.path(Time::input(flat_.time, 0)).template cast<Time>();
-      return finite<P>(path.unaryExpr([](const Time& x) { return x.hessian(0, 0); }));
+      Vec<D> a;
+      for (int k = 0; k < D; ++k) a[k] = path[k].hessian(0, 0);
+      return finite<P>(a);
     } else {
       return Vec<D>::Zero();
     }
@@ -87,7 +89,7 @@ class Sample {
     if constexpr (Rows == 1) {
       return *first;
     } else {
-      return Eigen::Map<const Vec<Rows>>(first);
+      return Vec<Rows>::from(first);
     }
   }
 

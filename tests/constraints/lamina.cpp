@@ -28,7 +28,7 @@ TEST(Lamina, HasTheMassCentreAndInertiaOfItsState) {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for (const auto& p : lamina.particles) {
     const double mass = scene.system().masses()[static_cast<std::size_t>(p.coordinate)];
-    const Vec<3> arm = s.axes.transpose() * (p.gather(scene.initial_positions()) - s.centre);
+    const Eigen::Vector3d arm = s.axes.transpose() * (p.gather(scene.initial_positions()) - s.centre);
     centre += mass / s.mass * arm;
     inertia += mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
   }

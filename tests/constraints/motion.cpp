@@ -169,7 +169,7 @@ TEST_P(FreeTop, TurnsAsItsClosedFormDoes) {
   constexpr double allowed = 100.0 * tolerance;
   for (std::size_t i = 0; i < run.size(); ++i) {
     const double t = run.times()[i];
-    const Eigen::AngleAxisd about_L(L.norm() * t / A, L.normalized()), spin(n * t, Vec<3>::UnitZ());
+    const Eigen::AngleAxisd about_L(L.norm() * t / A, L.normalized()), spin(n * t, Eigen::Vector3d::UnitZ());
     const Sample<3> now = run.sample(i);
     EXPECT_LT((top.axes(now) - about_L.toRotationMatrix() * s.axes * spin.toRotationMatrix()).norm(),
               allowed);

@@ -38,7 +38,7 @@ TEST_P(Body, HasTheMassCentreAndInertiaOfItsState) {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for (const auto& p : body.particles) {
     const double m = masses.masses()[static_cast<std::size_t>(p.coordinate)];
-    const Vec<3> arm = s.axes.transpose() * (p.gather(scene.initial_positions()) - s.centre);
+    const Eigen::Vector3d arm = s.axes.transpose() * (p.gather(scene.initial_positions()) - s.centre);
     mass += m;
     centre += m * arm;
     inertia += m * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
