@@ -12,6 +12,10 @@
 #define DALEMBERT_UNROLL
 #endif
 
+// Inlined also at -O1 and -O2: out of line, numbers with derivatives would go through memory.
+#define DALEMBERT_INLINE [[gnu::always_inline]] inline
+#define DALEMBERT_INLINE_LAMBDA __attribute__((always_inline))
+
 namespace dalembert {
 
 template <class S, int N>
@@ -194,35 +198,35 @@ struct VecOf {
     return segment<M>(N - M);
   }
 
-  VecOf& operator+=(const VecOf& b) & {
+  DALEMBERT_INLINE VecOf& operator+=(const VecOf& b) & {
     DALEMBERT_UNROLL for (int i = 0; i < N; ++i) e[i] += b.e[i];
     return *this;
   }
-  VecOf& operator-=(const VecOf& b) & {
+  DALEMBERT_INLINE VecOf& operator-=(const VecOf& b) & {
     DALEMBERT_UNROLL for (int i = 0; i < N; ++i) e[i] -= b.e[i];
     return *this;
   }
-  VecOf& operator*=(const S& b) & {
+  DALEMBERT_INLINE VecOf& operator*=(const S& b) & {
     DALEMBERT_UNROLL for (int i = 0; i < N; ++i) e[i] *= b;
     return *this;
   }
-  VecOf& operator/=(const S& b) & {
+  DALEMBERT_INLINE VecOf& operator/=(const S& b) & {
     DALEMBERT_UNROLL for (int i = 0; i < N; ++i) e[i] /= b;
     return *this;
   }
-  VecOf operator-() const {
+  DALEMBERT_INLINE VecOf operator-() const {
     VecOf r;
     DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.e[i] = -e[i];
     return r;
   }
   template <class T>
-  [[nodiscard]] auto dot(const VecOf<T, N>& b) const {
+  [[nodiscard]] DALEMBERT_INLINE auto dot(const VecOf<T, N>& b) const {
     auto s = e[0] * b.e[0];
     DALEMBERT_UNROLL for (int i = 1; i < N; ++i) s += e[i] * b.e[i];
     return s;
   }
   template <class T>
-  [[nodiscard]] auto cross(const VecOf<T, N>& b) const requires(N == 3) {
+  [[nodiscard]] DALEMBERT_INLINE auto cross(const VecOf<T, N>& b) const requires(N == 3) {
     using R = decltype(e[0] * b.e[0]);
     return VecOf<R, 3>(e[1] * b.e[2] - e[2] * b.e[1], e[2] * b.e[0] - e[0] * b.e[2],
                        e[0] * b.e[1] - e[1] * b.e[0]);
@@ -235,12 +239,12 @@ struct VecOf {
   [[nodiscard]] auto cross(const E& b) const requires(N == 3) {
     return cross(VecOf<typename E::Scalar, N>(b));
   }
-  [[nodiscard]] S squaredNorm() const { return dot(*this); }
-  [[nodiscard]] S norm() const {
+  [[nodiscard]] DALEMBERT_INLINE S squaredNorm() const { return dot(*this); }
+  [[nodiscard]] DALEMBERT_INLINE S norm() const {
     using std::sqrt;
     return sqrt(squaredNorm());
   }
-  [[nodiscard]] VecOf normalized() const { return *this / norm(); }
+  [[nodiscard]] DALEMBERT_INLINE VecOf normalized() const { return *this / norm(); }
   void normalize() { *this = normalized(); }
   [[nodiscard]] S sum() const {
     S s = e[0];
@@ -293,34 +297,31 @@ struct VecOf {
 };
 
 template <class A, class B, int N>
-auto operator+(const VecOf<A, N>& a, const VecOf<B, N>& b) {
+DALEMBERT_INLINE auto operator+(const VecOf<A, N>& a, const VecOf<B, N>& b) {
   VecOf<decltype(a.e[0] + b.e[0]), N> r;
   DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.e[i] = a.e[i] + b.e[i];
   return r;
 }
 template <class A, class B, int N>
-auto operator-(const VecOf<A, N>& a, const VecOf<B, N>& b) {
+DALEMBERT_INLINE auto operator-(const VecOf<A, N>& a, const VecOf<B, N>& b) {
   VecOf<decltype(a.e[0] - b.e[0]), N> r;
   DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.e[i] = a.e[i] - b.e[i];
   return r;
 }
 template <class A, class B, int N>
-  requires detail::is_scalar<B>
-auto operator*(const VecOf<A, N>& a, const B& b) {
+requires detail::is_scalar<B> DALEMBERT_INLINE auto operator*(const VecOf<A, N>& a, const B& b) {
   VecOf<std::remove_cvref_t<decltype(a.e[0] * b)>, N> r;
   DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.e[i] = a.e[i] * b;
   return r;
 }
 template <class A, class B, int N>
-  requires detail::is_scalar<A>
-auto operator*(const A& a, const VecOf<B, N>& b) {
+requires detail::is_scalar<A> DALEMBERT_INLINE auto operator*(const A& a, const VecOf<B, N>& b) {
   VecOf<std::remove_cvref_t<decltype(a * b.e[0])>, N> r;
   DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.e[i] = a * b.e[i];
   return r;
 }
 template <class A, class B, int N>
-  requires detail::is_scalar<B>
-auto operator/(const VecOf<A, N>& a, const B& b) {
+requires detail::is_scalar<B> DALEMBERT_INLINE auto operator/(const VecOf<A, N>& a, const B& b) {
   VecOf<std::remove_cvref_t<decltype(a.e[0] / b)>, N> r;
   DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.e[i] = a.e[i] / b;
   return r;

@@ -24,10 +24,7 @@ void check(const LaminaState& s, const std::string& name) {
 }  // namespace
 
 BodyPoint<3, 3> Lamina::point(const Vec<2>& local) const {
-  const Vec<3> w = Equimomental<2>(arms).weights(local);
-  BodyPoint<3, 3> p{particles, {}};
-  for (int i = 0; i < 3; ++i) p.L.middleCols<3>(3 * i) = w[i] * Eigen::Matrix3d::Identity();
-  return p;
+  return {particles, BodyPoint<3, 3>::weighted(Equimomental<2>(arms).weights(local))};
 }
 
 BodyPoint<3, 3> Lamina::vector(const Vec<2>& local) const {

@@ -70,19 +70,13 @@ Vec<3> turning(const BodyState<3>& s, const Vec<3>& arm) { return s.angular_velo
 
 template <int D>
 BodyPoint<D> RigidBody<D>::point(const Vec<D>& local) const {
-  BodyPoint<D> p{particles, {}};
   if constexpr (D == 2) {
     // centre + x e + y (e turned left), e = (p_2 - p_1)/(2 rho)
-    Eigen::Matrix2d turned_left;
-    turned_left << 0.0, -1.0, 1.0, 0.0;
-    const Eigen::Matrix2d e_part =
-        (local.x() * Eigen::Matrix2d::Identity() + local.y() * turned_left) / (2.0 * arms.x());
-    p.L << 0.5 * Eigen::Matrix2d::Identity() - e_part, 0.5 * Eigen::Matrix2d::Identity() + e_part;
+    const double x = local.x() / (2.0 * arms.x()), y = local.y() / (2.0 * arms.x());
+    return {particles, {0.5 - x, -y, y, 0.5 - x, 0.5 + x, y, -y, 0.5 + x}};
   } else {
-    const Vec<4> w = Equimomental<3>(arms).weights(local);
-    for (int i = 0; i < 4; ++i) p.L.template middleCols<3>(3 * i) = w[i] * Eigen::Matrix3d::Identity();
+    return {particles, BodyPoint<D>::weighted(Equimomental<3>(arms).weights(local))};
   }
-  return p;
 }
 
 template <int D>

@@ -40,6 +40,13 @@ class Branches {
   static void begin_batch(std::size_t number) {
     if (listening != nullptr) listening->begin(number);
   }
+  [[nodiscard]] static bool heard() { return listening != nullptr; }
+  /// Where its next comparison stands among those of its batch.
+  [[nodiscard]] static std::size_t next() { return listening == nullptr ? 0 : listening->next_; }
+  /// Comparisons from that place on are made once more, as an equation is evaluated again at the same state.
+  static void again(std::size_t from) {
+    if (listening != nullptr) listening->go_back(from);
+  }
   /// Whether comparisons of plain numbers, which nobody hears, would make a difference.
   [[nodiscard]] static bool needed() {
     return listening != nullptr && (listening->held_ == nullptr || listening->own() != nullptr);

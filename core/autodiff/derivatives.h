@@ -10,7 +10,7 @@
 ///   f(a)     :  f_z = f_a a_z,            f_zs = f_a a_zs + f_aa a_s a_z                           (1)
 ///   a b      :  f_z = b a_z + a b_z,      f_zs = b a_zs + a b_zs + a_s b_z + b_s a_z               (2)
 ///
-/// Two types, as an equation is evaluated in two ways: `Motion` for its residual with gradient and bias in
+/// Two types, as an equation is evaluated in two ways: `Jet` for its residual with gradient and bias in
 /// one pass, `Tangent` for a column of its second derivatives. All pairs of directions at once, as a Hessian,
 /// would be a third type to compile for every equation, and for six inputs slower than six passes.
 ///
@@ -21,8 +21,12 @@ namespace dalembert {
 
 namespace detail {
 
-// Inlined also at -O1 and -O2: out of line the numbers would go through memory.
-#define DALEMBERT_INLINE [[gnu::always_inline]] inline
+/// How many directions a number has that differentiates with respect to `inputs`, in as few passes as take
+/// nine directions each.
+[[nodiscard]] constexpr int directions_for(int inputs) {
+  const int passes = (inputs + 8) / 9;
+  return (inputs + passes - 1) / passes;
+}
 
 using Pair [[gnu::vector_size(16)]] = double;
 
@@ -68,44 +72,44 @@ struct Lanes {
 /// A value with its derivatives in K directions, and its first and second one along the motion:
 /// f, f_s, f_ss and f_z.
 template <int K>
-struct Motion {
+struct Jet {
   double value, s, ss;
   detail::Lanes<K> z;
 
-  Motion() = default;
+  Jet() = default;
   /// A constant. Implicit, so that numbers with and without derivatives mix in a formula.
-  DALEMBERT_INLINE Motion(double constant)  // NOLINT(google-explicit-constructor)
-      : Motion(constant, 0.0, 0.0, detail::Lanes<K>::zero()) {}
-  DALEMBERT_INLINE Motion(double f, double f_s, double f_ss, const detail::Lanes<K>& f_z)
+  DALEMBERT_INLINE Jet(double constant)  // NOLINT(google-explicit-constructor)
+      : Jet(constant, 0.0, 0.0, detail::Lanes<K>::zero()) {}
+  DALEMBERT_INLINE Jet(double f, double f_s, double f_ss, const detail::Lanes<K>& f_z)
       : value(f), s(f_s), ss(f_ss), z(f_z) {}
   /// The input whose direction is number `lane`, and its rate along the motion.
-  [[nodiscard]] DALEMBERT_INLINE static Motion input(double value, int lane, double rate = 0.0) {
+  [[nodiscard]] DALEMBERT_INLINE static Jet input(double value, int lane, double rate = 0.0) {
     return {value, rate, 0.0, detail::Lanes<K>::unit(lane)};
   }
   /// (1): f of a, given f and its derivatives there.
-  [[nodiscard]] DALEMBERT_INLINE static Motion chain(const Motion& a, double f, double f_a, double f_aa) {
+  [[nodiscard]] DALEMBERT_INLINE static Jet chain(const Jet& a, double f, double f_a, double f_aa) {
     return {f, f_a * a.s, f_a * a.ss + f_aa * a.s * a.s, f_a * a.z};
   }
-  [[nodiscard]] DALEMBERT_INLINE static Motion sum(const Motion& a, const Motion& b) {
+  [[nodiscard]] DALEMBERT_INLINE static Jet sum(const Jet& a, const Jet& b) {
     return {a.value + b.value, a.s + b.s, a.ss + b.ss, a.z + b.z};
   }
-  [[nodiscard]] DALEMBERT_INLINE static Motion difference(const Motion& a, const Motion& b) {
+  [[nodiscard]] DALEMBERT_INLINE static Jet difference(const Jet& a, const Jet& b) {
     return {a.value - b.value, a.s - b.s, a.ss - b.ss, a.z - b.z};
   }
-  [[nodiscard]] DALEMBERT_INLINE static Motion scaled(double c, const Motion& a) {
+  [[nodiscard]] DALEMBERT_INLINE static Jet scaled(double c, const Jet& a) {
     return {c * a.value, c * a.s, c * a.ss, c * a.z};
   }
-  [[nodiscard]] DALEMBERT_INLINE static Motion product(const Motion& a, const Motion& b) {
+  [[nodiscard]] DALEMBERT_INLINE static Jet product(const Jet& a, const Jet& b) {
     return {a.value * b.value, b.value * a.s + a.value * b.s,
             b.value * a.ss + a.value * b.ss + 2.0 * a.s * b.s, b.value * a.z + a.value * b.z};
   }
   /// q = a/b, from a = q b.
-  [[nodiscard]] DALEMBERT_INLINE static Motion quotient(const Motion& a, const Motion& b) {
+  [[nodiscard]] DALEMBERT_INLINE static Jet quotient(const Jet& a, const Jet& b) {
     const double r = 1.0 / b.value, q = a.value / b.value, q_s = r * (a.s - q * b.s);
     return {q, q_s, r * (a.ss - q * b.ss - 2.0 * q_s * b.s), r * (a.z - q * b.z)};
   }
   /// The same value and derivatives, with another value.
-  [[nodiscard]] DALEMBERT_INLINE static Motion with_value(Motion a, double value) {
+  [[nodiscard]] DALEMBERT_INLINE static Jet with_value(Jet a, double value) {
     a.value = value;
     return a;
   }
@@ -169,7 +173,7 @@ struct Tangent {
 template <class T>
 inline constexpr bool is_differentiated = false;
 template <int K>
-inline constexpr bool is_differentiated<Motion<K>> = true;
+inline constexpr bool is_differentiated<Jet<K>> = true;
 template <int K>
 inline constexpr bool is_differentiated<Tangent<K>> = true;
 template <class T>

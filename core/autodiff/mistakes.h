@@ -14,14 +14,14 @@ namespace dalembert {
   __attribute__((                                                                                  \
       unavailable("a number and a vector have no sum: a lambda that takes one argument more than " \
                   "its points (and their velocities) gets time in front of them")))
-template <int N, int Order, class S, int D>
-DALEMBERT_NUMBER_AND_VECTOR VecOf<S, D> operator-(const Dual<N, Order>&, const VecOf<S, D>&);
-template <int N, int Order, class S, int D>
-DALEMBERT_NUMBER_AND_VECTOR VecOf<S, D> operator-(const VecOf<S, D>&, const Dual<N, Order>&);
-template <int N, int Order, class S, int D>
-DALEMBERT_NUMBER_AND_VECTOR VecOf<S, D> operator+(const Dual<N, Order>&, const VecOf<S, D>&);
-template <int N, int Order, class S, int D>
-DALEMBERT_NUMBER_AND_VECTOR VecOf<S, D> operator+(const VecOf<S, D>&, const Dual<N, Order>&);
+template <Differentiated A, class S, int D>
+DALEMBERT_NUMBER_AND_VECTOR VecOf<S, D> operator-(const A&, const VecOf<S, D>&);
+template <Differentiated A, class S, int D>
+DALEMBERT_NUMBER_AND_VECTOR VecOf<S, D> operator-(const VecOf<S, D>&, const A&);
+template <Differentiated A, class S, int D>
+DALEMBERT_NUMBER_AND_VECTOR VecOf<S, D> operator+(const A&, const VecOf<S, D>&);
+template <Differentiated A, class S, int D>
+DALEMBERT_NUMBER_AND_VECTOR VecOf<S, D> operator+(const VecOf<S, D>&, const A&);
 #undef DALEMBERT_NUMBER_AND_VECTOR
 
 }  // namespace dalembert
@@ -36,14 +36,9 @@ concept NamesItsArguments = std::is_function_v<std::remove_pointer_t<F>> || requ
   &F::operator();
 };
 
-template <class T>
-inline constexpr bool is_dual = false;
-template <int N, int Order>
-inline constexpr bool is_dual<Dual<N, Order>> = true;
-
 /// One equation, or an energy.
 template <class T>
-concept Number = is_dual<T> ||(std::is_arithmetic_v<T> && !std::same_as<T, bool>);
+concept Number = is_differentiated<T> ||(std::is_arithmetic_v<T> && !std::same_as<T, bool>);
 
 /// Several equations or a force.
 template <class T>

@@ -5,8 +5,8 @@
 
 #include <compare>
 
-/// Arithmetic and comparisons of numbers that carry derivatives. Comparisons are by value, and `Branches`
-/// hears them.
+/// Arithmetic and comparisons of numbers that carry derivatives. Comparisons are by value and reported to
+/// Branches.
 namespace dalembert {
 
 template <Differentiated D>

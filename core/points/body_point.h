@@ -21,19 +21,27 @@ struct BodyPoint {
   static constexpr int count = Particles;
   static constexpr int coordinates = count * D;
   static constexpr bool driven = false;
-  using Map = Eigen::Matrix<double, D, coordinates>;
+  using Map = Vec<D * coordinates>;  ///< a matrix by columns: entry (i, k) is number D k + i
 
   std::array<Particle<D>, static_cast<std::size_t>(count)> particles;
   Map L;
 
   [[nodiscard]] const Map& map() const { return L; }
+  /// r = sum of weights times the positions of the particles.
+  [[nodiscard]] static Map weighted(const Vec<Particles>& weights) {
+    Map L = Map::Zero();
+    for (int p = 0; p < Particles; ++p) {
+      for (int i = 0; i < D; ++i) L[D * (D * p + i) + i] = weights[p];
+    }
+    return L;
+  }
   [[nodiscard]] Vec<D> gather(std::span<const double> x) const {
     Vec<D> r = Vec<D>::Zero();
     int column = 0;
     for (const auto& particle : particles) {
       const Vec<D> p = particle.gather(x);
       for (int k = 0; k < D; ++k, ++column) {
-        for (int i = 0; i < D; ++i) r[i] += L(i, column) * p[k];
+        for (int i = 0; i < D; ++i) r[i] += L[D * column + i] * p[k];
       }
     }
     return r;
