@@ -14,6 +14,12 @@
 /// their jumps. What has no derivative somewhere (sqrt at 0) gives one there that is not finite.
 namespace dalembert {
 
+// Of plain numbers, which the names below would hide.
+using std::acos, std::acosh, std::asin, std::asinh, std::atan, std::atan2, std::atanh, std::cbrt, std::ceil,
+    std::copysign, std::cos, std::cosh, std::erf, std::erfc, std::exp, std::exp2, std::expm1, std::fabs,
+    std::fdim, std::floor, std::fmax, std::fmin, std::fmod, std::hypot, std::log, std::log10, std::log1p,
+    std::log2, std::pow, std::round, std::sin, std::sinh, std::sqrt, std::tan, std::tanh, std::trunc;
+
 /// For equations that are evaluated with plain numbers, too: without these a number finds no max and min, and
 /// of abs perhaps C's, which is one of int. (A template, so that ::abs(double) is preferred where it is
 /// visible, too, and not ambiguous.) NaN wins, or a fault of an equation would be lost in max(0.0, sqrt(x)).

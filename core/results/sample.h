@@ -51,12 +51,20 @@ class Sample {
   template <Point P>
   [[nodiscard]] Vec<D> position(const P& point) const {
     require_known(point);
-    return finite<P>(detail::position<double>(point, flat_.time, instant(), detail::AsNumber{}, 0));
+    if constexpr (P::inputs > 0) {
+      return finite<P>(point.gather(flat_.q));
+    } else {
+      return finite<P>(detail::position<double>(point, flat_.time, nullptr));
+    }
   }
   template <Point P>
   [[nodiscard]] Vec<D> velocity(const P& point) const {
     require_known(point);
-    return finite<P>(detail::velocity<double>(point, flat_.time, instant(), detail::AsNumber{}, 0));
+    if constexpr (P::inputs > 0) {
+      return finite<P>(point.gather(flat_.v));
+    } else {
+      return finite<P>(detail::velocity<double>(point, flat_.time, nullptr));
+    }
   }
   template <Point P>
   [[nodiscard]] Vec<D> acceleration(const P& point) const {
