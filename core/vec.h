@@ -287,6 +287,8 @@ struct VecOf {
     const S least = norm() < b.norm() ? norm() : b.norm();
     return (*this - b).norm() <= precision * least;
   }
+  __attribute__((unavailable("include <dalembert/eigen.h> and write eigen(v).asDiagonal()"))) void
+  asDiagonal() const;
   /// As a row, to be written to a stream.
   [[nodiscard]] detail::Row<S, N> transpose() const { return {*this}; }
   friend bool operator==(const VecOf& a, const VecOf& b) {
@@ -360,6 +362,19 @@ auto operator*(const M& matrix, const VecOf<S, N>& x) {
     for (int k = 1; k < N; ++k) r.e[i] += m.coeff(i, k) * x.e[k];
   }
   return r;
+}
+
+/// Eigen's rotations (quaternions, angle and axis) and transformations of a vector.
+template <class R, class S, int N>
+  requires requires(const R& r) { r.toRotationMatrix() * r.inverse().toRotationMatrix(); }
+auto operator*(const R& rotation, const VecOf<S, N>& x) { return rotation.toRotationMatrix() * x; }
+template <class T, class S, int N>
+  requires requires(const T& t) {
+    t.linear();
+    t.translation();
+  }
+auto operator*(const T& transformation, const VecOf<S, N>& x) {
+  return transformation.linear() * x + transformation.translation();
 }
 
 /// Components below each other, those of a `transpose()` beside each other. (A template: what writes nothing

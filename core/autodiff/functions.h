@@ -166,69 +166,45 @@ template <Differentiated D>
   return D::chain(a, std::pow(a.value, p), f_a, f_aa);
 }
 
-/// Two arguments, of which one may be a plain number, and what a function of both returns.
-template <class A, class B>
-using Wider = std::conditional_t<is_differentiated<A>, A, B>;
-template <class A, class B>
-concept SomeDifferentiated = is_differentiated<Wider<A, B>> && std::convertible_to<A, Wider<A, B>> &&
-    std::convertible_to<B, Wider<A, B>>;
-
-template <class A, class B>
-  requires SomeDifferentiated<A, B> && is_differentiated<B>
-[[nodiscard]] auto pow(const A& a, const B& b) { return exp(b * log(Wider<A, B>(a))); }
+template <Differentiated D>
+[[nodiscard]] D pow(const D& a, const D& b) {
+  return exp(b * log(a));
+}
 /// The value, and atan((x0 y - y0 x)/(x0 x + y0 y)) with its argument 0 there: the angle seen from (x0, y0).
-template <class A, class B>
-  requires SomeDifferentiated<A, B>
-[[nodiscard]] auto atan2(const A& of_y, const B& of_x) {
-  using D = Wider<A, B>;
-  const D y(of_y), x(of_x);
+template <Differentiated D>
+[[nodiscard]] D atan2(const D& y, const D& x) {
   const D u = (x.value * y - y.value * x) / (x.value * x + y.value * y);
   return D::with_value(u, std::atan2(y.value, x.value));
 }
-template <class A, class B>
-  requires SomeDifferentiated<A, B>
-[[nodiscard]] auto hypot(const A& a, const B& b) { return sqrt(a * a + b * b); }
-template <class A, class B, class C>
-  requires SomeDifferentiated<Wider<A, B>, C>
-[[nodiscard]] auto hypot(const A& a, const B& b, const C& c) { return sqrt(a * a + b * b + c * c); }
-
-template <class A, class B>
-  requires SomeDifferentiated<A, B>
-[[nodiscard]] auto max(const A& of_a, const B& of_b) {
-  const Wider<A, B> a(of_a), b(of_b);
-  return a < b || std::isnan(b.value) ? b : a;
+template <Differentiated D>
+[[nodiscard]] D hypot(const D& a, const D& b) {
+  return sqrt(a * a + b * b);
 }
-template <class A, class B>
-  requires SomeDifferentiated<A, B>
-[[nodiscard]] auto min(const A& of_a, const B& of_b) {
-  const Wider<A, B> a(of_a), b(of_b);
-  return b < a || std::isnan(b.value) ? b : a;
-}
-/// The same for two of one type, where std::max is visible, too.
 template <Differentiated D>
 [[nodiscard]] D max(const D& a, const D& b) {
-  return max<D, D>(a, b);
+  return a < b || std::isnan(b.value) ? b : a;
 }
 template <Differentiated D>
 [[nodiscard]] D min(const D& a, const D& b) {
-  return min<D, D>(a, b);
+  return b < a || std::isnan(b.value) ? b : a;
 }
-template <class A, class B>
-  requires SomeDifferentiated<A, B>
-[[nodiscard]] auto fmax(const A& a, const B& b) { return max<A, B>(a, b); }
-template <class A, class B>
-  requires SomeDifferentiated<A, B>
-[[nodiscard]] auto fmin(const A& a, const B& b) { return min<A, B>(a, b); }
+template <Differentiated D>
+[[nodiscard]] D fmax(const D& a, const D& b) {
+  return max(a, b);
+}
+template <Differentiated D>
+[[nodiscard]] D fmin(const D& a, const D& b) {
+  return min(a, b);
+}
 /// a - b where that is positive, else 0.
-template <class A, class B>
-  requires SomeDifferentiated<A, B>
-[[nodiscard]] auto fdim(const A& a, const B& b) { return max(a - b, 0.0); }
+template <Differentiated D>
+[[nodiscard]] D fdim(const D& a, const D& b) {
+  return max(a - b, D(0.0));
+}
 /// |a| with the sign of b.
-template <class A, class B>
-  requires SomeDifferentiated<A, B>
-[[nodiscard]] auto copysign(const A& a, const B& of_b) {
-  using D = Wider<A, B>;
-  const D size = abs(D(a)), b(of_b);
+template <Differentiated D>
+[[nodiscard]] D copysign(const D& a, const D& b) {
+  const D size = abs(a);
   return b < 0.0 || (b.value == 0.0 && std::signbit(b.value)) ? -size : size;
 }
 
@@ -264,15 +240,44 @@ template <Differentiated D>
   return detail::truncated(a.value, std::trunc(a.value));
 }
 /// a - n b, n the integer part of a/b.
-template <class A, class B>
-  requires SomeDifferentiated<A, B>
-[[nodiscard]] auto fmod(const A& of_a, const B& of_b) {
-  using D = Wider<A, B>;
-  const D a(of_a), b(of_b);
+template <Differentiated D>
+[[nodiscard]] D fmod(const D& a, const D& b) {
   const double f = std::fmod(a.value, b.value), natural = std::round((a.value - f) / b.value);
   const double n = detail::truncated(a.value / b.value, natural);
   const D r = a - n * b;
   return n == natural ? D::with_value(r, f) : r;  // without round-off
 }
+
+/// Two arguments, one of them a plain number, and the type of the other.
+template <class A, class B>
+concept Mixed = (Differentiated<A> && !Differentiated<B> && std::convertible_to<B, double>) ||
+                (Differentiated<B> && !Differentiated<A> && std::convertible_to<A, double>);
+template <class A, class B>
+using Wider = std::conditional_t<is_differentiated<A>, A, B>;
+
+#define DALEMBERT_OF_A_NUMBER_TOO(name)                                    \
+  template <class A, class B>                                              \
+    requires Mixed<A, B>                                                   \
+  [[nodiscard]] Wider<A, B> name(const A& a, const B& b) {                 \
+    return name(static_cast<Wider<A, B>>(a), static_cast<Wider<A, B>>(b)); \
+  }
+DALEMBERT_OF_A_NUMBER_TOO(atan2)
+DALEMBERT_OF_A_NUMBER_TOO(hypot)
+DALEMBERT_OF_A_NUMBER_TOO(max)
+DALEMBERT_OF_A_NUMBER_TOO(min)
+DALEMBERT_OF_A_NUMBER_TOO(fmax)
+DALEMBERT_OF_A_NUMBER_TOO(fmin)
+DALEMBERT_OF_A_NUMBER_TOO(fdim)
+DALEMBERT_OF_A_NUMBER_TOO(copysign)
+DALEMBERT_OF_A_NUMBER_TOO(fmod)
+#undef DALEMBERT_OF_A_NUMBER_TOO
+
+template <Differentiated D>
+[[nodiscard]] D pow(double a, const D& b) {
+  return exp(b * std::log(a));
+}
+template <class A, class B, class C>
+  requires Differentiated<Wider<Wider<A, B>, C>>
+[[nodiscard]] auto hypot(const A& a, const B& b, const C& c) { return sqrt(a * a + b * b + c * c); }
 
 }  // namespace dalembert

@@ -3,6 +3,8 @@
 #include <dalembert/models/error.h>
 #include <dalembert/tests/models/newton.h>
 
+#include <dalembert/eigen.h>
+
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <gtest/gtest.h>
@@ -61,7 +63,7 @@ TEST(RigidAtomsReference, IsTheClosedFormForASymmetricTop) {
   body.semi_axes = {0.8, 0.8, 0.5};
   const Vec<3> w = body.angular_velocity, I = body.inertia().diagonal(), L = I.cwiseProduct(w);
   for (const double t : {0.7, 3.0, 10.0}) {
-    const Eigen::AngleAxisd about_L(L.norm() / I.x() * t, L.normalized());
+    const Eigen::AngleAxisd about_L(L.norm() / I.x() * t, eigen(L.normalized()));
     const Eigen::AngleAxisd about_axis(w.z() * (1.0 - I.z() / I.x()) * t, Eigen::Vector3d::UnitZ());
     const Observation<3> seen = body.reference(t);
     for (std::size_t i = 0; i < seen.positions.size(); ++i)
