@@ -11,8 +11,9 @@
 ///   Eigen::Vector3d f = run.constraint_force(rod, p, i);
 ///   scene.add_particle({.mass = 1.0, .position = Eigen::Vector3d::UnitX()});
 ///
-/// Where Eigen takes any expression, as in AngleAxisd(angle, axis), in `<<` and in asDiagonal(), it sees no
-/// conversion: there `eigen(v)` is the vector as one of Eigen's.
+/// Where a function of Eigen takes any expression, as AngleAxisd(angle, axis) and n.dot(r) do, it sees no
+/// conversion: there `eigen(v)` is the vector as one of Eigen's. In an equation, whose numbers carry
+/// derivatives, write r.dot(n) in place of n.dot(r), and r.cross(n), with n one of Eigen's.
 namespace dalembert {
 
 template <class S, int N>

@@ -350,6 +350,15 @@ template <class A, int N, detail::ColumnOfEigen<N> E>
 bool operator==(const VecOf<A, N>& a, const E& b) {
   return a == VecOf<A, N>(b);
 }
+template <detail::OfEigen E, class S, int N>
+  requires requires(E& e) { e.coeffRef(0) = S(); }
+E& operator+=(E& a, const VecOf<S, N>& b) {
+  for (int i = 0; i < N; ++i) a.coeffRef(i) += b[i];
+  return a;
+}
+template <detail::OfEigen E, class S, int N>
+  requires requires(E& e) { e.coeffRef(0) = S(); }
+E& operator-=(E& a, const VecOf<S, N>& b) { return a += -b; }
 /// A matrix of Eigen, with a fixed number of rows, times a vector.
 template <detail::OfEigen M, class S, int N>
   requires(M::ColsAtCompileTime == N && M::RowsAtCompileTime > 0)
@@ -375,6 +384,40 @@ template <class T, class S, int N>
   }
 auto operator*(const T& transformation, const VecOf<S, N>& x) {
   return transformation.linear() * x + transformation.translation();
+}
+
+namespace detail {
+/// matrix << x, y, z; as Eigen fills it: columns beside each other as long as there is room, then below.
+template <class M>
+class ColumnFilling {
+ public:
+  explicit ColumnFilling(M& matrix) : matrix_(&matrix) {}
+  template <class S, int N>
+  ColumnFilling& operator,(const VecOf<S, N>& x) {
+    for (int i = 0; i < N; ++i) matrix_->coeffRef(row_ + i, column_) = x[i];
+    if (++column_ == matrix_->cols()) {
+      column_ = 0;
+      row_ += N;
+    }
+    return *this;
+  }
+  template <OfEigen E>
+    requires(E::ColsAtCompileTime == 1 && E::RowsAtCompileTime > 0)
+  ColumnFilling& operator,(const E& x) { return *this, VecOf<typename E::Scalar, E::RowsAtCompileTime>(x); }
+  [[nodiscard]] M& finished() const { return *matrix_; }
+
+ private:
+  M* matrix_;
+  int row_ = 0, column_ = 0;
+};
+}  // namespace detail
+template <detail::OfEigen M, class S, int N>
+detail::ColumnFilling<M> operator<<(M& matrix, const VecOf<S, N>& x) {
+  return detail::ColumnFilling<M>(matrix), x;
+}
+template <detail::OfEigen M, class S, int N>
+detail::ColumnFilling<M> operator<<(M&& matrix, const VecOf<S, N>& x) {
+  return detail::ColumnFilling<M>(matrix), x;
 }
 
 /// Components below each other, those of a `transpose()` beside each other. (A template: what writes nothing
