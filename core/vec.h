@@ -143,9 +143,9 @@ struct VecOf {
   const VecOf& eval() const { return *this; }
 
   /// The N numbers from a place in memory on.
-  [[nodiscard]] static VecOf from(const S* x) {
+  [[nodiscard]] DALEMBERT_INLINE static VecOf from(const S* x) {
     VecOf r;
-    for (int i = 0; i < N; ++i) r.e[i] = x[i];
+    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.e[i] = x[i];
     return r;
   }
   [[nodiscard]] static constexpr VecOf Constant(const S& s) {
@@ -173,7 +173,7 @@ struct VecOf {
 
   /// With every component as a T.
   template <class T>
-  [[nodiscard]] VecOf<T, N> cast() const {
+  [[nodiscard]] DALEMBERT_INLINE VecOf<T, N> cast() const {
     if constexpr (std::is_same_v<T, S>) {
       return *this;
     } else {
@@ -184,7 +184,7 @@ struct VecOf {
   }
   /// M components from number `first` on.
   template <int M>
-  [[nodiscard]] VecOf<S, M> segment(int first) const {
+  [[nodiscard]] DALEMBERT_INLINE VecOf<S, M> segment(int first) const {
     VecOf<S, M> r;
     DALEMBERT_UNROLL for (int i = 0; i < M; ++i) r.e[i] = e[first + i];
     return r;
@@ -289,6 +289,12 @@ struct VecOf {
   }
   __attribute__((unavailable("include <dalembert/eigen.h> and write eigen(v).asDiagonal()"))) void
   asDiagonal() const;
+  /// Whether no component is larger than that.
+  [[nodiscard]] bool isZero(double precision = 1e-12) const {
+    for (int i = 0; i < N; ++i)
+      if (!(-precision <= e[i] && e[i] <= precision)) return false;
+    return true;
+  }
   /// As a row, to be written to a stream.
   [[nodiscard]] detail::Row<S, N> transpose() const { return {*this}; }
   friend bool operator==(const VecOf& a, const VecOf& b) {

@@ -11,7 +11,7 @@
 ///   a b      :  f_z = b a_z + a b_z,      f_zs = b a_zs + a b_zs + a_s b_z + b_s a_z               (2)
 ///
 /// Two types, as an equation is evaluated in two ways: `Jet` for its residual with gradient and bias in
-/// one pass, `Tangent` for a column of its second derivatives. All pairs of directions at once, as a Hessian,
+/// one pass, `HyperDual` for a column of its second derivatives. All pairs of directions at once, as a Hessian,
 /// would be a third type to compile for every equation, and for six inputs slower than six passes.
 ///
 /// Derivatives in several directions are held in pairs for the processor's vector unit, written out: a
@@ -124,41 +124,41 @@ struct Jet {
 /// A value with its derivatives in K directions, and those of all of these along one more direction:
 /// f, f_s, f_z and f_zs.
 template <int K>
-struct Tangent {
+struct HyperDual {
   double value, s;
   detail::Lanes<K> z, zs;
 
-  Tangent() = default;
+  HyperDual() = default;
   /// A constant.
-  DALEMBERT_INLINE Tangent(double constant)  // NOLINT(google-explicit-constructor)
-      : Tangent(constant, 0.0, detail::Lanes<K>::zero(), detail::Lanes<K>::zero()) {}
-  DALEMBERT_INLINE Tangent(double f, double f_s, const detail::Lanes<K>& f_z, const detail::Lanes<K>& f_zs)
+  DALEMBERT_INLINE HyperDual(double constant)  // NOLINT(google-explicit-constructor)
+      : HyperDual(constant, 0.0, detail::Lanes<K>::zero(), detail::Lanes<K>::zero()) {}
+  DALEMBERT_INLINE HyperDual(double f, double f_s, const detail::Lanes<K>& f_z, const detail::Lanes<K>& f_zs)
       : value(f), s(f_s), z(f_z), zs(f_zs) {}
-  [[nodiscard]] DALEMBERT_INLINE static Tangent input(double value, int lane, double rate = 0.0) {
+  [[nodiscard]] DALEMBERT_INLINE static HyperDual input(double value, int lane, double rate = 0.0) {
     return {value, rate, detail::Lanes<K>::unit(lane), detail::Lanes<K>::zero()};
   }
-  [[nodiscard]] DALEMBERT_INLINE static Tangent chain(const Tangent& a, double f, double f_a, double f_aa) {
+  [[nodiscard]] DALEMBERT_INLINE static HyperDual chain(const HyperDual& a, double f, double f_a, double f_aa) {
     return {f, f_a * a.s, f_a * a.z, f_a * a.zs + (f_aa * a.s) * a.z};
   }
-  [[nodiscard]] DALEMBERT_INLINE static Tangent sum(const Tangent& a, const Tangent& b) {
+  [[nodiscard]] DALEMBERT_INLINE static HyperDual sum(const HyperDual& a, const HyperDual& b) {
     return {a.value + b.value, a.s + b.s, a.z + b.z, a.zs + b.zs};
   }
-  [[nodiscard]] DALEMBERT_INLINE static Tangent difference(const Tangent& a, const Tangent& b) {
+  [[nodiscard]] DALEMBERT_INLINE static HyperDual difference(const HyperDual& a, const HyperDual& b) {
     return {a.value - b.value, a.s - b.s, a.z - b.z, a.zs - b.zs};
   }
-  [[nodiscard]] DALEMBERT_INLINE static Tangent scaled(double c, const Tangent& a) {
+  [[nodiscard]] DALEMBERT_INLINE static HyperDual scaled(double c, const HyperDual& a) {
     return {c * a.value, c * a.s, c * a.z, c * a.zs};
   }
-  [[nodiscard]] DALEMBERT_INLINE static Tangent product(const Tangent& a, const Tangent& b) {
+  [[nodiscard]] DALEMBERT_INLINE static HyperDual product(const HyperDual& a, const HyperDual& b) {
     return {a.value * b.value, b.value * a.s + a.value * b.s, b.value * a.z + a.value * b.z,
             (b.value * a.zs + a.value * b.zs) + (a.s * b.z + b.s * a.z)};
   }
-  [[nodiscard]] DALEMBERT_INLINE static Tangent quotient(const Tangent& a, const Tangent& b) {
+  [[nodiscard]] DALEMBERT_INLINE static HyperDual quotient(const HyperDual& a, const HyperDual& b) {
     const double r = 1.0 / b.value, q = a.value / b.value, q_s = r * (a.s - q * b.s);
     const detail::Lanes<K> q_z = r * (a.z - q * b.z);
     return {q, q_s, q_z, r * ((a.zs - q * b.zs) - (q_s * b.z + b.s * q_z))};
   }
-  [[nodiscard]] DALEMBERT_INLINE static Tangent with_value(Tangent a, double value) {
+  [[nodiscard]] DALEMBERT_INLINE static HyperDual with_value(HyperDual a, double value) {
     a.value = value;
     return a;
   }
@@ -175,7 +175,7 @@ inline constexpr bool is_differentiated = false;
 template <int K>
 inline constexpr bool is_differentiated<Jet<K>> = true;
 template <int K>
-inline constexpr bool is_differentiated<Tangent<K>> = true;
+inline constexpr bool is_differentiated<HyperDual<K>> = true;
 template <class T>
 concept AnyDifferentiated = is_differentiated<T>;
 /// The same, preferred where both say so (see not_of_std.h).

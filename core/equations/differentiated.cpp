@@ -17,12 +17,13 @@ constexpr std::size_t elements_at_once = 8;
 
 [[nodiscard]] std::size_t size(int n) { return static_cast<std::size_t>(n); }
 
-/// 0, or NaN if one of them is not finite: comparisons one after another would take longer.
+/// 0, or NaN if one of them is not finite: comparisons one after another would take longer. (A number beside
+/// an odd K is 0, or not finite where others are not.)
 template <int K>
 [[nodiscard]] double zero_of(const Lanes<K>& x) {
-  double zero = 0.0;
-  for (int j = 0; j < K; ++j) zero += 0.0 * x[j];
-  return zero;
+  Pair zero = 0.0 * x.p[0];
+  DALEMBERT_UNROLL for (int i = 1; i < Lanes<K>::pairs; ++i) zero += 0.0 * x.p[i];
+  return zero[0] + zero[1];
 }
 
 }  // namespace
@@ -187,7 +188,7 @@ struct DifferentiatedEquations::Linearisation {
   int together = Branches::heard() ? 1 : inputs;  ///< directions in one pass
   // Of the rows along directions; inputs and rates; per row psi_r; of lambda times all rows the second
   // derivatives.
-  Tangent<K>* tangents = nullptr;
+  HyperDual<K>* duals = nullptr;
   double *x = nullptr, *v = nullptr, *zeros = nullptr, *psi_r = nullptr, *sums = nullptr;
   double *slopes = nullptr, *curvatures = nullptr;
 
@@ -205,16 +206,16 @@ struct DifferentiatedEquations::Linearisation {
              .v_s = v_s,
              .at = own.in_order_.data(),
              .first = first,
-             .out = tangents};
-    run(its.tangents, one);
+             .out = duals};
+    run(its.duals, one);
   }
 
   void run_through(double* psi_q, double* block) {
     const std::size_t n = size(inputs), numbers = size(rows);
-    Scratch room(Scratch::size_of<Tangent<K>>(numbers * n) + 2 * Scratch::size_of<double>(n) +
+    Scratch room(Scratch::size_of<HyperDual<K>>(numbers * n) + 2 * Scratch::size_of<double>(n) +
                  Scratch::size_of<double>(numbers * n) + 2 * Scratch::size_of<double>(n * n) +
                  2 * Scratch::size_of<double>(numbers));
-    tangents = room.template take<Tangent<K>>(numbers * n);
+    duals = room.template take<HyperDual<K>>(numbers * n);
     x = room.template take<double>(n);
     v = room.template take<double>(n);
     psi_r = room.template take<double>(numbers * n);
@@ -227,7 +228,7 @@ struct DifferentiatedEquations::Linearisation {
       while (k < inputs) {
         const int count = std::min(together, inputs - k);
         pass(own.directions_.data() + k * inputs, nullptr, count, 0.0, first);
-        for (int c = 0; c < count; ++c) add_second(tangents + c * rows, k + c, first);
+        for (int c = 0; c < count; ++c) add_second(duals + c * rows, k + c, first);
         k += count;
       }
     }
@@ -248,11 +249,11 @@ struct DifferentiatedEquations::Linearisation {
   }
 
   /// What the derivatives of the rows along input k contribute.
-  void add_second(const Tangent<K>* row, int k, int first) const {
+  void add_second(const HyperDual<K>* row, int k, int first) const {
     const int here = std::min(K, inputs - first);
     double zero = 0.0;
     for (int r = 0; r < rows; ++r) {
-      const Tangent<K>& g = row[r];
+      const HyperDual<K>& g = row[r];
       double* const sum = sums + k * inputs + first;
       for (int j = 0; j < here; ++j) sum[j] += lambda[r] * g.zs[j];
       for (int j = 0; j < here; ++j) zero += 0.0 * g.zs[j];
@@ -275,8 +276,8 @@ struct DifferentiatedEquations::Linearisation {
       pass(v, nullptr, 1, 1.0, first);
       for (int r = 0; r < rows; ++r) {
         for (int j = 0; j < std::min(K, inputs - first); ++j) {
-          psi_r[r * inputs + first + j] = tangents[r].zs[j];
-          require_finite(std::isfinite(tangents[r].zs[j]), i, "has no finite second derivative");
+          psi_r[r * inputs + first + j] = duals[r].zs[j];
+          require_finite(std::isfinite(duals[r].zs[j]), i, "has no finite second derivative");
         }
       }
     }
@@ -294,7 +295,7 @@ struct DifferentiatedEquations::Linearisation {
     for (int first = 0; first < inputs; first += K) {
       for (int k = 0; k < inputs; k += together) {
         pass(zeros, own.directions_.data() + k * inputs, together, 0.0, first);
-        const Tangent<K>* g = tangents;
+        const HyperDual<K>* g = duals;
         for (int c = 0; c < together; ++c) {
           for (int r = 0; r < rows; ++r, ++g) {
             for (int j = 0; j < std::min(K, inputs - first); ++j) {

@@ -46,7 +46,7 @@ struct EquationType {
   bool on_velocities;
   std::string_view singular;  ///< what it means if the gradient vanishes or has no value, if that is known
   void (*jets)(Pass&);
-  void (*tangents)(Pass&);
+  void (*duals)(Pass&);
 
   [[nodiscard]] bool timed() const { return variables > elements.inputs; }
 };
@@ -85,8 +85,9 @@ DALEMBERT_INLINE void next(Pass& pass) {
   }
 }
 
+/// (Flat: a user's lambda that stays a call at -O2 has its arguments in memory, which takes twice as long.)
 template <class Q, class S>
-void run_pass(Pass& pass) {
+[[gnu::flatten]] void run_pass(Pass& pass) {
   constexpr int n = Q::inputs;
   auto* out = static_cast<S*>(pass.out);
   for (; pass.count > 0; --pass.count, out += Q::rows, next<n>(pass)) {
@@ -124,7 +125,7 @@ template <class Q>
           Q::on_velocities,
           singular,
           &run_pass<Q, Jet<Q::directions>>,
-          &run_pass<Q, Tangent<Q::directions>>};
+          &run_pass<Q, HyperDual<Q::directions>>};
 }
 
 }  // namespace dalembert::detail

@@ -53,7 +53,7 @@ template <class F, class S, class... A>
 
 /// The scalars that a Lagrangian is differentiated with, by (q, v, t) and along one velocity.
 template <int N>
-using LagrangeScalar = Tangent<directions_for(2 * N + 1)>;
+using LagrangeScalar = HyperDual<directions_for(2 * N + 1)>;
 
 template <int N, class F, class S = LagrangeScalar<N>>
 inline constexpr bool takes_time_first = requires(const F& f, const S& t, const VecOf<S, N>& x) {

@@ -27,7 +27,7 @@ struct Function {
   Arguments<double> x;
   double (*number)(const Arguments<double>&);
   Jet<k> (*jet)(const Arguments<Jet<k>>&);
-  Tangent<k> (*tangent)(const Arguments<Tangent<k>>&);
+  HyperDual<k> (*tangent)(const Arguments<HyperDual<k>>&);
 
   template <class F>
   Function(std::string n, const Arguments<double>& at, F f)
@@ -58,10 +58,10 @@ void expect_derivatives(const Function<k>& f) {
   for (int i = 0; i < k; ++i) v[i] = 0.3 + 0.2 * i;
   const auto jet = [&](double s) { return f.jet(inputs<Jet<k>>(VecOf<double, k>(f.x + s * v), v)); };
   const auto tangent = [&](const VecOf<double, k>& x, const VecOf<double, k>& along) {
-    return f.tangent(inputs<Tangent<k>>(x, along));
+    return f.tangent(inputs<HyperDual<k>>(x, along));
   };
   const Jet<k> y = jet(0.0);
-  const Tangent<k> y_t = tangent(f.x, v);
+  const HyperDual<k> y_t = tangent(f.x, v);
   EXPECT_DOUBLE_EQ(y.value, f.number(f.x)) << f.name;
   EXPECT_EQ(y_t.value, y.value) << f.name;
   EXPECT_DOUBLE_EQ(y_t.s, y.s) << f.name;
@@ -204,7 +204,7 @@ TEST(Derivatives, OfVectorAlgebraAreThoseOfItsFormulas) {
 }
 
 TEST(Derivatives, AutoTypedPartsOfAFormulaOutliveTheirExpression) {
-  using S = Tangent<2>;
+  using S = HyperDual<2>;
   const S x = S::input(3.0, 0, 1.0);
   const S y = S::input(4.0, 1);
   auto s = x * y + 1.0;  // with expression templates: a reference to the dead x * y
