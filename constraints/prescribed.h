@@ -20,7 +20,7 @@ struct Prescribed {
   Motion motion;
 
   auto points() const { return std::tie(point); }
-  auto operator()(const auto& t, const auto& r) const { return (r - motion(t)).eval(); }
+  auto operator()(const auto& t, const auto& r) const { return r - motion(t); }
 };
 template <class P, class Motion>
 Prescribed(P, Motion) -> Prescribed<P, Motion>;

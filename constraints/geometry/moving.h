@@ -29,7 +29,7 @@ struct Translating {
   Surface surface;
   Path path;
 
-  auto operator()(const auto& t, const auto& r) const { return surface((r - path(t)).eval()); }
+  auto operator()(const auto& t, const auto& r) const { return surface(r - path(t)); }
   [[nodiscard]] std::string fault() const { return detail::fault_of(surface); }
 };
 template <class Surface, class Path>
@@ -49,8 +49,8 @@ struct Rotating {
     const auto phi = angle(t);
     const auto c = cos(phi);
     const auto s = sin(phi);
-    const auto d = (r - centre).eval();
-    return curve((centre + vec(c * d.x() + s * d.y(), c * d.y() - s * d.x())).eval());
+    const auto d = r - centre;
+    return curve(centre + vec(c * d.x() + s * d.y(), c * d.y() - s * d.x()));
   }
   [[nodiscard]] std::string fault() const { return detail::fault_of(curve); }
 };
@@ -70,10 +70,10 @@ struct RotatingAbout {
     using std::sin;
     const Vec<3> e = axis.direction.normalized();
     const auto phi = angle(t);
-    const auto d = (r - axis.point).eval();
+    const auto d = r - axis.point;
     // Rodrigues' rotation by -phi.
-    const auto turned = (cos(phi) * d - sin(phi) * e.cross(d) + (1.0 - cos(phi)) * e.dot(d) * e).eval();
-    return surface((axis.point + turned).eval());
+    const auto turned = cos(phi) * d - sin(phi) * e.cross(d) + (1.0 - cos(phi)) * e.dot(d) * e;
+    return surface(axis.point + turned);
   }
   [[nodiscard]] std::string fault() const { return detail::fault_of(surface); }
 };

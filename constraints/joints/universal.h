@@ -29,7 +29,7 @@ struct Universal {
     return std::tie(frames.a.origin, frames.a.axes[0], frames.b.origin, frames.b.axes[1]);
   }
   auto operator()(const auto& c_a, const auto& x_a, const auto& c_b, const auto& y_b) const {
-    const auto d = (c_b - c_a).eval();
+    const auto d = c_b - c_a;
     return vec(d.x(), d.y(), d.z(), x_a.dot(y_b) / (frames.length * frames.length));
   }
   [[nodiscard]] std::string fault() const {
