@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/core/autodiff/arithmetic.h>
 #include <dalembert/core/vec.h>
 
 #include <cmath>
@@ -11,8 +12,8 @@
 ///   a b      :  f_z = b a_z + a b_z,      f_zs = b a_zs + a b_zs + a_s b_z + b_s a_z               (2)
 ///
 /// Two types, as an equation is evaluated in two ways: `Jet` for its residual with gradient and bias in
-/// one pass, `HyperDual` for a column of its second derivatives. All pairs of directions at once, as a Hessian,
-/// would be a third type to compile for every equation, and for six inputs slower than six passes.
+/// one pass, `HyperDual` for a column of its second derivatives. All pairs of directions at once, as a
+/// Hessian, would be a third type to compile for every equation, and for six inputs slower than six passes.
 ///
 /// Derivatives in several directions are held in pairs for the processor's vector unit, written out: a
 /// compiler that is to find them by itself does so at -O3 only, and not always well. Every operation returns
@@ -72,7 +73,7 @@ struct Lanes {
 /// A value with its derivatives in K directions, and its first and second one along the motion:
 /// f, f_s, f_ss and f_z.
 template <int K>
-struct Jet {
+struct Jet : detail::Arithmetic<Jet<K>> {
   double value, s, ss;
   detail::Lanes<K> z;
 
@@ -124,7 +125,7 @@ struct Jet {
 /// A value with its derivatives in K directions, and those of all of these along one more direction:
 /// f, f_s, f_z and f_zs.
 template <int K>
-struct HyperDual {
+struct HyperDual : detail::Arithmetic<HyperDual<K>> {
   double value, s;
   detail::Lanes<K> z, zs;
 
@@ -137,7 +138,8 @@ struct HyperDual {
   [[nodiscard]] DALEMBERT_INLINE static HyperDual input(double value, int lane, double rate = 0.0) {
     return {value, rate, detail::Lanes<K>::unit(lane), detail::Lanes<K>::zero()};
   }
-  [[nodiscard]] DALEMBERT_INLINE static HyperDual chain(const HyperDual& a, double f, double f_a, double f_aa) {
+  [[nodiscard]] DALEMBERT_INLINE static HyperDual chain(const HyperDual& a, double f, double f_a,
+                                                        double f_aa) {
     return {f, f_a * a.s, f_a * a.z, f_a * a.zs + (f_aa * a.s) * a.z};
   }
   [[nodiscard]] DALEMBERT_INLINE static HyperDual sum(const HyperDual& a, const HyperDual& b) {

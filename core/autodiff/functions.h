@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/core/autodiff/operators.h>
+#include <dalembert/core/autodiff/derivatives.h>
 
 #include <cmath>
 #include <concepts>

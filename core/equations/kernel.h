@@ -32,7 +32,7 @@ struct Pass {
 template <class F>
 void with_directions(int directions, const F& f) {
   const auto one_of = [&]<int... K>(std::integer_sequence<int, K...>) {
-    ((directions == K + 1 && (f(std::integral_constant<int, K + 1>{}), true)) || ...);
+    (void)((directions == K + 1 && (f(std::integral_constant<int, K + 1>{}), true)) || ...);
   };
   one_of(std::make_integer_sequence<int, 9>{});
 }
