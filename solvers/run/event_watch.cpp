@@ -127,7 +127,8 @@ void EventWatch::find(std::size_t event, const Step& step, const std::vector<Int
   }
 }
 
-/// Whether an interpolant shows a function of the motion. (What would take the whole step to reach 0, at its
+/// Whether an interpolant shows a function of contacts, to the root of the tolerance: rates and the slopes of
+/// positions differ by what steps err by. (What would take the whole step to reach 0, at its
 /// largest rate, does not reach it.)
 bool EventWatch::shows(std::size_t event, const Values& values) const {
   double fastest = 0.0, least = std::numeric_limits<double>::infinity();
@@ -135,21 +136,20 @@ bool EventWatch::shows(std::size_t event, const Values& values) const {
   for (const double value : values.whole.values) least = std::min(least, value);
   const double length = values.whole.nodes.back() - values.whole.nodes.front();
   return fastest * length < least ||
-         agrees_in_slope(values.whole, values.rates, round_off() * largest_[event]);
+         agrees_in_slope(values.whole, values.rates, std::sqrt(tolerance_) * largest_[event]);
 }
 
-/// The interpolants that show a function. Those of contacts that depend on time are known as forces are, to
-/// the root of the tolerance.
+/// The interpolants that show a function. Those of contacts are known as forces are, to the root of the
+/// tolerance.
 std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& step, Values values) {
   const auto function = [&](double t) { return value(event, step.read(t)); };
   constexpr std::size_t most_parts = 4096;  // of a step: some hundred periods are still resolved
-  double known = event < asked_for_ ? round_off() : std::sqrt(tolerance_);
+  const double known = event < asked_for_ ? round_off() : std::sqrt(tolerance_);
   if (event >= resolved_) {
     if (shows(event, values)) return {std::move(values.whole)};
     const int degree = std::max(step.degree, least_degree);
     values.whole = interpolate(function, from_, step.to, degree);
     for (const double t : check_times(from_, step.to, degree)) values.at_checks.push_back(function(t));
-    known = round_off();
   }
   std::vector<Interpolant> parts;
   const auto collect = [&](const Interpolant& part) {

@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 
 with tempfile.TemporaryDirectory() as folder:
-    subprocess.run([sys.argv[1]], cwd=folder, check=True)
+    subprocess.run([sys.argv[1], "exports-1"], cwd=folder, check=True)
     with h5py.File(os.path.join(folder, "pendulum.h5")) as file:
         run = {name: column[:] for name, column in file["samples"].items()}
         dimension = {name: column.attrs["dimension"] for name, column in file["samples"].items()}
