@@ -1,5 +1,4 @@
 #include "dalembert/core/results/trajectory.h"
-
 #include <dalembert/core/results/columns.h>
 
 #include <fstream>
