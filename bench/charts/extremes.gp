@@ -22,7 +22,7 @@ taken(stepper) = mine(stepper) && column("steps") > 0 ? column("steps") : NaN
 
 stepped(name) = int(system(sprintf("awk -F, '$1 == \"%s\" && $6 > 0 { n++ } END { print n + 0 }' '%s'", name, csv)))
 # The last column, in quotes if it has a comma.
-varied(name) = system(sprintf("awk -F, '$1 == \"%s\"' '%s' | head -1 | cut -d, -f9- | tr -d '\"'", name, csv))
+varied(name) = system(sprintf("awk -F, '$1 == \"%s\"' '%s' | sed -n 1p | cut -d, -f9- | tr -d '\"'", name, csv))
 
 set logscale xy
 set offsets graph 0.08, graph 0.08, graph 0.08, graph 0.08

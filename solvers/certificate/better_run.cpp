@@ -10,9 +10,6 @@ namespace dalembert {
 
 namespace {
 
-/// With it estimates are within 5 % of the true errors at 1.3 to 1.8 times the cost of the run; at a tenth
-/// they were 0.2 to 1.1 of them.
-constexpr double of_the_tolerance = 0.01;
 constexpr long steps_for_nothing = 100;  // take no longer than the start of a run
 
 FinishedRun explicit_or_implicit(const Run& run, const Options& options, long most_steps) {
@@ -46,8 +43,8 @@ std::pair<FinishedRun, FinishedRun> finish_both(const Run& run, const Options& a
   return {std::move(first), second.get()};
 }
 
-Options tighter(Options options, Stepper by) {
-  options.tolerance = std::max(of_the_tolerance * options.tolerance, smallest_tolerance);
+Options tighter(Options options, Stepper by, double part) {
+  options.tolerance = std::max(part * options.tolerance, smallest_tolerance);
   options.stepper = by;
   options.dense = options.ledger = false;
   return options;

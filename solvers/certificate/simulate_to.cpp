@@ -20,6 +20,12 @@ constexpr double usual_error = 20.0;
 constexpr double loosest = 1e-2;
 /// What a tolerance is chosen for, as a part of the request: errors follow it to a factor of 2.
 constexpr double aim = 0.5;
+/// The second run's part of the tolerance. Runs of order 8 at T and T/30 cost 1 + 30^(1/8) = 2.53 times the
+/// first, at T/100 2.78 times; the estimate is right to a thirtieth in place of a hundredth, a small part of
+/// what `aim` leaves.
+constexpr double of_certifying = 1.0 / 30.0;
+/// Errors that follow the tolerance less than its square root are not looked for.
+constexpr double least_power = 0.5;
 constexpr int most_attempts = 8;
 /// A run that one at the least tolerance of all still certifies.
 constexpr double least = 2.0 * smallest_tolerance / TwoRuns::most_of_better;
@@ -103,7 +109,7 @@ class Approach {
 
   void begin() {
     options_.tolerance = first_tolerance();
-    Options first = options_, second = tighter(options_, options_.stepper);
+    Options first = options_, second = certifying(options_);
     first.max_steps = second.max_steps = std::min(telling_steps, options_.max_steps);
     take(finish_both(run_, first, second));
     const bool stopped = !run_of_first_.stopped.empty();
@@ -111,6 +117,10 @@ class Approach {
     if (is_stiff(stopped ? run_of_first_ : better_)) options_.stepper = Stepper::ida;
     begin_pair();
     if (run_of_first_.failure) std::rethrow_exception(run_of_first_.failure);
+  }
+
+  static Options certifying(const Options& options) {
+    return tighter(options, options.stepper, of_certifying);
   }
 
   /// Whether an explicit run, which was cut short, would take more steps than an implicit one.
@@ -126,7 +136,7 @@ class Approach {
   }
 
   /// A run at the tolerance of the options, and one to certify it.
-  void begin_pair() { take(finish_both(run_, options_, tighter(options_, options_.stepper))); }
+  void begin_pair() { take(finish_both(run_, options_, certifying(options_))); }
 
   void take(std::pair<FinishedRun, FinishedRun> pair) {
     run_of_first_ = count(std::move(pair.first));
@@ -183,23 +193,34 @@ class Approach {
     if (claims_are_too_close() && of_better > smallest_tolerance) {
       Options next = options_;
       next.tolerance = of_better;
-      better_ = count(finish(run_, tighter(next, options_.stepper)));
+      better_ = count(finish(run_, certifying(next)));
       return true;
     }
     if (options_.tolerance <= least) return false;
-    const double wanted = std::isfinite(excess_) ? std::max(aim / excess_, 1e-4) : 1e-2;
+    const double wanted =
+        std::isfinite(excess_) ? std::max(std::pow(aim / excess_, 1.0 / power()), 1e-4) : 1e-2;
+    excess_before_ = excess_;
+    tolerance_before_ = options_.tolerance;
     const double next = std::max(wanted * options_.tolerance, least);
     if (better_.stopped.empty() && serves_at(next)) {
       options_.tolerance = next;  // the more accurate run still is
       run_of_first_ = count(finish(run_, options_));
     } else if (next >= of_better && better_.stopped.empty()) {
       options_.tolerance = of_better;
-      run_of_first_ = std::exchange(better_, count(finish(run_, tighter(options_, options_.stepper))));
+      run_of_first_ = std::exchange(better_, count(finish(run_, certifying(options_))));
     } else {
       options_.tolerance = next;
       begin_pair();
     }
     return true;
+  }
+
+  /// Of the tolerance, that errors follow: 1, but near a singular position forces are known to its square
+  /// root. By the last two runs.
+  [[nodiscard]] double power() const {
+    if (!std::isfinite(excess_before_) || !(options_.tolerance < tolerance_before_)) return 1.0;
+    const double seen = std::log(excess_before_ / excess_) / std::log(tolerance_before_ / options_.tolerance);
+    return std::clamp(seen, least_power, 1.0);
   }
 
   [[nodiscard]] std::string words() const {
@@ -222,6 +243,7 @@ class Approach {
   FinishedRun run_of_first_, better_;
   std::optional<TwoRuns> best_;
   double excess_ = 0.0, best_excess_ = 0.0;
+  double excess_before_ = std::numeric_limits<double>::infinity(), tolerance_before_ = 0.0;
   int attempts_ = 0;
 };
 

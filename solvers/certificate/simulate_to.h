@@ -44,9 +44,9 @@ struct SimulatedTo {
 };
 
 /// Chooses the stepper and the tolerance so that the certificate of a run meets the request: explicit unless
-/// the scene is stiff, first a tolerance as errors usually are, then one by the errors that were found; a
-/// more accurate run serves as long as it is. Throws InvalidArgument for a request that makes no sense, else
-/// what `simulate` throws.
+/// the scene is stiff, first a tolerance as errors usually are, then one by the errors that were found. Each
+/// is certified by a run at a thirtieth of its tolerance; a more accurate run serves as long as it is. Throws
+/// InvalidArgument for a request that makes no sense, else what `simulate` throws.
 template <int D>
 [[nodiscard]] SimulatedTo<D> simulate_to(const Scene<D>& scene, const Request& request,
                                          const std::vector<Event<D>>& events = {});

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace dalembert::certificate_test {
 namespace {
@@ -74,6 +75,91 @@ TEST_P(CertificateBy, TellsTheErrorsOfAPendulum) {
     EXPECT_EQ(certificate.largest().position.error, position_error);
     EXPECT_EQ(certificate.largest().force.error, tension_error);
   }
+}
+
+/// A block on a spring and a rough line: half-turns of a circular function about +-mu m g/k, each ended by a
+/// turn, until the spring holds less than friction; by hand.
+TEST_P(CertificateBy, TellsTheErrorsOfFriction) {
+  const double m = 2.0, g = 9.81, k = 50.0, mu = 0.2, x0 = 0.5;
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto block = scene.add_particle({.mass = m, .position = {x0, 0.0}}, "block");
+  const Plane<2> plane;
+  const auto floor = scene.add(OnCurve{block, plane}, "floor");
+  const auto rough = scene.add(coulomb(floor, Slip{block, plane}, mu, mu), "rough");
+  scene.add(force_law(points(block), [=](auto, auto x, auto) { return (Vec<2>{-k, 0.0} * x[0]).eval(); }));
+  const auto certificate = certify(scene, {.t_end = 4.0, .tolerance = 1e-6, .stepper = GetParam()});
+  ASSERT_TRUE(certificate.complete()) << certificate.statement();
+  const auto& run = certificate.run();
+  const double omega = std::sqrt(k / m), half_turn = std::numbers::pi / omega, hold = mu * m * g / k;
+  double position = 0.0, force = 0.0, position_error = 0.0, force_error = 0.0;
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    double from = x0, t = run.times()[i], x = from, friction = 0.0;
+    for (double sign = 1.0;; sign = -sign) {
+      if (std::abs(from) <= hold) {  // it stays
+        x = from;
+        friction = k * from;
+        break;
+      }
+      x = sign * hold + (from - sign * hold) * std::cos(omega * std::min(t, half_turn));
+      friction = sign * mu * m * g;
+      if (t <= half_turn) break;
+      from = x;
+      t -= half_turn;
+    }
+    position = std::max(position, std::abs(run.position(block, i).x() - x));
+    if (i > 0) force = std::max(force, std::abs(run.constraint_force(rough, block, i).x() - friction));
+    position_error = std::max(position_error, certificate.position_error(block, i));
+    force_error = std::max(force_error, certificate.multiplier_error(rough, i));
+  }
+  expect_within_a_fifth(position_error, position, "position");
+  expect_within_a_fifth(force_error, force, "friction");
+}
+
+/// m e'' = m g - e/C from e = 0 at rest: the force e/C is m g (1 - cos w t).
+TEST_P(CertificateBy, TellsTheErrorsOfACompliantRod) {
+  const double m = 1.0, g = 9.81, stiffness = 400.0;
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto bob = scene.add_particle({.mass = m, .position = {0.0, -1.0}}, "bob");
+  const auto rod = scene.add(compliant(Distance{Fixed<2>{{0.0, 0.0}}, bob, 1.0}, 1.0 / stiffness), "rod");
+  const auto certificate =
+      certify(scene, {.t_end = 3.1, .samples = 8, .tolerance = 1e-6, .stepper = GetParam()});
+  ASSERT_TRUE(certificate.complete()) << certificate.statement();
+  const auto& run = certificate.run();
+  double tension = 0.0, tension_error = 0.0;
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const double due = m * g * (1.0 - std::cos(std::sqrt(stiffness / m) * run.times()[i]));
+    tension = std::max(tension, std::abs(-run.multiplier(rod, i) - due));
+    tension_error = std::max(tension_error, certificate.multiplier_error(rod, i));
+  }
+  expect_within_a_fifth(tension_error, tension, "tension");
+}
+
+/// Two equal rods side by side share a tension in a way that the motion does not determine; the sum is the
+/// one of a pendulum, and so are the positions.
+TEST_P(CertificateBy, TellsTheErrorsOfARedundantPendulum) {
+  const models::PlanePendulum model;
+  const auto built = model.scene();
+  Scene<2> scene = built.scene;
+  const auto bead = built.beads.front();
+  const auto second = scene.add(Distance{Fixed<2>{{0.0, 0.0}}, bead, model.length}, "second rod");
+  const auto certificate = certify(scene, {.t_end = 5.0, .tolerance = 1e-6, .stepper = GetParam()});
+  ASSERT_TRUE(certificate.complete()) << certificate.statement();
+  const auto& run = certificate.run();
+  double position = 0.0, position_error = 0.0, tension = 0.0, tension_error = 0.0;
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const auto due = model.reference(run.times()[i]);
+    const auto sum = [&](const Sample<2>& now) {
+      return -now.multiplier(built.rods.front()) - now.multiplier(second);
+    };
+    position = std::max(position, (run.position(bead, i) - due.positions[0]).norm());
+    position_error = std::max(position_error, certificate.position_error(bead, i));
+    tension = std::max(tension, std::abs(sum(run.sample(i)) - due.forces[0]));
+    tension_error = std::max(tension_error, certificate.error(sum, i));
+  }
+  expect_within_a_fifth(position_error, position, "position");
+  expect_within_a_fifth(tension_error, tension, "tension");
 }
 
 TEST_P(CertificateBy, HandsOutTheRunThatWasAskedFor) {
