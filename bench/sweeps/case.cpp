@@ -5,8 +5,12 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <condition_variable>
 #include <fstream>
 #include <iostream>
+#include <mutex>
+#include <stop_token>
+#include <thread>
 
 namespace dalembert::bench {
 
@@ -48,7 +52,14 @@ double bare(const Example& example, const std::string& file) {
 void sweep_case(const std::string& name, std::size_t rows, int threads, std::size_t bad,
                 const std::string& file) {
   const Example example = example_of(name, rows, bad);
-  if (threads == 0) {
+  if (threads <= 0) {
+    // It only has to be there: glibc's allocator takes locks from then on.
+    const std::jthread idle = threads < 0 ? std::jthread([](const std::stop_token& over) {
+      std::mutex mutex;
+      std::unique_lock lock(mutex);
+      std::condition_variable_any().wait(lock, over, [] { return false; });
+    })
+                                          : std::jthread();
     const double seconds = bare(example, file);
     std::cout << seconds << " 0 " << peak_memory() << '\n';
     return;

@@ -44,7 +44,8 @@ int main(int argc, char** argv) try {
       app.add_subcommand("case", "One sweep: prints run time [s], failed rows, peak memory [MiB]");
   one->add_option("example", example, "pendulums, flips, kapitza, kapitza-boundary or governors")->required();
   one->add_option("--rows", rows, "Or points along either axis")->capture_default_str();
-  one->add_option("--threads", threads, "0: a bare loop without a sweep")->capture_default_str();
+  one->add_option("--threads", threads, "0: a bare loop without a sweep; -1: beside an idle thread")
+      ->capture_default_str();
   one->add_option("--bad", bad, "Each so many pendulums fail; 0: none")->capture_default_str();
   one->add_option("--file", file, "The dataset")->required();
 

@@ -37,7 +37,9 @@ void print(const char* what, double microseconds) { std::printf("%-58s %8.2f us\
 /// What the model in docs/sweeps.md is made of. Of one process: a row, a chunk in the book and the journal,
 /// and a row in the dataset; by mpirun: a chunk of another rank.
 void sweep_overhead(const std::string& file) {
+  const double begin = now();
   const auto ranks = join_ranks();
+  const double joined = now();
   constexpr std::size_t chunks = 20'000, rows = 1'000'000;
   if (ranks->size() > 1) {
     if (ranks->rank() == 0) {
@@ -45,6 +47,7 @@ void sweep_overhead(const std::string& file) {
       Book book(journal, chunks, ranks->size() - 1);
       const double start = now(), busy = processor_time();
       ranks->serve(book);
+      print("the start of MPI, once", 1e6 * (joined - begin));
       print("a chunk of another rank: processor time of the book", 1e6 * (processor_time() - busy) / chunks);
       print("a chunk of another rank: from hand-out to hand-out",
             1e6 * (now() - start) / chunks * (ranks->size() - 1));

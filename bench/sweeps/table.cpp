@@ -51,7 +51,7 @@ class Folder {
 struct Case {
   std::string name, example;
   std::size_t rows;
-  int threads, ranks;  ///< 0 threads: the bare loop; 0 ranks: without mpirun
+  int threads, ranks;  ///< 0 threads: the bare loop, -1: beside an idle thread; 0 ranks: without mpirun
   std::size_t bad = 0;
 
   [[nodiscard]] std::vector<std::string> arguments(const std::string& file) const {
@@ -147,9 +147,11 @@ bool same_numbers(const std::string& dataset, const std::string& bare) {
 /// The timed cases in turn, round after round; each is compared with the bare loop of its own round.
 void timed(const SweepTable& options, const Folder& folder, Report& report) {
   std::vector<Case> cases{{"bare-loop", "pendulums", options.rows, 0, 0},
+                          {"beside-an-idle-thread", "pendulums", options.rows, -1, 0},
                           {"1-thread", "pendulums", options.rows, 1, 0},
                           {"2-threads", "pendulums", options.rows, 2, 0}};
   if (has_mpirun()) cases.push_back({"2-ranks", "pendulums", options.rows, 1, 2});
+  constexpr std::size_t first_sweep = 2;
   std::vector<std::vector<double>> seconds(cases.size()), efficiency(cases.size());
   std::vector<Measured> last(cases.size());
   std::vector<char> same(cases.size(), 1);
@@ -157,13 +159,15 @@ void timed(const SweepTable& options, const Folder& folder, Report& report) {
   for (int round = 0; round < options.rounds; ++round) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       progress.next(cases[i].name);
-      const std::string file = folder / (i == 1 ? "whole.h5" : "timed.h5"), bare = folder / "bare";
-      remove(i == 0 ? bare : file);
-      last[i] = run(cases[i], i == 0 ? bare : file);
+      const bool is_sweep = cases[i].threads > 0;
+      const std::string file = folder / (!is_sweep ? "bare" : i == first_sweep ? "whole.h5" : "timed.h5");
+      remove(file);
+      last[i] = run(cases[i], file);
       seconds[i].push_back(last[i].seconds);
       efficiency[i].push_back(seconds[0].back() / (last[i].seconds * cases[i].workers()));
-      if (i > 0)
-        same[i] = same[i] != 0 && same_numbers(file, bare) && bytes_of(file) == bytes_of(folder / "whole.h5");
+      if (is_sweep)
+        same[i] = same[i] != 0 && same_numbers(file, folder / "bare") &&
+                  bytes_of(file) == bytes_of(folder / "whole.h5");
     }
   }
   for (std::size_t i = 0; i < cases.size(); ++i) {
