@@ -35,7 +35,9 @@ TEST(Reversible, DiskIsStableAboveItsCriticalSpin) {
     const auto modes = modes_of(straight(times).scene().scene);
     EXPECT_EQ(modes.stability(), std::abs(times) > 1.0 ? Stability::stable : Stability::unstable)
         << times << ": " << modes.describe();
-    if (std::abs(times) > 1.0) EXPECT_THAT(modes.describe(), HasSubstr("its own mirror image run backwards"));
+    if (modes.stability() == Stability::stable) {
+      EXPECT_THAT(modes.describe(), HasSubstr("its own mirror image run backwards"));
+    }
   }
 }
 
@@ -67,19 +69,20 @@ TEST(Reversible, DiskSpinningInPlaceIsStableAboveAnotherSpin) {
 
 TEST(Reversible, StableDiskStaysNearInTime) {
   // Motions about it are closed up to symmetries: the largest lean is the same in the first and the last of
-  // some 60 vibrations, to the error of the run, which grows by no more than the time.
+  // some 20 vibrations, to the error of the run, which grows by no more than the time.
   auto disk = straight(1.2);
   disk.lean += 0.02;
   disk.lean_rate = 0.05;
   const auto built = disk.scene();
   constexpr double tolerance = 1e-9;
-  const auto run = simulate(built.scene, {.t_end = 200.0, .samples = 40001, .tolerance = tolerance});
+  const auto run = simulate(
+      built.scene, {.t_end = 60.0, .samples = 12001, .tolerance = tolerance, .stepper = Stepper::erk});
   std::vector<double> most(4, 0.0);
-  for (std::size_t i = 0; i < 40000; ++i) {
+  for (std::size_t i = 0; i < 12000; ++i) {
     const Vec<3> centre = run.position(built.disk.centre(), i);
     const Vec<3> axis =
         (run.position(built.marks[0], i) - centre).cross(run.position(built.marks[1], i) - centre);
-    most[i / 10000] = std::max(most[i / 10000], std::abs(axis.z()) / axis.norm());
+    most[i / 3000] = std::max(most[i / 3000], std::abs(axis.z()) / axis.norm());
   }
   EXPECT_GT(most[0], 0.02);
   EXPECT_LT(most[0], 0.2);
