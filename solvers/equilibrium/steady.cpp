@@ -48,12 +48,12 @@ class SteadySearch {
   }
 
   /// Below the root of round-off Newton's iteration leaves round-off: where nothing falls any more the state
-  /// before is the one that is known best. What two roundings leave, of what is stated and of what follows, is
-  /// stated exactly, and stays: beside a fast spin a correction by round-off displaces what is soft.
+  /// before is the one that is known best. What two roundings leave, of what is stated and of what follows,
+  /// is stated exactly, and stays: beside a fast spin a correction by round-off displaces what is soft.
   FoundSteady find() {
     constexpr int most_corrections = 50;
     constexpr double exact = 2.0 * epsilon;
-    double least = std::numeric_limits<double>::infinity();
+    double least = std::numeric_limits<double>::infinity(), before = least;
     Known best{q_, lambda_, y_};
     for (int i = 0; i < most_corrections; ++i) {
       const auto step = correction();
@@ -69,7 +69,8 @@ class SteadySearch {
         break;
       }
       correct(step);
-      if (step.size < epsilon) break;
+      if (step.size < epsilon || (step.size < 1e-9 && step.size >= 0.5 * before)) break;
+      before = step.size;
     }
     decompose(symmetries_.fields(q_) * y_);
     return finished();
