@@ -5,10 +5,15 @@
 #include <dalembert/solvers/manifold/manifold.h>
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace dalembert {
 
-NearbyState nearby_state(const Problem& problem, const Start& start, double time, int number, double way) {
+namespace {
+
+std::optional<NearbyState> found(const Problem& problem, const Start& start, double time, int number,
+                                 double way, bool moves) {
   const System& system = problem.system();
   const double L = start.scales.length, T = start.scales.time;
   const auto noise = [&](std::size_t i, int which) {
@@ -19,7 +24,7 @@ NearbyState nearby_state(const Problem& problem, const Start& start, double time
                   std::vector<double>(system.rows())};
     for (std::size_t i = 0; i < s.q.size(); ++i) {
       s.q[i] += way * start.scales.unit(i) * noise(i, 0);
-      if (number > 0) s.v[i] = start.v[i] + way * start.scales.unit(i) / T * noise(i, 1);
+      if (moves) s.v[i] = start.v[i] + way * start.scales.unit(i) / T * noise(i, 1);
     }
     try {
       Manifold manifold(problem, start.rows, start.scales.lengths());
@@ -30,9 +35,18 @@ NearbyState nearby_state(const Problem& problem, const Start& start, double time
       continue;
     }
   }
-  throw NoEquilibrium("Scene \"" + system.layout()->scene +
-                      "\": its symmetries were not found, since no states near the start satisfy its "
-                      "constraints");
+  return std::nullopt;
+}
+
+}  // namespace
+
+NearbyState nearby_state(const Problem& problem, const Start& start, double time, int number, double way) {
+  auto state = found(problem, start, time, number, way, number > 0);
+  if (!state && number == 0) state = found(problem, start, time, number, way, true);
+  if (state) return std::move(*state);
+  throw NoEquilibrium("Scene \"" + problem.system().layout()->scene +
+                      "\": its symmetries were not found, since near the start no states satisfy its "
+                      "constraints with forces that are numbers");
 }
 
 }  // namespace dalembert

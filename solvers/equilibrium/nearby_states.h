@@ -15,7 +15,8 @@ struct NearbyState {
 
 /// States near a start in which nothing is special: what holds in some of them of analytic equations holds in
 /// all. They are `way` of the scene's length off, or a quarter of it as often as it takes to be brought onto
-/// the constraints. The one of number 0 is at rest. Throws NoEquilibrium where there are none.
+/// the constraints. The one of number 0 is at rest, if there are forces at rest. Throws
+/// NoEquilibrium where there are none.
 [[nodiscard]] NearbyState nearby_state(const Problem& problem, const Start& start, double time, int number,
                                        double way);
 

@@ -198,6 +198,18 @@ TEST(Reversible, SleighGoesOnStraightWithItsEdgeBehindOnly) {
   }
 }
 
+TEST(Reversible, WhatHasNoForceAtRestIsSteadyAsItMoves) {
+  // A thrust along the way that balances the drag: m' u' = -0.1 u of the speed, m' = m + C/r^2 = 1.5.
+  const auto modes = modes_of(pushed(2.0, [](const auto&, const auto& v) {
+    const auto speed = sqrt(v.x() * v.x() + v.y() * v.y() + v.z() * v.z());
+    return ((0.1 * 0.5 * 2.0 * std::sqrt(g / 1.5) / speed - 0.1) * v).eval();
+  }));
+  double nearest = 1.0;
+  for (std::size_t k = 0; k < modes.size(); ++k)
+    nearest = std::min(nearest, std::abs(modes.eigenvalue(k) + 0.1 / 1.5));
+  EXPECT_LT(nearest, 1e-10);
+}
+
 TEST(Reversible, WhatNoForceBendsIsSteady) {
   // Its stiffness, and what would have to balance, are round-off of nothing.
   for (const double turning : {0.0, 2.0}) {
