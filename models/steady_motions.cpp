@@ -92,6 +92,7 @@ void rolling(std::vector<Compared>& all) {
     const std::string where = "at " + std::to_string(times).substr(0, 4) + " of the critical spin";
     add_mode(rows, where, modes, straight.frequency_squared());
     if (times > 1.0) add_stable(rows, ' ' + where, modes);
+    add_verdict(rows, where, modes, times > 1.0);
   }
   SpinningDisk leaning;
   leaning.spin = leaning.steady_spin();
@@ -99,6 +100,7 @@ void rolling(std::vector<Compared>& all) {
   const auto modes = normal_modes(scene, steady(scene));
   add_mode(rows, "leaning", modes, leaning.frequency_squared());
   add_stable(rows, " leaning", modes);
+  add_verdict(rows, "leaning", modes, true);
 }
 
 void precessing_top(std::vector<Compared>& all) {

@@ -154,12 +154,16 @@ ActiveRows Balance::rows_at(const State& s) const {
 /// Each coordinate has a shift of its own, a part of the stiffest spring on it, and where there is none of
 /// the stiffest in its uncoupled part of the scene: what is soft is not held by what is stiff elsewhere. The
 /// least that K's round-off allows serves where something is soft beside something stiff on the same
-/// coordinate.
+/// coordinate. Round-off of the rates of a motion that no force bends is neither a stiffness nor a force.
 void Balance::measure_stiffness(const State& s) {
   const LinearTerms terms = linear_terms(*system_, frame_, {time_, s.q, s.v}, s.lambda);
   const Islands& parts = problem_.islands();
-  std::vector<double> own(s.q.size(), 0.0), of_part(parts.count, 0.0);
+  std::vector<double> own(s.q.size(), 0.0), of_part(parts.count, 0.0), rate(parts.count, 0.0);
   least_force_.assign(s.q.size(), 0.0);
+  for (std::size_t i = 0; i < s.q.size(); ++i) {
+    double& fastest = rate[parts.of_coordinate[i]];
+    fastest = std::max(fastest, std::abs(s.v[i]) / scales_.unit(i));
+  }
   for (const auto& entry : terms.stiffness) {
     const auto row = entry.row(), column = entry.col();
     const double size = std::abs(entry.value()) / system_->masses()[row];
@@ -172,9 +176,11 @@ void Balance::measure_stiffness(const State& s) {
   shift_.resize(s.q.size());
   least_shift_.resize(s.q.size());
   for (std::size_t i = 0; i < s.q.size(); ++i) {
-    const double part = of_part[parts.of_coordinate[i]];
-    stiffest_[i] = part > 0.0 ? part : 1.0 / (scales_.time * scales_.time);
-    shift_[i] = constants.no_stiffness * (own[i] > 0.0 ? own[i] : stiffest_[i]);
+    const double part = of_part[parts.of_coordinate[i]], turning = rate[parts.of_coordinate[i]];
+    const double rounding = 10.0 * epsilon * turning * turning;
+    least_force_[i] += rounding * system_->masses()[i] * scales_.unit(i) / balanced;
+    stiffest_[i] = part > rounding ? part : 1.0 / (scales_.time * scales_.time);
+    shift_[i] = constants.no_stiffness * (own[i] > rounding ? own[i] : stiffest_[i]);
     least_shift_[i] = roundings * epsilon / constants.no_stiffness * shift_[i];
   }
   share_along_rows(terms.w);

@@ -4,6 +4,7 @@
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/balance.h>
 #include <dalembert/solvers/equilibrium/lowest_modes.h>
+#include <dalembert/solvers/equilibrium/reversible.h>
 #include <dalembert/solvers/equilibrium/singular_position.h>
 #include <dalembert/solvers/equilibrium/tangent_modes.h>
 #include <dalembert/solvers/linear/dense.h>
@@ -11,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
@@ -86,6 +89,14 @@ bool is_known(const Balance& balance, const FlatSample& at, const Mode& mode) {
   return true;
 }
 
+/// Whether nothing but the stiffness makes the eigenvalues.
+bool are_of_stiffness(const System& system, const LinearTerms& terms) {
+  bool all = std::ranges::all_of(terms.damping, [](const auto& d) { return d.value() == 0.0; });
+  for (std::size_t r = system.holonomic_rows(); r < system.rows(); ++r)
+    for (const std::size_t k : system.row(r)) all = all && terms.e[k] == 0.0;
+  return all;
+}
+
 /// What is not known counts as 0, to be decided by a finite motion.
 void drop_unknown(const Balance& balance, const FlatSample& at, Modes& found) {
   bool dropped = false;
@@ -97,8 +108,8 @@ void drop_unknown(const Balance& balance, const FlatSample& at, Modes& found) {
   const bool grows =
       std::ranges::any_of(found.modes, [](const Mode& m) { return m.eigenvalue.real() > 0.0; });
   if (!dropped || found.stability != Stability::unstable || grows) return;
-  found.stability = Stability::undecided;
-  found.reason = "the stiffness along a mode does not exceed its change within the round-off of positions";
+  found.stability = Stability::stable;
+  found.reason = "every mode decays or vibrates with positive energy";
 }
 
 void leave_undecided(Modes& found, const char* why) {
@@ -107,9 +118,17 @@ void leave_undecided(Modes& found, const char* why) {
   found.reason = why;
 }
 
+/// The uncoupled part of a scene that a mode belongs to.
+std::size_t part_of(const Mode& mode, const Islands& parts) {
+  const auto size = [](const std::complex<double>& x) { return std::abs(x); };
+  const auto most = std::ranges::max_element(mode.shape, {}, size);
+  return parts.of_coordinate[static_cast<std::size_t>(most - mode.shape.begin())];
+}
+
 /// Classifies the eigenvalues 0, with what they mean for the verdict.
-void name_zeros(const Balance& balance, const FlatSample& at, const UniformMotion* motion, Modes& found) {
-  bool all_free = true;
+void name_zeros(const Balance& balance, const FlatSample& at, const UniformMotion* motion,
+                const std::function<bool(const Mode&)>& stable_otherwise, Modes& found) {
+  bool all_decided = true;
   for (Mode& mode : found.modes) {
     if (mode.eigenvalue != 0.0) continue;
     try {
@@ -117,9 +136,9 @@ void name_zeros(const Balance& balance, const FlatSample& at, const UniformMotio
     } catch (const EquationFault&) {
       mode.free = false;
     }
-    all_free = all_free && mode.free;
+    all_decided = all_decided && (mode.free || stable_otherwise(mode));
   }
-  if (!all_free)
+  if (!all_decided)
     leave_undecided(found, "a mode of eigenvalue 0 is no free motion: terms of higher order decide");
 }
 
@@ -282,23 +301,31 @@ const char* name(Stability stability) {
 Modes find_modes(const System& system, const FlatSample& at, const Turning<3>& turning,
                  const ModesOptions& options, const UniformMotion* motion) {
   require_same_size(system, at);
-  const Balance balance = motion ? Balance(Problem(system), at.q, at.time, RotatingFrame(*motion))
-                                 : Balance(Problem(system), at.q, at.time, turning);
+  const Problem problem(system);
+  const Balance balance = motion ? Balance(problem, at.q, at.time, RotatingFrame(*motion))
+                                 : Balance(problem, at.q, at.time, turning);
   require_equilibrium(balance, at);
   require_smooth(system, balance, at);
   const LinearTerms terms = linear_terms(system, balance.frame(), {at.time, at.q, at.v}, at.lambda);
   require_constant(system, balance, at, terms);
+  std::optional<ReversibleMotion> reversible;
+  if (motion != nullptr) reversible.emplace(problem, at, *motion);
+  const auto reverses = [&](std::size_t part) { return reversible && reversible->is_stable(part); };
   Modes found;
   if (system.coordinates() <= most_dense) {
-    found = dense_modes(system, terms, motion);
+    found = dense_modes(system, terms, motion, reverses);
   } else {
     found = lowest_modes(system, terms, options.lowest);
     if (!found.modes.empty() && found.modes.back().eigenvalue == 0.0)
       leave_undecided(found, "all modes that were asked for have the eigenvalue 0: there may be more");
   }
-  const bool damped = std::ranges::any_of(terms.damping, [](const auto& d) { return d.value() != 0.0; });
-  if (!damped && system.coordinates() <= most_dense) drop_unknown(balance, at, found);
-  name_zeros(balance, at, motion, found);  // all that were found: the verdict is of all
+  if (are_of_stiffness(system, terms) && system.coordinates() <= most_dense) drop_unknown(balance, at, found);
+  const auto own_part_reverses = [&](const Mode& mode) { return reverses(part_of(mode, problem.islands())); };
+  name_zeros(balance, at, motion, own_part_reverses, found);  // all that were found: the verdict is of all
+  if (found.stability == Stability::stable && reversible && reversible->decided())
+    found.reason =
+        "every mode decays, vibrates with positive energy, or stays near since the motion is its own mirror "
+        "image run backwards, as are those about it";
   if (system.coordinates() > most_dense) require_told_from_zero(system, found);
   if (options.lowest > 0 && options.lowest < found.modes.size()) found.modes.resize(options.lowest);
   return found;

@@ -120,7 +120,9 @@ extern template class NormalModes<3>;
 /// decay, or vibrate with an energy u'.M u'/2 + u.(H + M A^2).u/2 > 0, which is then a Lyapunov function;
 /// otherwise undecided: an eigenvalue 0 that is no free motion (a bifurcation), or a vibration of negative
 /// energy that is stabilised by gyroscopic forces only. About a steady motion an energy > 0 in any frame in
-/// which the state rests will do: of a top that sleeps, in one that turns about its axis.
+/// which the state rests will do: of a top that sleeps, in one that turns about its axis. So will a mirror
+/// that, with time reversed, leaves it as it is, where it has but one vibration: a disk that rolls above its
+/// critical spin stays near its path up to where that lies ("How it works" has the proof).
 ///
 /// Up to 600 coordinates by dense matrices: all modes. Beyond that the `lowest`, by shift and invert with
 /// memory in proportion to the size of the scene: Lanczos' method if (1) is symmetric and undamped, else

@@ -335,10 +335,15 @@ std::optional<SingularPoints::Flutter> SingularPoints::locate_flutter(const Node
   const double before = excess(steady), after = excess(grown);
   const double way = root(on_way, 0.0, before, 1.0, after, exact);
   if (!vibrates && eigenvalues_of(*near) < eigenvalues_of(steady)) {
-    // Within round-off of its terms an eigenvalue counts as 0: the secant from outside, its error squared.
-    constexpr double beside = 1e-6;
-    const double first = on_way(way - beside), second = on_way(way + beside);
-    if (first * second < 0.0) (void)on_way(way + beside * (first + second) / (first - second));
+    // Within round-off of its terms an eigenvalue counts as 0: the secant from just outside, of which the
+    // error is the square of its width.
+    constexpr double widest = 1e-3;
+    for (double width = std::sqrt(exact); width < widest; width *= 10.0) {
+      const double first = on_way(way - width), second = on_way(way + width);
+      if (!(first * second < 0.0)) continue;
+      (void)on_way(way + width * (first + second) / (first - second));
+      break;
+    }
   }
   // What turns into steady growth and not into a vibration that is just kept up is no flutter's limit; nor is
   // a jump, where two become others.

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace dalembert {
@@ -46,16 +47,30 @@ class SteadySearch {
     for (const FlatKept& one : keep) kept_.push_back(value(one, vector_of(stated.q), vector_of(stated.v)));
   }
 
+  /// Below the root of round-off Newton's iteration leaves round-off: where nothing falls any more the state
+  /// before is the one that is known best. What two roundings leave, of what is stated and of what follows,
+  /// is stated exactly, and stays: beside a fast spin a correction by round-off displaces what is soft.
   FoundSteady find() {
     constexpr int most_corrections = 50;
-    double before = std::numeric_limits<double>::infinity();
+    constexpr double exact = 2.0 * epsilon;
+    double least = std::numeric_limits<double>::infinity(), before = least;
+    Known best{q_, lambda_, y_};
     for (int i = 0; i < most_corrections; ++i) {
-      const double size = correct();
-      if (!(size < std::numeric_limits<double>::infinity())) refuse("Newton's iteration diverges");
-      // It converges quadratically until round-off is left.
-      if (size < 1e-9 && size >= 0.5 * before) break;
-      if (size < epsilon) break;
-      before = size;
+      const auto step = correction();
+      if (least <= std::sqrt(epsilon) && !(step.unbalanced < least)) {
+        std::tie(q_, lambda_, y_) = std::tie(best.q, best.lambda, best.y);
+        break;
+      }
+      least = step.unbalanced;
+      best = {q_, lambda_, y_};
+      add(step.balance, 1.0, best.lambda);
+      if (least <= exact) {
+        lambda_ = best.lambda;
+        break;
+      }
+      correct(step);
+      if (step.size < epsilon || (step.size < 1e-9 && step.size >= 0.5 * before)) break;
+      before = step.size;
     }
     decompose(symmetries_.fields(q_) * y_);
     return finished();
@@ -113,9 +128,11 @@ class SteadySearch {
     return x;
   }
 
-  /// One correction; its size, in units of the scene.
-  double correct() {
-    constexpr double longest = 0.2;
+  struct Known {
+    VectorXd q, lambda, y;
+  };
+
+  [[nodiscard]] SteadyEquations::Correction correction() const {
     SteadyEquations equations(*system_, symmetries_, scales_, rows_, {time_, q_, lambda_, y_},
                               static_cast<Index>(keep_->size()));
     for (std::size_t k = 0; k < keep_->size(); ++k) {
@@ -123,14 +140,21 @@ class SteadySearch {
       equations.keep(static_cast<Index>(k), now - kept_[k], std::abs(now) + std::abs(kept_[k]),
                      gradient((*keep_)[k]));
     }
-    const auto step = equations.correction();
-    if (!std::isfinite(step.size)) return step.size;
+    return equations.correction();
+  }
+
+  void correct(const SteadyEquations::Correction& step) {
+    constexpr double longest = 0.2;
+    if (!std::isfinite(step.size)) refuse("Newton's iteration diverges");
     const double part = step.size > longest ? longest / step.size : 1.0;
     q_ += part * step.q;
     y_ += part * step.y;
+    add(step.lambda, part, lambda_);
+  }
+
+  void add(const VectorXd& of_rows, double part, VectorXd& lambda) const {
     for (std::size_t a = 0; a < rows_.size(); ++a)
-      lambda_[static_cast<Index>(rows_.rows[a])] += part * step.lambda[static_cast<Index>(a)];
-    return step.size;
+      lambda[static_cast<Index>(rows_.rows[a])] += part * of_rows[static_cast<Index>(a)];
   }
 
   /// Of a kept quantity by q and y, by central differences.
@@ -156,6 +180,9 @@ class SteadySearch {
                        roundings_of_a_sum * epsilon * scales_.length / scales_.time;
     const VectorXd y = rests ? VectorXd(VectorXd::Zero(y_.size())) : y_;
     auto motion = std::make_shared<UniformMotion>(symmetries_.motion(y));
+    if (const VectorXd straight = symmetries_.fields(q_) * y;
+        motion->rate * scales_.length <= roundings_of_a_sum * epsilon * straight.cwiseAbs().maxCoeff())
+      *motion = {{q_.size(), q_.size()}, straight};
     const MatrixXd same = symmetries_.commuting(q_, y), X = symmetries_.displacements(q_, same);
     motion->symmetric = X;
     const MatrixXd fixing = same * dense::kernel(X, rank_threshold);

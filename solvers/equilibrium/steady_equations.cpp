@@ -115,13 +115,13 @@ void SteadyEquations::weigh() {
     if (const double length = J_.row(i).norm(); length > 0.0) divide_row(i, length);
 }
 
-/// Whether what multipliers do not take up is round-off of its terms. It stays as it is then: beside a fast
-/// spin a correction of round-off displaces what is soft.
-bool SteadyEquations::balances(const MatrixXd& free) const {
-  constexpr double roundings = 10.0;  // of a sum of some dozens of terms
+double SteadyEquations::unbalanced(const MatrixXd& free) const {
   const MatrixXd across = free * free.transpose();
-  const VectorXd unbalanced = (across * r_).cwiseAbs(), terms = across.cwiseAbs() * r_terms_;
-  return (unbalanced.array() <= roundings * epsilon * terms.array()).all();
+  const VectorXd left = (across * r_).cwiseAbs(), terms = across.cwiseAbs() * r_terms_;
+  double most = 0.0;
+  for (Index i = 0; i < left.size(); ++i)
+    if (left[i] > 0.0) most = std::max(most, left[i] / terms[i]);
+  return most;
 }
 
 /// Forces in units of the stiffness that they change by. What is round-off of its terms changes by nothing.
@@ -141,11 +141,17 @@ VectorXd SteadyEquations::least_change(const MatrixXd& free) const {
 SteadyEquations::Correction SteadyEquations::correction() {
   weigh();
   const MatrixXd free = m_ > 0 ? orthogonal_complement(L_) : MatrixXd::Identity(J_.rows(), J_.rows());
-  const VectorXd x = balances(free) ? VectorXd(VectorXd::Zero(n_ + p_)) : least_change(free);
-  Correction found{units_.head(n_).cwiseProduct(x.head(n_)), units_.tail(p_).cwiseProduct(x.tail(p_)),
-                   VectorXd::Zero(m_), x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.0};
+  const VectorXd x = least_change(free);
+  Correction found{units_.head(n_).cwiseProduct(x.head(n_)),
+                   units_.tail(p_).cwiseProduct(x.tail(p_)),
+                   VectorXd::Zero(m_),
+                   x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.0,
+                   unbalanced(free),
+                   VectorXd::Zero(m_)};
   if (!x.allFinite()) found.size = std::numeric_limits<double>::infinity();
-  if (m_ > 0 && x.allFinite()) found.lambda = dense::least_squares(L_, -r_ - J_ * x, rank_threshold);
+  if (m_ == 0) return found;
+  found.balance = dense::least_squares(L_, -r_, rank_threshold);
+  if (x.allFinite()) found.lambda = dense::least_squares(L_, -r_ - J_ * x, rank_threshold);
   return found;
 }
 

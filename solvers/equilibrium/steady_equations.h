@@ -34,6 +34,8 @@ class SteadyEquations {
   struct Correction {
     Eigen::VectorXd q, y, lambda;
     double size;
+    double unbalanced;        ///< now: the largest part of its terms that multipliers do not take up
+    Eigen::VectorXd balance;  ///< what they change by without a correction of the rest
   };
   [[nodiscard]] Correction correction();
 
@@ -42,7 +44,7 @@ class SteadyEquations {
                      const State& at, double most);
   void divide_row(Eigen::Index i, double by);
   void weigh();
-  [[nodiscard]] bool balances(const Eigen::MatrixXd& free) const;
+  [[nodiscard]] double unbalanced(const Eigen::MatrixXd& free) const;
   [[nodiscard]] Eigen::VectorXd least_change(const Eigen::MatrixXd& free) const;
 
   Eigen::Index n_, m_, p_;  // coordinates, rows, symmetries

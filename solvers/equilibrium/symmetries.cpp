@@ -1,20 +1,17 @@
 #include "dalembert/solvers/equilibrium/symmetries.h"
 
-#include <dalembert/core/analysis/disjoint_sets.h>
 #include <dalembert/core/analysis/rank.h>
-#include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/numbers.h>
-#include <dalembert/solvers/equilibrium/equilibrium.h>
+#include <dalembert/solvers/equilibrium/bodies.h>
 #include <dalembert/solvers/equilibrium/linear_terms.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
+#include <dalembert/solvers/equilibrium/nearby_states.h>
 #include <dalembert/solvers/linear/dense.h>
-#include <dalembert/solvers/manifold/manifold.h>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 namespace dalembert {
@@ -43,30 +40,6 @@ Vector3d place(const Start& start, int coordinate, int dimension) {
 std::vector<Vector3d> axes_of_rotation(int dimension) {
   if (dimension == 2) return {Vector3d::UnitZ()};
   return {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
-}
-
-/// Particles that internal constraints hold together, body by body.
-std::vector<std::vector<const Layout::Particle*>> bodies_of(const System& system) {
-  const Layout& layout = *system.layout();
-  DisjointSets sets(system.coordinates());
-  std::vector<char> held(system.coordinates(), 0);
-  for (const auto& constraint : layout.constraints) {
-    if (!constraint.internal) continue;
-    for (const std::size_t r : constraint.own_rows()) {
-      for (const std::size_t k : system.row(r)) {
-        held[system.w_columns()[k]] = 1;
-        sets.join(system.w_columns()[system.row(r).front()], system.w_columns()[k]);
-      }
-    }
-  }
-  std::map<std::size_t, std::vector<const Layout::Particle*>> by_root;
-  for (const auto& particle : layout.particles) {
-    const auto i = static_cast<std::size_t>(particle.coordinate);
-    if (held[i]) by_root[sets.root(i)].push_back(&particle);
-  }
-  std::vector<std::vector<const Layout::Particle*>> all;
-  for (auto& [root, body] : by_root) all.push_back(std::move(body));
-  return all;
 }
 
 /// Weights S with sum_j S_ij r_j = axis x (r_i - c), sum_j S_ij = 0: c the centre of mass. A lamina's are
@@ -101,7 +74,7 @@ Symmetries::Symmetries(const Problem& problem, const Start& start, double time) 
   while (zero < count && values[zero] < rank_threshold * rank_threshold * static_cast<double>(all.rows()))
     ++zero;
   // Once more at the precision of the conditions, not of their squares.
-  basis_ = dense::kernel(all, rank_threshold);
+  basis_ = dense::kernel_within(all, rank_threshold);
   if (basis_.cols() != zero && basis_.cols() == 0) basis_ = vectors.leftCols(zero);
   if (basis_.cols() > 0) basis_ = orthogonal_complement(orthogonal_complement(basis_));
 }
@@ -158,7 +131,7 @@ void Symmetries::add_parts(const Problem& problem, const Start& start) {
 void Symmetries::add_bodies(const System& system, const Start& start) {
   const auto n = static_cast<Index>(system.coordinates());
   const int d = system.layout()->dimension;
-  for (const auto& body : bodies_of(system)) {
+  for (const BodyParticles& body : bodies(system)) {
     const auto count = static_cast<Index>(body.size());
     if (count < d) continue;  // a rod in space: it does not turn in itself
     MatrixXd arms(3, count);
@@ -201,37 +174,13 @@ void Symmetries::add_bodies(const System& system, const Start& start) {
   }
 }
 
-/// (2) of the header at a state near the start. Each row is divided by the sum of its terms' sizes.
+/// (2) of the header at a state near the start. Each row is divided by the largest sum of its terms' sizes.
 MatrixXd Symmetries::conditions(const Problem& problem, const Start& start, double time, int sample) const {
   const System& system = problem.system();
   const auto n = static_cast<Index>(system.coordinates()), count = static_cast<Index>(generators_.size());
-  const double L = start.scales.length, T = start.scales.time;
-  const auto noise = [&](std::size_t i, int which) {
-    return std::sin(static_cast<double>(i + 1) * (1.0 + 0.37 * which) + 2.0 * sample);
-  };
-  std::vector<double> q, v, a(start.q.size()), lambda;
   // Far enough for what is not symmetric to show, near enough to be brought onto the constraints.
-  for (double way = 0.05;; way *= 0.25) {
-    if (way < 1e-4)
-      throw NoEquilibrium(
-          "Scene \"" + system.layout()->scene +
-          "\": its symmetries were not found, since no states near the start satisfy its constraints");
-    q = start.q;
-    v.assign(q.size(), 0.0);
-    lambda.assign(system.rows(), 0.0);
-    for (std::size_t i = 0; i < q.size(); ++i) {
-      q[i] += way * start.scales.unit(i) * noise(i, 0);
-      if (sample > 0) v[i] = start.v[i] + way * start.scales.unit(i) / T * noise(i, 1);
-    }
-    try {
-      Manifold manifold(problem, start.rows, start.scales.lengths());
-      const double close = 1e-13 * L + start.scales.rounding(q);
-      if (manifold.project_positions(time, q, v, close).size > 1e-10 * L) continue;
-      if (manifold.solve_motion(time, q, v, a, lambda)) break;
-    } catch (const EquationFault&) {
-      continue;
-    }
-  }
+  constexpr double way = 0.05;
+  const auto [q, v, a, lambda] = nearby_state(problem, start, time, sample, way);
   const UniformMotion rest{{n, n}, VectorXd::Zero(n)};
   const LinearTerms terms = linear_terms(system, RotatingFrame(rest), {time, q, v}, lambda);
   std::vector<std::size_t> all(system.coordinates()), rows(system.rows());
@@ -255,9 +204,13 @@ MatrixXd Symmetries::conditions(const Problem& problem, const Start& start, doub
         metric.E.bottomRows(m - h).cwiseAbs() * X1 + metric.W.bottomRows(m - h).cwiseAbs() * u1,
         N.transpose().cwiseAbs() * (metric.K.cwiseAbs() * X1 + metric.C.cwiseAbs() * u1 + w1);
   }
+  // What no force acts on has accelerations of round-off: they tell nothing.
+  const Scales& scales = start.scales;
+  const double least =
+      roundings_of_a_sum * epsilon * to.maxCoeff() * scales.length / (scales.time * scales.time);
   for (Index r = 0; r < value.rows(); ++r) {
     const double most = size.row(r).maxCoeff();
-    if (most > 0.0) value.row(r) /= most;
+    value.row(r) *= most > (r < m ? 0.0 : least) ? 1.0 / most : 0.0;
   }
   return value;
 }

@@ -41,6 +41,8 @@ std::string grows(std::complex<double> s) {
 /// The verdict of all modes, with the cause that weighs most: of those that grow the one that grows fastest.
 struct Verdict {
   Modes& found;
+  const std::function<bool(std::size_t)>& stable_otherwise;
+  std::size_t part = 0;  ///< that is judged
   double growth = 0.0;
 
   void grows_by(std::complex<double> s) {
@@ -50,7 +52,7 @@ struct Verdict {
     found.reason = grows(s);
   }
   void leave_undecided(const std::string& reason) const {
-    if (found.stability != Stability::stable) return;
+    if (found.stability != Stability::stable || (stable_otherwise && stable_otherwise(part))) return;
     found.stability = Stability::undecided;
     found.reason = reason;
   }
@@ -168,13 +170,15 @@ void append_real(const Tangent& whole, std::vector<RealShape>& found, TangentSti
 
 }  // namespace
 
-Modes dense_modes(const System& system, const LinearTerms& terms, const UniformMotion* motion) {
+Modes dense_modes(const System& system, const LinearTerms& terms, const UniformMotion* motion,
+                  const std::function<bool(std::size_t)>& stable_otherwise) {
   Modes found{{}, Stability::stable, "every mode decays or vibrates with positive energy"};
-  Verdict verdict{found};
+  Verdict verdict{found, stable_otherwise};
   for (Tangent& t : tangents(system, terms, motion)) {
-    if (t.K.rows() == 0) continue;  // a part without freedom
     const bool conservative = t.B.rows() == 0 && t.C.isZero(0.0) && t.symmetric;
-    conservative ? of_conservative(t, verdict) : of_any(std::move(t), verdict);
+    if (t.K.rows() > 0)  // a part with some freedom
+      conservative ? of_conservative(t, verdict) : of_any(std::move(t), verdict);
+    ++verdict.part;
   }
   std::ranges::stable_sort(found.modes, {}, [](const Mode& m) { return std::abs(m.eigenvalue); });
   return found;

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <complex>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -19,9 +20,10 @@ inline constexpr std::size_t most_dense = 600;
 /// nonholonomic rows, C = 0 and K symmetric they are those of K z = omega^2 z, else those of `solutions`. The
 /// error to which an eigenvalue is known decides whether it grows; where that does not tell, an energy u'.M
 /// u'/2 + u.K u/2 > 0: for K symmetric, C dissipative, E = 0; with momenta that symmetries of `motion`
-/// conserve. Marks no mode as free. Throws EquationFault.
+/// conserve; last of all `stable_otherwise`, of a part. Marks no mode as free. Throws EquationFault.
 [[nodiscard]] Modes dense_modes(const System& system, const LinearTerms& terms,
-                                const UniformMotion* motion = nullptr);
+                                const UniformMotion* motion = nullptr,
+                                const std::function<bool(std::size_t)>& stable_otherwise = {});
 
 /// K on the tangent space (with nonholonomic rows: of what may move), of each uncoupled part separately: its
 /// real eigenvalues, increasing, their shapes u = M^-1/2 N z of |z| = 1 as columns, and the covectors that
