@@ -196,11 +196,6 @@ void ErkStepper::sketch(double t, std::span<double> q, std::span<double> v) {
 void ErkStepper::count(Statistics& statistics) const {
   const State& s = *state_;
   statistics.steps += s.steps;
-  Scales scales = s.scales;
-  const auto v = std::span(s.to.va).first(s.n);
-  if (scales.of_path) scales.take(scales.further(s.to.q, v, scales.way.step, s.tolerance));
-  statistics.length = scales.length;
-  statistics.time = scales.time;
   statistics.evaluations += s.manifold.evaluations();
   statistics.factorisations += s.manifold.factorisations();
   statistics.error_test_failures += s.failures;

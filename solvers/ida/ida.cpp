@@ -253,11 +253,6 @@ void IdaStepper::count(Statistics& statistics) const {
   long error_tests = s.error_tests, convergence = s.convergence;
   if (s.steps > 0) s.count_failures(error_tests, convergence);
   statistics.steps += s.steps;
-  Scales scales = s.scales;
-  const Instant now = s.instant(s.t, s.y.get());
-  if (scales.of_path) scales.take(scales.further(now.q, now.v, scales.way.step, s.tolerance));
-  statistics.length = scales.length;
-  statistics.time = scales.time;
   statistics.evaluations += s.evaluations;
   statistics.factorisations += s.newton.factorisations();
   statistics.linear_algebra = s.newton.method();
