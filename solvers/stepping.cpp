@@ -153,7 +153,7 @@ void Stepping::step(double wanted) {
   if (options_.stepper == Stepper::ida) watch_sine();
   if (steps_++ == 0) watch_sliding();
   const double from = time();
-  if (covered_.of_path) cover(covered_, from);
+  if (covered_.of_path) cover(covered_, from, state_);
   from_ = from;
   try {
     const Branches holding = stretch_->hold();
@@ -299,13 +299,13 @@ void Stepping::pass_switch() {
 
 Scales Stepping::scales(double t) const {
   Scales now = covered_;
-  if (now.of_path) cover(now, t);
+  State at{start().q, start().v};
+  if (now.of_path) cover(now, t, at);
   return now;
 }
 
 /// The way on to a time inside the last step.
-void Stepping::cover(Scales& way, double t) const {
-  State at{start().q, start().v};
+void Stepping::cover(Scales& way, double t, State& at) const {
   const Branches holding = stretch_->hold();
   stretch_->stepper->sketch(t, at.q, at.v);
   way.take(way.further(at.q, at.v, t - from_, options_.tolerance));

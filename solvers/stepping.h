@@ -90,7 +90,7 @@ class Stepping {
   const State& interpolate(double t);
   [[nodiscard]] const Springs* springs_at(double t);
 
-  void cover(Scales& way, double t) const;
+  void cover(Scales& way, double t, State& at) const;
   [[nodiscard]] Start start_of_rest(double t) const;
   [[nodiscard]] Options options_from(double t, Stepper by) const;
   [[nodiscard]] std::unique_ptr<Stretch> stretch(const Problem& problem, Start start, double t,
