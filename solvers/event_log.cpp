@@ -73,7 +73,8 @@ FlatSample EventLog::read(Stepping& stepping, double t) {
 }
 
 void EventLog::look(Stepping& stepping) {
-  if (transitions_ != nullptr && stepping.start().scales.of_path) transitions_->adopt(stepping.scales());
+  if (transitions_ != nullptr && stepping.start().scales.of_path)
+    transitions_->adopt(stepping.scales(stepping.time()));
   const EventWatch::Read reader = [&](double t) { return read(stepping, t); };
   const auto all = watch_.look({reader, stepping.time(), stepping.degree(), stepping.at_end()});
   std::vector<Occurrence> found;
@@ -124,7 +125,7 @@ void EventLog::list(const Occurrence& one, Stepping& stepping) {
 
 /// The difference of two times that are the same to round-off.
 double EventLog::same_time(double t, const Stepping& stepping) {
-  return round_off() * std::max(std::abs(t), stepping.start().scales.time);
+  return round_off() * std::max(std::abs(t), stepping.scales(t).time);
 }
 
 void EventLog::carry_out(Stepping& stepping) {
@@ -149,7 +150,15 @@ void EventLog::carry_out(Stepping& stepping) {
 void EventLog::begin_anew(double t, Stepping& stepping) {
   const System& system = stepping.system();
   const bool timed = system.rheonomic() || system.has_timed_forces();
-  watch_.begin_anew(read(stepping, t), asked_for_, timed, std::exchange(left_, {}));
+  const auto left = std::exchange(left_, {});
+  std::optional<std::size_t> changed;
+  if (change_ && change_->event < asked_for_) changed = change_->event;
+  const EventWatch::Read ahead = [&](double at) {
+    stepping.read_ahead(at - t, seen_);
+    return seen_.flat();
+  };
+  const Moment start = (read(stepping, t), seen_);
+  watch_.begin_anew({start.flat(), asked_for_, timed, left, changed, ahead, stepping.scales(t).time});
   looked_to_ = t;
   change_.reset();
   if (!due_.empty()) {
@@ -167,25 +176,19 @@ void EventLog::begin_anew(double t, Stepping& stepping) {
 /// duration D rises by D^2/8 of its acceleration: this many roots of the tolerance keep that in sight of
 /// EventWatch.
 void EventLog::require_progress(const Stepping& stepping) {
-  const double t = change_->time, time = stepping.start().scales.time;
+  const double t = change_->time, time = stepping.scales(t).time;
   if (change_->event < asked_for_) {
     Accumulation& changes = changes_[change_->event];
     changes.add(t);
     const double least = std::max(stepping.tolerance(), round_off());
     const double brief = constants.brief_changes * std::sqrt(least) * time;
-    if (t + changes.left() <= stepping.end() && changes.interval() <= brief) chatters();
+    if (t + changes.left() <= stepping.end() && changes.interval() <= brief)
+      watch_.chatters(change_->event, t);
   }
   const double apart = same_time(t, stepping);
   repeated_ = last_ && last_->event == change_->event && t - last_->time <= apart ? repeated_ + 1 : 0;
   last_ = change_;
-  if (repeated_ >= constants.most_at_one_time) chatters();
-}
-
-void EventLog::chatters() const {
-  throw StepFailure{watch_.event(change_->event).name +
-                        " chatters: its changes come faster and faster, without end. Let what accumulates "
-                        "come to rest, smooth what switches, or end the run before",
-                    change_->time};
+  if (repeated_ >= constants.most_at_one_time) watch_.chatters(change_->event, t);
 }
 
 Transitions::Change EventLog::pass(const FlatSample& at, Stepping& stepping, std::vector<double>& q) {
@@ -214,7 +217,7 @@ Transitions::Change EventLog::change_scene(const FlatSample& at, Stepping& stepp
   if (auditor_ != nullptr) auditor_->restate(at.time, next.system);
   const Problem always(next.system->without(next.system->conditional()));
   std::vector<double> v = next.v;
-  const auto impulses = take_over(always, stepping.start().scales, at.time, next.q, v, stepping.tolerance());
+  const auto impulses = take_over(always, stepping.scales(at.time), at.time, next.q, v, stepping.tolerance());
   Transitions::Change change{next.v, v, std::vector<double>(at.lambda.size())};
   if (transitions_ != nullptr) change = transitions_->restate(next.system, {at.time, next.q, v}, impulses);
   change.v_before = next.v;  // what the user gives is what the impulses change

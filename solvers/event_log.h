@@ -47,7 +47,6 @@ class EventLog {
   void list(const Occurrence& one, Stepping& stepping);
   [[nodiscard]] static double same_time(double t, const Stepping& stepping);
   void require_progress(const Stepping& stepping);
-  [[noreturn]] void chatters() const;
   [[nodiscard]] Transitions::Change pass(const FlatSample& at, Stepping& stepping, std::vector<double>& q);
   [[nodiscard]] Transitions::Change change_scene(const FlatSample& at, Stepping& stepping,
                                                  std::vector<double>& q);

@@ -116,7 +116,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
   [[nodiscard]] Claim claim(bool reached) const {
     const Scales& scales = stepping.start().scales;
     if (!reached && !scales.of_path) return {scales.length, scales.time, options.tolerance};
-    const Statistics so_far = stepping.statistics();
+    const Statistics so_far = stepping.statistics(this->reached());
     return {so_far.length, so_far.time, std::max(options.tolerance, so_far.accuracy)};
   }
 
@@ -191,7 +191,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
   }
 
   [[nodiscard]] Statistics statistics() const {
-    Statistics s = stepping.statistics();
+    Statistics s = stepping.statistics(this->reached());
     s.run_time = stopwatch.read();
     if (auditor) {
       s.audit = auditor->read();

@@ -56,6 +56,8 @@ Stepping::Stepping(std::shared_ptr<const System> of, std::span<const double> q, 
   past_.degrees_of_freedom = number(system().coordinates()) - static_cast<int>(rigid);
   past_.redundant_equations = number(system().rows_in_force() - active);
   angle_ = {options.t_start, 1.0};
+  covered_ = this->start().scales;
+  from_ = options.t_start;
   if (options.dense) {
     kept_ = std::make_shared<KeptSteps>(options.tolerance);
     kept_->begin(shared_system(), this->start(), options.t_start);
@@ -109,7 +111,7 @@ std::unique_ptr<Stepping::Stretch> Stepping::stretch(const Problem& problem, Sta
 
 /// Whole, or not begun: whatever may fail has been made before anything here changes.
 void Stepping::go_on_with(std::unique_ptr<Stretch> next) {
-  Statistics past = statistics();
+  Statistics past = statistics(time());
   past.advice.clear();  // of a crossing it would be about the wrong stepper
   const double t = next->stepper->time();
   if (kept_) own_steps().begin(next->problem.shared_system(), next->start, t);
@@ -117,6 +119,8 @@ void Stepping::go_on_with(std::unique_ptr<Stretch> next) {
   angle_ = {t, 1.0};
   switch_.reset();
   stretch_ = std::move(next);
+  covered_ = start().scales;
+  from_ = t;
 }
 
 /// What was handed out stays as it is.
@@ -149,6 +153,8 @@ void Stepping::step(double wanted) {
   if (options_.stepper == Stepper::ida) watch_sine();
   if (steps_++ == 0) watch_sliding();
   const double from = time();
+  if (covered_.of_path) cover(covered_, from, state_);
+  from_ = from;
   try {
     const Branches holding = stretch_->hold();
     stretch_->stepper->step(wanted);
@@ -172,6 +178,18 @@ void Stepping::read(double t, Moment& m) {
   past_.residual_position = std::max(past_.residual_position, m.position.size);
   past_.residual_velocity = std::max(past_.residual_velocity, m.velocity.size);
   past_.correction = std::max(past_.correction, m.correction);
+}
+
+void Stepping::read_ahead(double while_after, Moment& m) {
+  const Branches holding = stretch_->hold();
+  const Start& from = start();
+  const double h = while_after;
+  m.t = time() + h;
+  for (std::size_t i = 0; i < from.q.size(); ++i) {
+    m.q[i] = from.q[i] + h * (from.v[i] + 0.5 * h * from.a[i]);
+    m.v[i] = from.v[i] + h * from.a[i];
+  }
+  stretch_->reader.read(m, nullptr, steps_);
 }
 
 /// The stepper's state, with the forces that it has found for compliant constraints.
@@ -231,7 +249,7 @@ void Stepping::watch_sliding() {
 void Stepping::begin_changed(double t, std::shared_ptr<const System> system, std::span<const double> q,
                              std::span<const double> v) {
   const Problem problem(std::move(system));
-  Start next = dalembert::begin_changed(problem, start(), t, q, v, options_.tolerance);
+  Start next = dalembert::begin_changed(problem, start_of_rest(t), t, q, v, options_.tolerance);
   if (next.scales.of_path) {  // a first step, see IdaStepper, must advance the time
     const double rounding = constants.roundings_of_path * epsilon * std::abs(t);
     Way way = next.scales.way;
@@ -247,7 +265,7 @@ void Stepping::restart(Stepper by) {
   const double t = time();
   State now = interpolate(t);
   put_on_springs(t, now);
-  go_on_with(stretch(problem(), begin_anew(problem(), start(), t, now.q, now.v), t, by));
+  go_on_with(stretch(problem(), begin_anew(problem(), start_of_rest(t), t, now.q, now.v), t, by));
 }
 
 /// The explicit stepper takes -g/C for the forces of compliant constraints: g must be as exact.
@@ -267,8 +285,7 @@ void Stepping::pass_switch() {
   if (switches_at_once_ > constants.most_at_one_time) comparisons.chatters(one);
   comparisons.require_no_corner(one);
   State now = interpolate(t);
-  Start before = start();
-  before.scales = scales();
+  const Start before = start_of_rest(t);
   const Branches holding(nullptr, &one.behind);
   put_on_springs(t, now);
   Start next = begin_anew(problem(), before, t, now.q, now.v);
@@ -280,15 +297,25 @@ void Stepping::pass_switch() {
   go_on_with(std::move(made));
 }
 
-Scales Stepping::scales() const {
-  Scales now = start().scales;
-  if (!now.of_path) return now;
-  const Statistics so_far = statistics();
-  now.take({.length = so_far.length,
-            .speed = so_far.length / so_far.time,
-            .rate = now.way.rate,
-            .step = now.way.step});
+Scales Stepping::scales(double t) const {
+  Scales now = covered_;
+  State at{start().q, start().v};
+  if (now.of_path) cover(now, t, at);
   return now;
+}
+
+/// The way on to a time inside the last step.
+void Stepping::cover(Scales& way, double t, State& at) const {
+  const Branches holding = stretch_->hold();
+  stretch_->stepper->sketch(t, at.q, at.v);
+  way.take(way.further(at.q, at.v, t - from_, options_.tolerance));
+}
+
+/// What goes on from there goes on in its scales.
+Start Stepping::start_of_rest(double t) const {
+  Start before = start();
+  before.scales = scales(t);
+  return before;
 }
 
 void Stepping::stepper_at(double t, std::span<double> q, std::span<double> v) {
@@ -296,9 +323,12 @@ void Stepping::stepper_at(double t, std::span<double> q, std::span<double> v) {
   stretch_->stepper->interpolate(t, q, v);
 }
 
-Statistics Stepping::statistics() const {
+Statistics Stepping::statistics(double until) const {
   Statistics s = past_;
   stretch_->stepper->count(s);
+  const Scales now = scales(until);
+  s.length = now.length;
+  s.time = now.time;
   stretch_->reader.count(s);
   if (stretch_->by != options_.stepper) s.advice.clear();
   if (s.steps > 0) {

@@ -52,20 +52,22 @@ class Stepping {
   /// Everything at a time inside the last step (or at the start, before the first). Throws StepFailure,
   /// EquationFault.
   void read(double t, Moment& m);
+  /// The same a while after the last beginning, by its velocities and accelerations instead of steps.
+  void read_ahead(double while_after, Moment& m);
 
   /// The stepper's own velocities where the last step ended.
   [[nodiscard]] std::span<const double> velocities() { return interpolate(time()).v; }
   /// What it began from, or last began anew from.
   [[nodiscard]] const Start& start() const { return stretch_->start; }
-  /// Those of the scene where the last step ended: a length of its path grows.
-  [[nodiscard]] Scales scales() const;
+  /// Those of the scene at a time inside the last step: a length of its path grows.
+  [[nodiscard]] Scales scales(double t) const;
   /// The constraint whose force has grown without bound where the last step ended, in words; empty if there
   /// is none.
   [[nodiscard]] std::string unbounded_multiplier();
   /// All steps, of the last one what lies before `end`, if the options ask to keep them; else null.
   [[nodiscard]] std::shared_ptr<const DenseOutput> dense(double end);
-  /// Of all its steppers, without the run time.
-  [[nodiscard]] Statistics statistics() const;
+  /// Of all its steppers up to a time inside the last step, without the run time.
+  [[nodiscard]] Statistics statistics(double until) const;
 
  private:
   /// What each beginning makes anew.
@@ -88,6 +90,8 @@ class Stepping {
   const State& interpolate(double t);
   [[nodiscard]] const Springs* springs_at(double t);
 
+  void cover(Scales& way, double t, State& at) const;
+  [[nodiscard]] Start start_of_rest(double t) const;
   [[nodiscard]] Options options_from(double t, Stepper by) const;
   [[nodiscard]] std::unique_ptr<Stretch> stretch(const Problem& problem, Start start, double t,
                                                  Stepper by) const;
@@ -118,7 +122,9 @@ class Stepping {
   double last_switch_ = 0.0;
   int switches_at_once_ = 0;  // in a row
   long steps_ = 0;
-  Angle angle_;  // at the last step
+  Scales covered_;     // where the last step began
+  double from_ = 0.0;  // when that was
+  Angle angle_;        // at the last step
   double sine_at_handover_ = 0.0;
 
   Springs springs_;  // of the implicit stepper's state, if any constraint is compliant

@@ -2,6 +2,7 @@
 #include <dalembert/core/analysis/integrability.h>
 #include <dalembert/core/analysis/islands.h>
 #include <dalembert/core/analysis/rank.h>
+#include <dalembert/core/analysis/second_order.h>
 
 #include <algorithm>
 #include <map>
@@ -44,10 +45,15 @@ std::string freedom_by_rank(const System& system, double t, std::span<const doub
   system.evaluate({t, q, at_rest}, e);
   const ActiveRows independent = independent_rows(system, e.w);
   const std::size_t n = system.coordinates(), compliant = system.compliant_rows();
+  const std::size_t held = held_to_second_order(system, t, q, independent);
   std::ostringstream out;
   out << "at t = " << t << ": " << independent.size() - compliant << " of " << system.rows() - compliant
       << " constraint equations independent, " << n + compliant - independent.size()
-      << " degrees of freedom of velocity, " << n + compliant - independent.holonomic << " of position\n";
+      << " degrees of freedom of velocity, " << n + compliant - independent.holonomic - held
+      << " of position\n";
+  if (held > 0)
+    out << "  singular position: " << held
+        << " of these velocities are free to first order only, the constraints hold them to second order\n";
   return out.str();
 }
 

@@ -5,6 +5,7 @@
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/erk/erk_state.h>
 #include <dalembert/solvers/erk/hermite.h>
+#include <dalembert/solvers/run/diagnosis.h>
 
 #include <algorithm>
 #include <cmath>
@@ -63,6 +64,8 @@ double ErkStepper::State::shorter(double step, double factor) const {
 /// What makes steps fail however short they are, as far as the last node tells; round-off does not, see
 /// weigh.
 std::string ErkStepper::State::cause() const {
+  const Instant at{to.t, to.q, std::span(to.va).first(n)};
+  if (const auto singular = singular_here(*system, scales, at); !singular.empty()) return singular;
   if (to.sine < constants.close_to_dependent) return "the constraints are nearly linearly dependent here";
   if (2 * stability_limited > steps && steps > 0)
     return "a force is very stiff; Stepper::ida has no such limit";
@@ -196,11 +199,6 @@ void ErkStepper::sketch(double t, std::span<double> q, std::span<double> v) {
 void ErkStepper::count(Statistics& statistics) const {
   const State& s = *state_;
   statistics.steps += s.steps;
-  Scales scales = s.scales;
-  const auto v = std::span(s.to.va).first(s.n);
-  if (scales.of_path) scales.take(scales.further(s.to.q, v, scales.way.step, s.tolerance));
-  statistics.length = scales.length;
-  statistics.time = scales.time;
   statistics.evaluations += s.manifold.evaluations();
   statistics.factorisations += s.manifold.factorisations();
   statistics.error_test_failures += s.failures;

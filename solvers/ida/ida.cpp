@@ -3,6 +3,7 @@
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/ida/ida_state.h>
+#include <dalembert/solvers/run/diagnosis.h>
 #include <dalembert/solvers/run/singularity.h>
 
 #include <algorithm>
@@ -91,6 +92,8 @@ std::string IdaStepper::State::explain(int code) const {
 
 /// What makes steps fail however short they are, as far as the state tells.
 std::string IdaStepper::State::cause() const {
+  if (const auto singular = singular_here(*system, scales, instant(t, y.get())); !singular.empty())
+    return singular;
   if (asks_for_too_much())
     return "the tolerance asks for more than double precision can deliver here; ask for one ten times as "
            "large";
@@ -253,17 +256,14 @@ void IdaStepper::count(Statistics& statistics) const {
   long error_tests = s.error_tests, convergence = s.convergence;
   if (s.steps > 0) s.count_failures(error_tests, convergence);
   statistics.steps += s.steps;
-  Scales scales = s.scales;
-  const Instant now = s.instant(s.t, s.y.get());
-  if (scales.of_path) scales.take(scales.further(now.q, now.v, scales.way.step, s.tolerance));
-  statistics.length = scales.length;
-  statistics.time = scales.time;
   statistics.evaluations += s.evaluations;
   statistics.factorisations += s.newton.factorisations();
   statistics.linear_algebra = s.newton.method();
   statistics.error_test_failures += error_tests;
   statistics.convergence_failures += convergence;
-  if (s.steps > 0 && s.has_stiff_force()) statistics.advice = s.advice();
+  if (s.steps > 0 && s.has_stiff_force() &&
+      singular_here(*s.system, s.scales, s.instant(s.t, s.y.get())).empty())
+    statistics.advice = s.advice();
 }
 
 }  // namespace dalembert

@@ -1,12 +1,15 @@
 #include "dalembert/solvers/run/diagnosis.h"
 
+#include <dalembert/core/results/applied_forces.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/linear/rows.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <sstream>
+#include <vector>
 
 namespace dalembert {
 
@@ -37,6 +40,123 @@ std::string unbounded_multiplier(const System& system, const Scales& scales, std
   what << "the multiplier of " << system.row_label(*row) << " has grown to " << lambda[*row];
   if (const auto hint = system.singular_hint(*row); !hint.empty()) what << " (singular if " << hint << ')';
   return what.str();
+}
+
+namespace {
+
+/// What belongs to one particle or rotor: its first coordinate, how many there are, and its mass, or none.
+struct Mover {
+  std::string name;
+  int first;
+  std::size_t size;
+  double mass;
+};
+
+std::vector<Mover> movers(const Layout& layout) {
+  std::vector<Mover> all;
+  for (const auto& p : layout.particles)
+    all.push_back({p.name, p.coordinate, static_cast<std::size_t>(layout.dimension), p.mass});
+  for (const auto& r : layout.rotors) all.push_back({r.name, r.coordinate, 1, 0.0});
+  return all;
+}
+
+std::string place_of(const Mover& mover, std::span<const double> q) {
+  std::ostringstream text;
+  text << mover.name << " at (";
+  for (std::size_t k = 0; k < mover.size; ++k)
+    text << (k > 0 ? ", " : "") << q[static_cast<std::size_t>(mover.first) + k];
+  text << ')';
+  return text.str();
+}
+
+double norm(const std::vector<double>& x) {
+  double square = 0.0;
+  for (const double entry : x) square += entry * entry;
+  return std::sqrt(square);
+}
+
+/// A displacement of every coordinate, in no special direction.
+std::vector<double> displacement(const Scales& scales, std::size_t coordinates, double length) {
+  std::vector<double> along(coordinates);
+  for (std::size_t i = 0; i < coordinates; ++i)
+    along[i] = std::cos(static_cast<double>(i + 1)) * length * scales.unit(i) / scales.length;
+  return along;
+}
+
+/// The largest force on a mover, in units of what turns it around within the scene's time, of those that
+/// change as much within a small part of the scene's length. (A very stiff spring does not.)
+std::string grown_force(const System& system, const Scales& scales, const Instant& at) {
+  const Layout& layout = *system.layout();
+  const std::vector<double> none(system.rows(), std::numeric_limits<double>::quiet_NaN());
+  const auto all = movers(layout);
+  std::vector<double> q = displacement(scales, at.q.size(), scales.length / unexplained);
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] += at.q[i];
+  const Instant moved{at.t, q, at.v};
+  double most = unexplained;
+  std::string what;
+  for (std::size_t f = 0; f < layout.forces.size(); ++f) {
+    for (const Mover& mover : all) {
+      std::vector<double> force(mover.size);
+      if (!layout.applied->on(f, at, none, mover.first, mover.mass, force)) continue;
+      const auto first = static_cast<std::size_t>(mover.first);
+      const double unit = system.masses()[first] * scales.unit(first) / scales.time / scales.time;
+      std::vector<double> beside(mover.size);
+      if (!layout.applied->on(f, moved, none, mover.first, mover.mass, beside)) continue;
+      const double size = norm(force);
+      for (std::size_t k = 0; k < force.size(); ++k) beside[k] -= force[k];
+      if (!(size > most * unit && norm(beside) > 0.5 * size)) continue;
+      most = size / unit;
+      std::ostringstream text;
+      text << "the force of " << layout.forces[f].label() << " has grown to " << size << " on "
+           << place_of(mover, at.q) << ": it is singular there, or nearly";
+      what = text.str();
+    }
+  }
+  return what;
+}
+
+/// How much the gradients of the rows turn per length, along a displacement of every coordinate.
+std::string turning_gradient(const System& system, const Scales& scales, const Instant& at) {
+  const auto lengths = scales.lengths();
+  const std::vector<double> along = displacement(scales, at.q.size(), 1.0);
+  const Instant moved{at.t, at.q, along};
+  auto e = system.evaluation();
+  auto change = system.linearisation();
+  system.evaluate(moved, e);
+  system.linearise_constraints(moved, std::vector<double>(system.rows()), change);
+  double most = unexplained;
+  std::optional<std::size_t> row;
+  for (std::size_t r = 0; r < system.holonomic_rows(); ++r) {
+    double gradient = 0.0, turn = 0.0;
+    for (const std::size_t k : system.row(r)) {
+      const double of_length = 1.0 / lengths[system.w_columns()[k]];
+      gradient = std::hypot(gradient, of_length * e.w[k]);
+      turn = std::hypot(turn, of_length * change.psi_q[k]);
+    }
+    if (!system.in_force(r) || !(turn * scales.length > most * gradient)) continue;
+    most = turn * scales.length / gradient;
+    row = r;
+  }
+  if (!row) return {};
+  std::ostringstream what;
+  what << "the equation of " << system.row_label(*row)
+       << " is singular here, or nearly: its gradient turns within " << scales.length / most;
+  for (const Mover& mover : movers(*system.layout()))
+    for (const std::size_t k : system.row(*row))
+      if (static_cast<int>(system.w_columns()[k]) == mover.first) {
+        what << ", " << place_of(mover, at.q);
+        break;
+      }
+  return what.str();
+}
+
+}  // namespace
+
+std::string singular_here(const System& system, const Scales& scales, const Instant& at) try {
+  const std::string force = grown_force(system, scales, at);
+  return force.empty() ? turning_gradient(system, scales, at) : force;
+} catch (...) {
+  return {};  // the run is stopping: what stops it is known already
 }
 
 std::string coarse_time(const Scales& scales, double time) {

@@ -16,6 +16,11 @@ namespace DALEMBERT_HIDDEN dalembert {
                                                std::span<const double> w, std::span<const double> lambda,
                                                std::span<const double> lambda_at_start);
 
+/// The force that far exceeds what the scene's masses, speed and time explain, and where it does; else the
+/// equation whose gradient turns around within far less than the scene's length: a centre of force, the apex
+/// of a cone. Both are singular at that place, or nearly so.
+[[nodiscard]] std::string singular_here(const System& system, const Scales& scales, const Instant& at);
+
 /// That times so far from 0 are too coarse for the scene.
 [[nodiscard]] std::string coarse_time(const Scales& scales, double time);
 

@@ -23,7 +23,16 @@ bool wanted(Crossing crossing, int before) {
 }  // namespace
 
 EventWatch::EventWatch(std::vector<FlatEvent> events, Rate rate, const Layout& layout, double tolerance)
-    : events_(std::move(events)), rate_(std::move(rate)), tolerance_(tolerance), largest_(events_.size()) {
+    : events_(std::move(events)),
+      rate_(std::move(rate)),
+      tolerance_(tolerance),
+      largest_(events_.size()),
+      largest_before_(events_.size()),
+      seen_(events_.size()),
+      at_root_(events_.size()),
+      before_(events_.size()),
+      leaves_(events_.size()),
+      returned_(events_.size()) {
   for (const FlatEvent& event : events_) {
     if (!event.function)
       throw InvalidArgument("Event \"" + event.name + "\" of scene \"" + layout.scene + "\" has no function");
@@ -33,24 +42,70 @@ EventWatch::EventWatch(std::vector<FlatEvent> events, Rate rate, const Layout& l
   }
 }
 
-void EventWatch::begin_anew(const FlatSample& start, std::size_t positive, bool timed,
-                            const std::vector<Found>& left) {
-  from_ = start.time;
-  asked_for_ = positive;
-  resolved_ = timed ? events_.size() : asked_for_;
+void EventWatch::begin_anew(const Beginning& beginning) {
+  from_ = beginning.start.time;
+  asked_for_ = beginning.positive;
+  resolved_ = beginning.timed ? events_.size() : asked_for_;
   at_from_.clear();
   side_.clear();
+  leaves_.assign(events_.size(), from_);
   for (std::size_t e = 0; e < events_.size(); ++e) {
-    at_from_.push_back(value(e, start));
-    side_.push_back(e < positive ? first_side(e, at_from_.back()) : at_from_.back() < 0.0 ? -1 : 1);
-    const auto next = std::ranges::find(left, e, [](const Found& one) { return one.what.event; });
-    if (next != left.end() && side_[e] == 0) side_[e] = next->before;
+    forget_behind(e, from_);
+    at_from_.push_back(value(e, beginning.start));
+    side_.push_back(e < asked_for_ ? first_side(e, at_from_.back()) : at_from_.back() < 0.0 ? -1 : 1);
+    const auto next = std::ranges::find(beginning.left, e, [](const Found& one) { return one.what.event; });
+    if (next != beginning.left.end() && side_[e] == 0) side_[e] = next->before;
+    if (side_[e] == 0 && largest_[e] > 0.0) depart(e, beginning);
+    at_root_[e] = 0.0;
   }
+}
+
+/// What the last step would have come to behind a change has never been.
+void EventWatch::forget_behind(std::size_t event, double t) {
+  largest_[event] = largest_before_[event];
+  for (const Place& one : seen_[event])
+    if (one.t <= t) largest_[event] = std::max(largest_[event], one.value);
+}
+
+void EventWatch::chatters(std::size_t event, double t) const {
+  throw StepFailure{events_[event].name +
+                        " chatters: its changes come faster and faster, without end. Let what accumulates "
+                        "come to rest, smooth what switches, or end the run before",
+                    t};
+}
+
+/// What is far above round-off, and d(h) = b h + c h^2 of it, tell the sign; where b h is less than half of
+/// it, the way back from c may be lost in round-off. Up to the time that is looked at terms of third order
+/// are round-off.
+EventWatch::Departure EventWatch::departure(std::size_t event, const Beginning& beginning) {
+  const double t = beginning.start.time, noise = std::max(round_off() * largest_[event], at_root_[event]);
+  const double far_above = 16.0 * noise, longest = std::cbrt(16.0 * round_off()) * beginning.time;
+  const auto moved = [&](double h) { return value(event, beginning.ahead(t + h)) - at_from_[event]; };
+  try {
+    for (double h = 4.0 * epsilon * std::max(std::abs(t), beginning.time); h <= longest; h *= 4.0) {
+      const double d = moved(h);
+      if (std::abs(d) <= far_above) continue;
+      const double linear = 4.0 * moved(0.5 * h) - d;
+      return {sign(d), t + h, sign(linear) == sign(d) && std::abs(linear) > 0.5 * std::abs(d)};
+    }
+  } catch (const std::exception&) {  // the motion itself will say so, if it gets there
+  }
+  return {};
+}
+
+void EventWatch::depart(std::size_t event, const Beginning& beginning) {
+  const Departure its = departure(event, beginning);
+  side_[event] = its.side;
+  if (its.side != 0) leaves_[event] = its.at;
+  if (beginning.changed != event) return;
+  const bool returns = its.side == before_[event];
+  if (its.side != 0 && !returns && !its.clear && returned_[event]) chatters(event, beginning.start.time);
+  returned_[event] = returns;
 }
 
 /// After a change a function may stay at 0, to round-off.
 int EventWatch::first_side(std::size_t event, double value) const {
-  return std::abs(value) > round_off() * largest_[event] ? sign(value) : 0;
+  return std::abs(value) > std::max(round_off() * largest_[event], at_root_[event]) ? sign(value) : 0;
 }
 
 double EventWatch::value(std::size_t event, const FlatSample& at) {
@@ -67,15 +122,25 @@ double EventWatch::value(std::size_t event, const FlatSample& at) {
   }
   if (!std::isfinite(value)) fail("gives no finite number");
   largest_[event] = std::max(largest_[event], std::abs(value));
+  seen_[event].push_back({at.time, std::abs(value)});
   return value;
+}
+
+/// Where the step begins, or where it is clear how the function left 0 there.
+EventWatch::Place EventWatch::first_place(std::size_t event, const Read& read, const Interpolant& part) {
+  const double t = leaves_[event];
+  if (t <= part.nodes.front()) return {part.nodes.front(), part.values.front()};
+  return {t, value(event, read(t))};
 }
 
 /// The nodes of the interpolants, and the points where one turns towards 0 between two of one sign.
 std::vector<EventWatch::Place> EventWatch::places(std::size_t event, const Read& read,
                                                   const std::vector<Interpolant>& parts) {
-  std::vector<Place> places{{parts.front().nodes.front(), parts.front().values.front()}};
+  if (leaves_[event] >= parts.back().nodes.back()) return {};
+  std::vector<Place> places{first_place(event, read, parts.front())};
   for (const Interpolant& p : parts) {
     for (std::size_t j = 1; j < p.nodes.size(); ++j) {
+      if (p.nodes[j] <= places.front().t) continue;
       const double a = p.nodes[j - 1], b = p.nodes[j], f_a = p.values[j - 1], f_b = p.values[j];
       const int side = sign(f_b);
       // What begins at 0 may have had the other sign meanwhile.
@@ -120,7 +185,11 @@ void EventWatch::find(std::size_t event, const Step& step, const std::vector<Int
     // It is 0 at b, or in between; where it was 0 at a that has been found.
     const double exact = 4.0 * epsilon * std::max(std::abs(a), std::abs(b));
     side_[event] = after == 0 ? -before : after;
+    // It turned back, but sooner than the step shows.
+    if (i == 1 && a == leaves_[event] && a > from_ && sign(f_a) != before) chatters(event, from_);
     if (f_a == 0.0) continue;
+    before_[event] = before;
+    at_root_[event] = 2.0 * exact * std::abs(f_b - f_a) / (b - a);
     const bool asked = wanted(events_[event].crossing, before);
     if (asked || event < asked_for_)
       found.push_back({{event, root(function, a, f_a, b, f_b, exact)}, before, asked});
@@ -169,6 +238,8 @@ std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& ste
 }
 
 std::vector<EventWatch::Found> EventWatch::look(const Step& step) {
+  largest_before_ = largest_;
+  for (auto& values : seen_) values.clear();
   const int degree = resolved_ > 0 ? std::max(step.degree, least_degree) : step.degree;
   std::vector<Values> all(events_.size());
   const bool rates = rate_ && resolved_ == asked_for_;

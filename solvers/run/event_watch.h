@@ -21,7 +21,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// resolve it: events that were asked for, all functions where forces or constraints depend on time, and
 /// those whose own rates at the nodes differ from the slopes there.
 /// Where one turns towards 0 between two nodes of one sign, or first crosses the 0 that it began with, the
-/// function itself is evaluated: so two roots within a step are found as well.
+/// function itself is evaluated: so two roots within a step are found as well. How one leaves the 0 that it
+/// has after a change is seen ahead of the steps: a bounce may be far shorter than they are.
 class EventWatch {
  public:
   /// The polynomial of the last step at a time inside it.
@@ -49,12 +50,24 @@ class EventWatch {
   /// Every crossing in a step, in the order of time; of contacts those that were asked for. Throws
   /// StepFailure if a function throws, gives no number or cannot be followed.
   [[nodiscard]] std::vector<Found> look(const Step& step);
-  /// From here on steps are those of a run that begins, or begins anew, at a sample; the values of the
-  /// functions there are no crossing, and as long as one is 0 to round-off of its largest value so far it has
-  /// no sign. Those from number `positive` on come from above 0 where they are 0. `timed` if something
-  /// depends on time. What was found in the last step but is `left` behind the start still has the sign that
-  /// it had before.
-  void begin_anew(const FlatSample& start, std::size_t positive, bool timed, const std::vector<Found>& left);
+  /// Where a run begins, or begins anew.
+  struct Beginning {
+    const FlatSample& start;
+    std::size_t positive;  ///< functions from this number on come from above 0 where they are 0
+    bool timed;            ///< something depends on time
+    /// Of the last step, but behind the start: it still has the sign that it had before.
+    const std::vector<Found>& left;
+    std::optional<std::size_t> changed;  ///< the event whose change this is
+    const Read& ahead;                   ///< the start, moved on by its own velocities and accelerations
+    double time;                         ///< of the scene
+  };
+  /// From here on steps are those of a run that begins there; the values of the functions there are no
+  /// crossing. One that is 0, to round-off of its largest value so far, has the sign to which it leaves 0; as
+  /// long as it does not leave it has none. Throws StepFailure where changes of an event accumulate: what one
+  /// turned back no longer shows how it leaves.
+  void begin_anew(const Beginning& beginning);
+  /// Throws StepFailure: the changes of an event accumulate.
+  [[noreturn]] void chatters(std::size_t event, double t) const;
   [[nodiscard]] const FlatEvent& event(std::size_t number) const { return events_[number]; }
 
  private:
@@ -63,6 +76,16 @@ class EventWatch {
   };
   [[nodiscard]] double value(std::size_t event, const FlatSample& at);
   [[nodiscard]] int first_side(std::size_t event, double value) const;
+  /// How a function leaves the 0 that it begins with.
+  struct Departure {
+    int side = 0;        ///< the sign that it gets; 0 if it stays
+    double at = 0.0;     ///< when that is clear
+    bool clear = false;  ///< by its rate
+  };
+  [[nodiscard]] Departure departure(std::size_t event, const Beginning& beginning);
+  void forget_behind(std::size_t event, double t);
+  void depart(std::size_t event, const Beginning& beginning);
+  [[nodiscard]] Place first_place(std::size_t event, const Read& read, const Interpolant& part);
   [[nodiscard]] std::vector<Place> places(std::size_t event, const Read& read,
                                           const std::vector<Interpolant>& parts);
   [[nodiscard]] int side_at_end(std::size_t event, const Place& before, const Place& end) const;
@@ -81,11 +104,17 @@ class EventWatch {
   Rate rate_;
   double tolerance_;
   double from_ = 0.0;
-  std::size_t asked_for_ = 0;    ///< the first of them; behind are those of contacts
-  std::size_t resolved_ = 0;     ///< the first of them may be faster than the motion
-  std::vector<double> at_from_;  ///< of each event its value where the last step ended,
-  std::vector<int> side_;        ///< its sign there or before, if it is 0; 0 if it never had one,
-  std::vector<double> largest_;  ///< and the largest value so far
+  std::size_t asked_for_ = 0;             ///< the first of them; behind are those of contacts
+  std::size_t resolved_ = 0;              ///< the first of them may be faster than the motion
+  std::vector<double> at_from_;           ///< of each event its value where the last step ended,
+  std::vector<int> side_;                 ///< its sign there or before, if it is 0; 0 if it never had one,
+  std::vector<double> largest_;           ///< and the largest value so far;
+  std::vector<double> largest_before_;    ///< before the last step,
+  std::vector<std::vector<Place>> seen_;  ///< and the sizes of the values since;
+  std::vector<double> at_root_;           ///< what it may still be where it was found to be 0,
+  std::vector<int> before_;               ///< and its sign before;
+  std::vector<double> leaves_;            ///< when it is clear how it left 0 where the run began,
+  std::vector<char> returned_;            ///< and whether its own last change turned it back
 };
 
 }  // namespace dalembert

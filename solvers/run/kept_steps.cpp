@@ -25,7 +25,7 @@ std::string at(double t) {
 }  // namespace
 
 void KeptSteps::begin(std::shared_ptr<const System> system, const Start& start, double t) {
-  segments_.push_back({system, start, steps_.size()});
+  segments_.push_back({system, start, t, steps_.size()});
   if (!steps_.empty()) end(t);
   system_ = std::move(system);
 }
@@ -40,7 +40,14 @@ void KeptSteps::add(TimeStepper& stepper, double from, long number) {
     const double t = chebyshev_node(step.from, step.to, j, step.degree);
     const std::size_t first = values_.size();
     values_.resize(first + 2 * n);
-    stepper.interpolate(t, std::span(values_).subspan(first, n), std::span(values_).subspan(first + n, n));
+    const auto q = std::span(values_).subspan(first, n), v = std::span(values_).subspan(first + n, n);
+    if (t == segments_.back().from) {
+      // Known exactly: the polynomial's rounding would let what rests go backwards.
+      std::ranges::copy(segments_.back().start.q, q.begin());
+      std::ranges::copy(segments_.back().start.v, v.begin());
+    } else {
+      stepper.interpolate(t, q, v);
+    }
     if (m == 0 || !stepper.springs(t, springs)) continue;
     step.c = springs.c;
     for (const auto* part : springs.parts()) values_.insert(values_.end(), part->begin(), part->end());

@@ -36,6 +36,7 @@ class KeptSteps final : public DenseOutput {
   struct Segment {
     std::shared_ptr<const System> system;
     Start start;
+    double from;
     std::size_t first_step;
   };
   struct Step {

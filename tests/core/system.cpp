@@ -128,6 +128,40 @@ TEST_F(MixedScene, DescriptionCountsWhatThereIs) {
                     Not(HasSubstr("mu:")), Not(HasSubstr("time derivatives"))));
 }
 
+// Rods between three atoms in a line are to first order redundant, and let it bend. But the longest is as
+// long as the others together: the line is rigid, with 3 + 2 degrees of freedom. With a longest one between
+// the ends of two others in its place nothing changes, and a fourth atom in line is held likewise.
+TEST(System, DescriptionCountsALineOfAtomsAsRigid) {
+  for (const int atoms : {3, 4}) {
+    Scene<3> scene("line");
+    std::vector<Particle<3>> p;
+    for (int i = 0; i < atoms; ++i)
+      p.push_back(scene.add_particle({.mass = 1.0 + i, .position = {0.6 * i, 0.8 * i, 1.0}}));
+    for (int i = 0; i < atoms; ++i)
+      for (int j = 0; j < i; ++j)
+        scene.add(Distance{p[static_cast<std::size_t>(i)], p[static_cast<std::size_t>(j)], 1.0 * (i - j)});
+    EXPECT_THAT(scene.describe(), AllOf(HasSubstr(" 5 of position"), HasSubstr("singular position")))
+        << atoms;
+  }
+}
+
+// A parallelogram in line can go on in two ways, and a bar more makes another one redundant: neither holds
+// anything to second order.
+TEST(System, DescriptionLeavesBranchesAndRedundantRowsFree) {
+  for (const double angle : {0.0, 1.0}) {
+    Scene<2> scene("parallelogram");
+    const Vec<2> arm(std::cos(angle), std::sin(angle));
+    const auto a = scene.add_particle({.mass = 1.0, .position = arm});
+    const auto b = scene.add_particle({.mass = 1.0, .position = arm + Vec<2>::UnitX()});
+    scene.add(Distance{Fixed<2>{}, a, 1.0});
+    scene.add(Distance{Fixed<2>{Vec<2>::UnitX()}, b, 1.0});
+    scene.add(Distance{a, b, 1.0});
+    scene.add(Distance{Fixed<2>{}, a, 1.0});
+    EXPECT_THAT(scene.describe(), Not(HasSubstr("singular position"))) << angle;
+    EXPECT_THAT(scene.describe(), HasSubstr(angle == 0.0 ? " 2 of position" : " 1 of position"));
+  }
+}
+
 TEST(System, DescriptionSaysWhatAFreeParticleLeavesOut) {
   Scene<3> scene;
   scene.add_particle({.mass = 1.0});

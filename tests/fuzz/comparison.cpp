@@ -6,6 +6,15 @@
 namespace dalembert::fuzz {
 
 template <int D>
+Statement faster(const Draft<D>& draft, int way, double rate, double length) {
+  Statement other = draft.statement();
+  other.axis = way / 2;
+  other.more_spin = way % 2 == 0 ? rate : -rate;
+  other.more_speed = other.more_spin * length;
+  return other;
+}
+
+template <int D>
 Ending<D> run_of(const Draft<D>& draft) {
   try {
     return {.run = simulate(draft.scene, draft.plan.options, draft.events)};
@@ -135,7 +144,7 @@ std::string difference(const Comparison<D>& runs, const std::vector<Distances>& 
 
 /// Where the two are too far apart, what the scene makes of early errors counts as well: some enlarge them,
 /// and no stepper can help that. It is how far a run is from itself begun with speeds that differ by what is
-/// allowed, along each axis.
+/// allowed, along each axis both ways: what returns to a contact at rest strikes it or does not.
 template <int D>
 std::string fault_of_comparison(const Run<D>& one, const Run<D>& two, const Run<D>& own,
                                 const Measure& measure, std::string& detail) {
@@ -145,12 +154,8 @@ std::string fault_of_comparison(const Run<D>& one, const Run<D>& two, const Run<
   for (std::size_t i = 0; i < runs.size(); ++i) allowed.push_back({error + runs.drift(i), error, error});
   const std::string fault = difference(runs, allowed, measure, detail);
   if (fault.empty()) return fault;
-  for (int axis = 0; axis < D; ++axis) {
-    Statement other = own.draft.statement();
-    other.more_speed = rate * runs.unit().length;
-    other.more_spin = rate;
-    other.axis = axis;
-    Draft<D> otherwise = own.draft.again(own.draft.plan, other);
+  for (int way = 0; way < 2 * D; ++way) {
+    Draft<D> otherwise = own.draft.again(own.draft.plan, faster(own.draft, way, rate, runs.unit().length));
     fill(otherwise);
     const Ending<D> three = run_of(otherwise);
     if (!three.run) continue;
@@ -174,6 +179,8 @@ std::string fault_of_twin(const Run<D>& one, const Run<D>& two, const Measure& m
   return fault.empty() ? fault : fault_of_comparison(one, two, one, measure, detail);
 }
 
+template Statement faster(const Draft<2>&, int, double, double);
+template Statement faster(const Draft<3>&, int, double, double);
 template Ending<2> run_of(const Draft<2>&);
 template Ending<3> run_of(const Draft<3>&);
 template std::string fault_of_comparison(const Run<2>&, const Run<2>&, const Run<2>&, const Measure&,

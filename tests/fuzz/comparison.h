@@ -27,6 +27,10 @@ struct Ending {
 template <int D>
 [[nodiscard]] Ending<D> run_of(const Draft<D>& draft);
 
+/// A scene's statement with velocities that differ along one axis, in one of 2 D ways.
+template <int D>
+[[nodiscard]] Statement faster(const Draft<D>& draft, int way, double rate, double length);
+
 /// How two runs are compared.
 struct Measure {
   std::string of;       ///< what the second is

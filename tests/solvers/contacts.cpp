@@ -48,7 +48,7 @@ TEST(Complementarity, WithoutSolutionSaysSo) {
 }
 
 class Contacts : public WithEvents {};
-INSTANTIATE_TEST_SUITE_P(Steppers, Contacts, both_steppers, stepper_name);
+INSTANTIATE_TEST_SUITE_P(Runs, Contacts, at_tolerances, tolerance_name);
 
 TEST_P(Contacts, OfAWashboardAreMetAtItsFirstCrest) {
   // Thrown flat over y = A sin(n x + 0.1), many of whose crests lie within one step of a parabola. The first

@@ -9,7 +9,7 @@ namespace {
 
 /// Contacts that touch, close and open at the limits of round-off.
 class ContactsAtRoundOff : public WithEvents {};
-INSTANTIATE_TEST_SUITE_P(Steppers, ContactsAtRoundOff, both_steppers, stepper_name);
+INSTANTIATE_TEST_SUITE_P(Runs, ContactsAtRoundOff, at_tolerances, tolerance_name);
 
 TEST_P(ContactsAtRoundOff, OnBothSidesPushOnTheSideThatIsPressed) {
   // A slot without play, gravity across it: the floor bears, the ceiling does nothing, from the first sample.

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 class CoulombFriction : public WithEvents {};
-INSTANTIATE_TEST_SUITE_P(Steppers, CoulombFriction, both_steppers, stepper_name);
+INSTANTIATE_TEST_SUITE_P(Runs, CoulombFriction, at_tolerances, tolerance_name);
 
 /// A block of mass 2 on a line at this angle.
 struct Incline {

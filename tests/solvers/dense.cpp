@@ -198,5 +198,26 @@ TEST(DenseRun, EndsWhereItFailed) {
   EXPECT_THROW((void)run.run(), IntegrationFailure);  // though both samples are there
 }
 
+/// A pursuer at rest goes nowhere, to the last bit: backwards, by a rounding of the first step's polynomial,
+/// it would have caught its prey.
+TEST_P(Dense, BeginsWithItsStart) {
+  for (int k = 0; k < 20; ++k) {
+    const double angle = 0.1 * k;
+    const Vec<2> way(std::cos(angle), std::sin(angle));
+    Scene<2> scene;
+    const auto pursuer = scene.add_particle({.mass = 1.0 + 0.1 * k, .position = {0.3, 0.7}});
+    const auto prey = scene.add_particle({.mass = 1.0, .position = Vec<2>(0.3, 0.7) + way, .velocity = way});
+    scene.add(Pursuit{pursuer, prey});
+    scene.add(force_law(points(pursuer, prey), [](auto, auto a, auto b, auto, auto) {
+      const auto d = ((b - a) * (1.0 / 3.0)).eval();
+      return std::tuple{d, (0.0 * d).eval()};
+    }));
+    const auto run =
+        simulate(scene, {.t_end = 0.71, .t_start = 0.7, .samples = 2, .stepper = GetParam(), .dense = true});
+    const auto start = run.at({0.7});
+    EXPECT_EQ(start.velocity(pursuer, 0), Vec<2>(0.0, 0.0)) << k;
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::dense_test

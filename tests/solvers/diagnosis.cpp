@@ -1,5 +1,7 @@
 #include "dalembert/solvers/run/diagnosis.h"
 
+#include "../both_steppers.h"
+#include "failure_of.h"
 #include "scenes.h"
 
 #include <gmock/gmock.h>
@@ -20,6 +22,40 @@ TEST(Diagnosis, NamesAMultiplierOnlyIfItHasGrown) {
   EXPECT_THAT(unbounded_multiplier(system, start.scales, e.w, grown, weight),
               testing::HasSubstr("Distance \"rod\""));
   EXPECT_EQ(unbounded_multiplier(system, start.scales, e.w, grown, large), "");
+}
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class Fall : public testing::TestWithParam<Stepper> {};
+INSTANTIATE_TEST_SUITE_P(Steppers, Fall, both_steppers, stepper_name);
+
+std::string stopped_by(const Scene<3>& scene, double tolerance, Stepper stepper) {
+  const auto failure =
+      failure_of([&] { (void)simulate(scene, {.t_end = 5.0, .tolerance = tolerance, .stepper = stepper}); });
+  return failure ? failure->what() : "it ran";
+}
+
+// A comet falls straight into a centre of force -k/r, a bead on a cone into its apex: there erk steps across,
+// to where its audit or the apex itself stops it.
+TEST_P(Fall, IsExplainedByWhatIsSingularAndWhere) {
+  for (const double tolerance : {1e-4, 1e-6}) {
+    Scene<3> sky;
+    const auto comet = sky.add_particle({.mass = 2.0, .position = {1.0, 0.3, 0.0}}, "comet");
+    sky.add(potential(points(comet), [](auto r) { return -4.0 / r.norm(); }), "pull");
+    EXPECT_THAT(stopped_by(sky, tolerance, GetParam()),
+                AllOf(HasSubstr("Potential \"pull\""), HasSubstr("comet at ("), HasSubstr("singular"),
+                      Not(HasSubstr("discontinuous"))));
+    if (GetParam() == Stepper::erk) continue;
+    Scene<3> funnel;
+    funnel.add(UniformGravity<3>{{0.0, 0.0, -9.81}});
+    const auto bead = funnel.add_particle({.mass = 2.0, .position = {1.0, 0.0, 1.0}}, "bead");
+    funnel.add(OnSurface{bead, Cone{}}, "funnel");
+    EXPECT_THAT(
+        stopped_by(funnel, tolerance, GetParam()),
+        AllOf(HasSubstr("OnSurface \"funnel\""), HasSubstr("singular"), Not(HasSubstr("discontinuous"))));
+  }
 }
 
 }  // namespace

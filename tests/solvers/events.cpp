@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 class Events : public WithEvents {};
-INSTANTIATE_TEST_SUITE_P(Steppers, Events, both_steppers, stepper_name);
+INSTANTIATE_TEST_SUITE_P(Runs, Events, at_tolerances, tolerance_name);
 
 /// A pendulum of length 1, from rest at an angle from the downward vertical.
 struct Pendulum {

@@ -31,7 +31,7 @@ class Ledgers : public WithEvents {
     return with;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Steppers, Ledgers, both_steppers, stepper_name);
+INSTANTIATE_TEST_SUITE_P(Runs, Ledgers, at_usual_tolerance, tolerance_name);
 
 TEST_P(Ledgers, OfABallThatBouncesHasTheImpactsLossAndTheGroundsImpulse) {
   // It falls from h, strikes at v = sqrt(2 g h), and leaves at e v.

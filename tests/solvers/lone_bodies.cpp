@@ -10,7 +10,7 @@ namespace {
 
 /// One particle and what it touches: the scene has no length but that of its path.
 class LoneBodies : public WithEvents {};
-INSTANTIATE_TEST_SUITE_P(Steppers, LoneBodies, both_steppers, stepper_name);
+INSTANTIATE_TEST_SUITE_P(Runs, LoneBodies, at_usual_tolerance, tolerance_name);
 
 TEST_P(LoneBodies, BounceInTheScaleOfTheirHeight) {
   // However long the run: without the floor it would lead a million times as far.

@@ -13,7 +13,7 @@ namespace {
 /// Scenes that start from rest and have no length of their own: what is asked of a run must not change what
 /// the solver takes for one.
 class Scales : public WithEvents {};
-INSTANTIATE_TEST_SUITE_P(Steppers, Scales, both_steppers, stepper_name);
+INSTANTIATE_TEST_SUITE_P(Runs, Scales, at_usual_tolerance, tolerance_name);
 
 constexpr double falling[] = {1e-8, 1e-9, 1e-10, 1e-11, 3e-12, 1e-12, 3e-13};
 
