@@ -119,7 +119,16 @@ export class Arrows {
     if (sizes.length === 0) return 0;
     sizes.sort((a, b) => a - b);
     const largest = sizes.at(-1), usual = sizes[Math.floor(0.95 * (sizes.length - 1))];
-    return (0.33 * this.size * this.room) / Math.min(largest, 3 * usual);
+    const scale = (0.33 * this.size * this.room) / Math.min(largest, 3 * usual);
+    return scale * Math.max(0.3, Math.min(1, 0.5 / this.overlap(which, scale, usual)));
+  }
+  // The arrows at both ends of a rod cross where they are longer than half of it: their usual length in lengths of the
+  // shortest such rod.
+  overlap(which, scale, usual) {
+    const pulled = this.all.filter((one) => which(one) && one.constraint.shape === "rod");
+    const ends = (c) => pulled.filter((one) => one.constraint === c).length;
+    const rods = [...new Set(pulled.map((one) => one.constraint))].filter((c) => ends(c) === 2);
+    return Math.max(0.5, ...rods.map((c) => (scale * usual) / c.sizes[0]));
   }
   update(frame) {
     for (const one of this.all) {
