@@ -70,7 +70,7 @@ template <class Body>
 inline constexpr bool moves = true;
 template <int D>
 inline constexpr bool moves<Ground<D>> = false;
-/// Whether it has axes that a joint may hold.
+/// Whether a joint may hold it.
 template <class Body>
 inline constexpr bool has_axes =
     !moves<Body> || requires(const Body& its, const Vec<Body::dimension>& place) {
@@ -101,7 +101,7 @@ struct JointFrames {
   static_assert(A::dimension == B::dimension, "the bodies of a joint have the dimension of its scene");
   static_assert(detail::moves<A> || detail::moves<B>, "a joint needs a body that can move");
   static_assert(detail::has_axes<A> && detail::has_axes<B>,
-                "a joint holds bodies with axes, a ThinRod has none: pin its points by Coincident");
+                "a joint holds bodies of add_body: pin points of a ThinRod or Lamina by Coincident");
   using First = A;                                           ///< the first body's type
   using Second = B;                                          ///< the second body's type
   using Axes = Eigen::Matrix<double, dimension, dimension>;  ///< a rotation matrix

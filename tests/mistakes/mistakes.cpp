@@ -82,7 +82,7 @@ struct EnergyAndForce {
 #ifdef MISTAKE_max_of_std  // call max(...) without std::
   scene.add(potential(points(bead), [](auto r) { return std::max(r.x(), 0.0); }));
 #endif
-#ifdef MISTAKE_joint_of_a_thin_rod  // a joint holds bodies with axes, a ThinRod has none
+#ifdef MISTAKE_joint_of_a_thin_rod  // a joint holds bodies of add_body
   const auto arm = add_thin_rod(scene, ThinRodState<2>{.mass = 1.0, .end = {1.0, 0.0}}, "arm");
   scene.add(Revolute{Ground<2>{}, arm, {0.0, 0.0}});
 #endif
