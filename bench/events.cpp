@@ -7,16 +7,20 @@
 
 namespace dalembert::bench {
 
+std::vector<models::EventModel> models_of_events() {
+  auto all = models::models_with_events();
+  all.push_back(models::chain_over_edge_model());
+  all.push_back(models::chain_over_edge_friction_model());
+  return all;
+}
+
 int events(const EventsTable& options) {
   require_writable(options.report);
   Table table{
       .columns = {"model", "event", "stepper", "tolerance", "time", "reference_time", "error", "limit"},
       .rows = {}};
   int wrong = 0;
-  auto all = models::models_with_events();
-  all.push_back(models::chain_over_edge_model());
-  all.push_back(models::chain_over_edge_friction_model());
-  for (const auto& model : all) {
+  for (const auto& model : models_of_events()) {
     for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
       for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
         for (const models::Timed& row : model.events({stepper, tolerance})) {

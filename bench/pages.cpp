@@ -1,13 +1,16 @@
 #include "dalembert/bench/pages.h"
 
+#include <dalembert/bench/events.h>
 #include <dalembert/bench/outcome.h>
 #include <dalembert/bench/progress.h>
 #include <dalembert/bench/table.h>
 #include <dalembert/bench/work_precision.h>
 #include <dalembert/view/write_html.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <span>
 
 namespace dalembert::bench {
@@ -98,6 +101,21 @@ void write_model(const models::Model<D>& model, const Pages& options) {
   write_html(certificate, path + ".html", {.title = model.name});
 }
 
+/// A run whose events have times in closed form.
+void write_event_model(const models::EventModel& model, const Pages& options) {
+  std::optional<TwoRuns> runs;
+  (void)model.events({.stepper = options.stepper,
+                      .tolerance = options.tolerance,
+                      .certified = &runs,
+                      .samples = options.samples});
+  const std::string path = options.directory + '/' + model.name + ".html";
+  if (runs->run()->layout->dimension == 2) {
+    write_html(Certificate<2>(*runs), path, {.title = model.name});
+  } else {
+    write_html(Certificate<3>(*runs), path, {.title = model.name});
+  }
+}
+
 }  // namespace
 
 void pages(const Pages& options) {
@@ -118,6 +136,9 @@ void pages(const Pages& options) {
         any);
   }
   write_table(path, list);
+  if (std::ranges::find(options.models, "all") == options.models.end()) return;
+  for (const models::EventModel& model : models_of_events())
+    (void)outcome_of(model.name, [&] { write_event_model(model, options); });
 }
 
 }  // namespace dalembert::bench

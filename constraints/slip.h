@@ -37,9 +37,13 @@ template <class T>
 ///
 ///   a = e_k . (v - belt),   e_k along the surface;  in the plane e is its normal turned right
 ///
-/// Plane, Sphere, Cylinder, Cone, or a type with `normal_at(r)`, of length 1.
+/// Plane, Sphere, Cylinder, Cone, or a type with `normal_at(r)`, of length 1. Along a surface that turns or
+/// is driven state the slip velocity as one's own equation, `nonholonomic`.
 template <Point P, class Surface>
 struct Slip {
+  static_assert(
+      requires(const Surface& its, const Vec<P::dimension>& r) { its.normal_at(r); },
+      "Slip takes a surface with normal_at(r), moved by `belt` alone; for others write nonholonomic(...)");
   static constexpr std::string_view kind = "Slip";
   static constexpr std::string_view meaning = "force on the particle along the surface";
   static constexpr std::string_view singular = "the surface has no normal there";

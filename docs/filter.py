@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Doxygen's filter of headers: members that every element has by its concept are documented here, once.
+"""Doxygen's filter. In headers: members that every element has by its concept are documented here, once.
 
 A constraint or force states points(), its equation, and if it likes kind, meaning, singular and fault().
+In pages: pictures are found by their names, and the sections of the front page are no part of the navigation.
 """
 import re
 import sys
@@ -36,6 +37,12 @@ ALIKE = [
 SEVERAL = re.compile(r"(\s*)((?:[\w:]+(?:<[^;=]*>)?) )(\w+[^,;()]*(?:, \w+[^,;()]*)+);\s*///< ?(.*)")
 
 text = open(sys.argv[1], encoding="utf-8").read()
+if sys.argv[1].endswith(".md"):
+    text = text.replace("](../pictures/runs/", "](").replace("](pictures/runs/", "](")
+    if sys.argv[1].endswith("/README.md") and "core/" not in sys.argv[1]:
+        text = re.sub("^## (.*)$", r"<h1>\1</h1>", text, flags=re.M)
+    print(text, end="")
+    sys.exit()
 # What is compiled in the library is documented where it is defined.
 text = re.sub(r"^extern template [^;]*;", lambda found: "\n" * found[0].count("\n"), text, flags=re.M)
 if sys.argv[1].endswith("core/results/readings.h"):

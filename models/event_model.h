@@ -30,12 +30,14 @@ struct EventRun {
   double tolerance = 1e-6;
   /// If it is to be certified: receives how the run compares with a more accurate one.
   std::optional<TwoRuns>* certified = nullptr;
+  int samples = 0;  ///< if not 0, in place of the model's own: for a page that plays the run
 
   template <int D>
   [[nodiscard]] Trajectory<D> run(const Scene<D>& scene, Options options,
                                   const std::vector<Event<D>>& events = {}) const {
     options.stepper = stepper;
     options.tolerance = tolerance;
+    if (samples > 0) options.samples = samples;
     if (certified == nullptr) return simulate(scene, options, events);
     const auto certificate = certify(scene, options, events);
     certified->emplace(certificate.runs());

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 namespace dalembert {
@@ -117,33 +118,11 @@ void put(hid_t group, const WrittenColumn& column) {
   put_attribute(data, "dimension", column.dimension);
 }
 
-const char* name(Happened what) {
-  switch (what) {
-    case Happened::event:
-      return "event";
-    case Happened::opened:
-      return "opened";
-    case Happened::struck:
-      return "struck";
-    case Happened::rested:
-      return "rested";
-    case Happened::sticks:
-      return "sticks";
-    case Happened::slides:
-      return "slides";
-  }
-  return "";
-}
-
 /// What happened, when, and to which constraint; `time_error` of the k-th is its estimated error.
 void put_events(hid_t file, const Record& record, const std::function<double(std::size_t)>& time_error) {
-  constexpr std::size_t word = 8;
-  const auto of = [&](const Occurrence& one) {
-    return one.what == Happened::event ? std::to_string(one.event)
-                                       : record.layout->constraints[one.event].name;
-  };
+  const std::size_t word = std::string_view(name(Happened::rested)).size();  // the longest
   std::size_t widest = 1;
-  for (const Occurrence& one : record.events) widest = std::max(widest, of(one).size());
+  for (const Occurrence& one : record.events) widest = std::max(widest, record.name_of(one).size());
   const hdf5::Handle what = hdf5::text_type(word), element = hdf5::text_type(widest);
   hdf5::RecordType type{{{"time", H5T_NATIVE_DOUBLE}, {"what", what}, {"of", element}}};
   if (time_error) type.fields.push_back({"time_error", H5T_NATIVE_DOUBLE});
@@ -151,7 +130,7 @@ void put_events(hid_t file, const Record& record, const std::function<double(std
   for (std::size_t k = 0; k < record.events.size(); ++k) {
     table.put(record.events[k].time);
     table.put(std::string(name(record.events[k].what)), word);
-    table.put(of(record.events[k]), widest);
+    table.put(record.name_of(record.events[k]), widest);
     if (time_error) table.put(time_error(k));
   }
   table.close();

@@ -11,7 +11,4 @@ namespace DALEMBERT_HIDDEN dalembert {
 void write_page_data(std::ostream& out, const Record& run, const TwoRuns* certified,
                      const PageOptions& options);
 
-/// Of a point in a picture D numbers out of an instant.
-[[nodiscard]] Sketch::Place place_at(const SketchedPoint& point, const FlatSample& at, int dimension);
-
 }  // namespace dalembert

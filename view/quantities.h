@@ -5,6 +5,7 @@
 #include <dalembert/view/instants.h>
 
 #include <functional>
+#include <optional>
 #include <span>
 
 namespace DALEMBERT_HIDDEN dalembert {
@@ -22,9 +23,10 @@ class Quantities {
 
   /// A column for each number; their numbers.
   std::vector<std::size_t> add(int numbers, const Reading& read);
-  /// The error of all of them as one vector, by its norm; infinite where it is not known.
+  /// The error of all of them as one vector, by its norm; infinite where it is not known. None if the run is
+  /// not certified.
   enum class Kind { position, velocity, angle, angular_velocity, force, other };
-  std::size_t add_error(int numbers, Kind kind, const Reading& read);
+  std::optional<std::size_t> add_error(int numbers, Kind kind, const Reading& read);
 
  private:
   [[nodiscard]] double error(const Shown& at, int numbers, Kind kind, const Reading& read) const;

@@ -3,7 +3,7 @@
 #include <dalembert/core/errors.h>
 #include <dalembert/view/body_boxes.h>
 #include <dalembert/view/glb.h>
-#include <dalembert/view/page_data.h>
+#include <dalembert/view/pictures.h>
 
 #include <algorithm>
 #include <array>

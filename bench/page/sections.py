@@ -107,7 +107,9 @@ def events(folder):
     steppers = table.distinct("stepper")
     rows, wrong = [], set()
     for model in table.distinct("model"):
-        cells = [model, len(table.where(model=model, stepper=steppers[0], tolerance=tolerances[0]))]
+        plays = (folder.path / f"{model}.html").exists()
+        cells = [Markup('<a href="{0}.html">{0}</a>').format(model) if plays else model,
+                 len(table.where(model=model, stepper=steppers[0], tolerance=tolerances[0]))]
         for stepper in steppers:
             for tolerance in tolerances:
                 own = table.where(model=model, stepper=stepper, tolerance=tolerance)

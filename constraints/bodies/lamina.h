@@ -27,6 +27,7 @@ struct LaminaState {
 ///
 /// A thin disk has I_1 = I_2 = m radius^2/4.
 struct Lamina {
+  static constexpr int dimension = 3;
   std::array<Particle<3>, 3> particles;  ///< with its mass, centre and inertia
   std::array<Constraint<1>, 3> rods;     ///< between particles 1 and 2, 2 and 3, 3 and 1
   Vec<2> arms = Vec<2>::Zero();          ///< (a, b): roots of the second moments over the mass

@@ -29,6 +29,7 @@ struct ThinRodState {
 /// particles, so its ends can be pinned like any other point.
 template <int D>
 struct ThinRod {
+  static constexpr int dimension = D;
   std::array<Particle<D>, 2> particles;  ///< half its mass each
   Constraint<1> distance;                ///< between the particles
   double length = 0.0;                   ///< from start to end

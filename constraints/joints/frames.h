@@ -70,6 +70,12 @@ template <class Body>
 inline constexpr bool moves = true;
 template <int D>
 inline constexpr bool moves<Ground<D>> = false;
+/// Whether a joint may hold it.
+template <class Body>
+inline constexpr bool has_axes =
+    !moves<Body> || requires(const Body& its, const Vec<Body::dimension>& place) {
+  its.point_at(place);
+};
 
 /// Axes x, y, z with z along a direction.
 [[nodiscard]] Eigen::Matrix3d joint_axes(const Vec<3>& direction);
@@ -94,6 +100,8 @@ struct JointFrames {
   static constexpr int dimension = A::dimension;
   static_assert(A::dimension == B::dimension, "the bodies of a joint have the dimension of its scene");
   static_assert(detail::moves<A> || detail::moves<B>, "a joint needs a body that can move");
+  static_assert(detail::has_axes<A> && detail::has_axes<B>,
+                "a joint holds bodies of add_body: pin points of a ThinRod or Lamina by Coincident");
   using First = A;                                           ///< the first body's type
   using Second = B;                                          ///< the second body's type
   using Axes = Eigen::Matrix<double, dimension, dimension>;  ///< a rotation matrix

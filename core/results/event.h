@@ -53,6 +53,8 @@ struct FlatEvent {
 /// What a run lists: an event that was asked for; that a one-sided constraint opened, had an impact, or came
 /// to rest after infinitely many; that one of Coulomb's law sticks from there on, or slides.
 enum class Happened { event, opened, struck, rested, sticks, slides };
+/// The verb: "happens", "opens", "is struck", "comes to rest", "sticks", "slides".
+[[nodiscard]] const char* name(Happened what);
 
 /// That something happened in a run, and when.
 struct Occurrence {

@@ -24,7 +24,8 @@ struct Ledger {
   Account potential{"potential energy", {}};  ///< of all forces that have one
   std::vector<Account> elastic{};             ///< of every compliant constraint
   /// On the particles and rotors: of the constant forces together, of every other force, of every constraint
-  /// (a drive, friction; 0 to round-off of most), and of "impacts" and "changes of the scene" [energy].
+  /// (a drive, friction; 0 to round-off of most), of "what holds bodies together" (0 to round-off), and of
+  /// "impacts" and "changes of the scene" [energy].
   std::vector<Account> work{};
   std::vector<Vector> momentum{};          ///< of all particles [mass speed]
   std::vector<Vector> angular_momentum{};  ///< of them about the origin [mass speed length]

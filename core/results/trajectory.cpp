@@ -40,6 +40,15 @@ void Record::clear() {
   unique.clear();
 }
 
+std::string Record::name_of(const Occurrence& its) const {
+  if (its.what == Happened::event) {
+    const bool named = its.event < event_names.size() && !event_names[its.event].empty();
+    return named ? event_names[its.event] : "event " + std::to_string(its.event);
+  }
+  if (its.event < layout->constraints.size()) return layout->constraints[its.event].name;
+  throw InvalidArgument("name_of(): this is nothing that happened in this run; use one of its events()");
+}
+
 std::size_t Record::stride() const { return 3 * coordinates + rows + layout->slot_coordinate.size() + 1; }
 
 FlatSample Record::sample(std::size_t i) const {

@@ -64,6 +64,8 @@ struct Record {
   void clear();
   /// The numbers of a sample.
   [[nodiscard]] FlatSample sample(std::size_t i) const;
+  /// Of the event that happened, or of the constraint that it happened to.
+  [[nodiscard]] std::string name_of(const Occurrence& its) const;
   /// How many of `values` each sample has.
   [[nodiscard]] std::size_t stride() const;
 
@@ -149,6 +151,11 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   /// What happened, in the order of time, and the k-th such instant; see Event. `event_sample` throws
   /// InvalidArgument if there are not so many.
   [[nodiscard]] std::span<const Occurrence> events() const& { return record_->events; }
+  /// The name of an event that was asked for, or of the constraint that something happened to.
+  ///
+  ///   for (const Occurrence& its : run.events())
+  ///     std::cout << run.name_of(its) << ' ' << name(its.what) << " at " << its.time << " s\n";
+  [[nodiscard]] std::string name_of(const Occurrence& its) const { return record_->name_of(its); }
   /// The state just before.
   [[nodiscard]] Sample<D> event_sample(std::size_t k) const&;
   /// The state that the run goes on with: with other velocities after an impact.

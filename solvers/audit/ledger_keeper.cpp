@@ -39,12 +39,23 @@ void LedgerKeeper::find_powers(const FlatSample& sample) {
   put("constant forces", stated_->constant_power(sample.v));
   stated_->for_each_force_power({sample.time, sample.q, sample.v}, sample.lambda, put);
   const Layout& layout = *stated_->layout();
-  for (const Layout::Constraint& c : layout.constraints) {
+  const auto power_of = [&](const Layout::Constraint& c) {
     double P = 0.0;
     for (const std::size_t slot : c.slots())
       P += sample.forces[slot] * sample.v[static_cast<std::size_t>(layout.slot_coordinate[slot])];
-    put(first ? c.label() : std::string(), P);
+    return P;
+  };
+  double inside = 0.0;
+  bool bodies = false;
+  for (const Layout::Constraint& c : layout.constraints) {
+    bodies = bodies || c.internal;
+    if (c.internal) {
+      inside += power_of(c);
+    } else {
+      put(first ? c.label() : std::string(), power_of(c));
+    }
   }
+  if (bodies) put("what holds bodies together", inside);
   work_.resize(powers_.size());
 }
 

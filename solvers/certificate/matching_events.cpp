@@ -24,23 +24,6 @@ std::map<Element, std::pair<Numbers, Numbers>> by_element(const Record& run, con
   return all;
 }
 
-const char* verb(Happened what) {
-  switch (what) {
-    case Happened::opened:
-      return "opens";
-    case Happened::struck:
-      return "is struck";
-    case Happened::rested:
-      return "comes to rest";
-    case Happened::sticks:
-      return "sticks";
-    case Happened::slides:
-      return "slides";
-    default:
-      return "happens";
-  }
-}
-
 }  // namespace
 
 MatchingEvents::MatchingEvents(const Record& run, const Record& reference)
@@ -52,12 +35,8 @@ MatchingEvents::MatchingEvents(const Record& run, const Record& reference)
 std::string MatchingEvents::label(const Occurrence& one) const {
   std::ostringstream out;
   out.precision(8);
-  if (one.what == Happened::event) {
-    out << "event " << one.event;
-  } else {
-    out << run_->layout->constraints[one.event].label();
-  }
-  out << ' ' << verb(one.what) << " at t = " << one.time;
+  const auto kind = one.what == Happened::event ? "Event" : run_->layout->constraints[one.event].kind;
+  out << kind << " \"" << run_->name_of(one) << "\" " << name(one.what) << " at t = " << one.time;
   return out.str();
 }
 

@@ -82,6 +82,14 @@ struct EnergyAndForce {
 #ifdef MISTAKE_max_of_std  // call max(...) without std::
   scene.add(potential(points(bead), [](auto r) { return std::max(r.x(), 0.0); }));
 #endif
+#ifdef MISTAKE_joint_of_a_thin_rod  // a joint holds bodies of add_body
+  const auto arm = add_thin_rod(scene, ThinRodState<2>{.mass = 1.0, .end = {1.0, 0.0}}, "arm");
+  scene.add(Revolute{Ground<2>{}, arm, {0.0, 0.0}});
+#endif
+#ifdef MISTAKE_slip_on_a_moving_surface  // Slip takes a surface with normal_at(r)
+  const Translating moving{Plane<2>{}, [](auto t) { return vec(0.0, sin(t)); }};
+  scene.add(coulomb(scene.add(OnCurve{bead, moving}), Slip{bead, moving}, 0.3));
+#endif
 #ifdef MISTAKE_option  // is an option misspelled, or not in the order of solvers/options.h?
   const auto run = simulate(scene, {.t_end = 1.0, .tolerence = 1e-8});
 #endif

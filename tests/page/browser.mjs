@@ -5,7 +5,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 
 export class Browser {
-  static async start(executable, { width, height, scheme = "light", scale = 1 }) {
+  static async start(executable, { width, height, scheme = "light", scale = 1, motion = "reduce" }) {
     const browser = new Browser();
     browser.profile = mkdtempSync(join(tmpdir(), "page-test-"));
     browser.child = spawn(executable, [
@@ -19,7 +19,7 @@ export class Browser {
     const page = targetInfos.find((t) => t.type === "page");
     browser.session = (await browser.send("Target.attachToTarget", { targetId: page.targetId, flatten: true })).sessionId;
     for (const domain of ["Page", "Runtime", "Log"]) await browser.send(domain + ".enable");
-    await browser.send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: scheme }] });
+    await browser.send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: scheme }, { name: "prefers-reduced-motion", value: motion }] });
     await browser.resize(width, height, scale);
     return browser;
   }

@@ -92,6 +92,23 @@ async function plays(browser) {
   await browser.press("-");
 }
 
+// It moves when it is opened, and begins again at its end.
+async function startsByItself() {
+  const own = await Browser.start(executable, { width: 800, height: 600, motion: "no-preference" });
+  try {
+    await own.open(url("pendulum"));
+    await own.until("window.dalembert.player.t > 0.1");
+    await own.evaluate("window.dalembert.player.seek(9.9)");
+    await own.until("window.dalembert.player.t < 5");
+    assert.ok(await own.evaluate("window.dalembert.player.playing"));
+    await own.press("r");
+    await own.evaluate("window.dalembert.player.seek(9.9)");
+    await own.until("!window.dalembert.player.playing && window.dalembert.player.t === 10");
+  } finally {
+    await own.stop();
+  }
+}
+
 async function scrubs(browser) {
   const middle = await browser.evaluate(`(() => { const r = document.getElementById("time").getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]; })()`);
   await browser.click(...middle);
@@ -173,7 +190,7 @@ const browser = await Browser.start(executable, { width: 1200, height: 760, sche
 let failed = 0;
 try {
   await browser.open(url("pendulum"));
-  for (const test of [arrowsAreTheForces, plays, scrubs, stepsByEvent, picks, hasTwoThemes, namesItsControls, saysWhatIsNotUnique, undeterminedIsNoZero, fitsOnAPhone]) {
+  for (const test of [arrowsAreTheForces, plays, scrubs, stepsByEvent, picks, hasTwoThemes, namesItsControls, saysWhatIsNotUnique, undeterminedIsNoZero, fitsOnAPhone, startsByItself]) {
     try {
       await test(browser);
       assert.deepEqual(browser.complaints, [], "the console shows no error");

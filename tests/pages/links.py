@@ -14,7 +14,7 @@ class Page(html.parser.HTMLParser):
         self.feed(text)
 
     def handle_data(self, data):
-        if not self.code and (re.search(r"\w\]\([\w./#-]+\)", data) or "`" in data):
+        if not self.code and (re.search(r"\w\]\([\w./#-]+\)", data) or "`" in data or "**" in data):
             self.left.append(" ".join(data.split()))
 
     def handle_endtag(self, tag):

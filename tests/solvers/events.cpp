@@ -60,6 +60,7 @@ TEST_P(Events, AreAllFoundInTheOrderOfTheirTimes) {
     if (n % 4 == 0) continue;  // there it turns back the other way
     ASSERT_LT(k, run.events().size());
     EXPECT_EQ(run.events()[k].event, n % 2 == 0 ? 1U : 0U);
+    EXPECT_EQ(run.name_of(run.events()[k]), n % 2 == 0 ? "turns back" : "lowest");
     EXPECT_NEAR(run.events()[k].time, n * quarter, bound);
     if (n % 2 == 1) {
       EXPECT_NEAR(-run.event_sample(k).multiplier(pendulum.rod), g * (3.0 - 2.0 * std::cos(1.0)), bound * g);

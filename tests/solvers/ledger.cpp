@@ -103,6 +103,27 @@ TEST_P(Ledgers, OfABeadOnATurningRodHasTheDrivesWorkAndMoment) {
   }
 }
 
+TEST_P(Ledgers, OfABodyHasNoAccountOfItsInnerRods) {
+  // What no user stated is one account: the body, a rod of length 1 on a pivot, is held together without
+  // work.
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto body =
+      add_thin_rod(scene, ThinRodState<2>{.mass = 1.0, .start = {0.0, 0.0}, .end = {1.0, 0.0}}, "rod");
+  scene.add(Coincident{Fixed<2>{}, body.start()}, "pivot");
+  const auto plate =
+      add_body(scene, BodyState<2>{.mass = 1.0, .inertia = 0.1, .centre = {1.0, 0.0}}, "plate");
+  scene.add(Coincident{body.end(), plate.point_at({1.0, 0.0})}, "hinge");
+  const auto run = simulate(scene, kept(1.0));
+  const Ledger& ledger = run.ledger();
+  std::vector<std::string> names;
+  for (const auto& account : ledger.work) names.push_back(account.name);
+  EXPECT_THAT(names, testing::ElementsAre("constant forces", "Coincident \"pivot\"", "Coincident \"hinge\"",
+                                          "what holds bodies together", "impacts", "changes of the scene"));
+  for (std::size_t i = 0; i < run.size(); ++i)
+    EXPECT_NEAR(of(ledger.work, "what holds bodies together", i), 0.0, bound * g);
+}
+
 TEST_P(Ledgers, OfACompliantRodHasItsElasticEnergyAndOfAChangeWhatItPutIn) {
   // x = A cos(w t) about the rod's length, w^2 = 1 / (m C); at a quarter of the period the user doubles the
   // velocity.

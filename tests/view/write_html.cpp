@@ -145,8 +145,10 @@ TEST_F(WriteHtml, ShowsEventsBeforeAndAfter) {
   const ptree& event = page.first("events");
   const auto row = event.get<std::size_t>("row");
   const auto vy = page.column(std::next(page.first("particles").get_child("velocity").begin())->second);
-  EXPECT_EQ(event.get<std::string>("what"), "impact");
+  EXPECT_EQ(event.get<std::string>("what"), "is struck");
   EXPECT_EQ(event.get<std::string>("name"), "floor");
+  EXPECT_EQ(run.name_of(run.events()[0]), "floor");
+  EXPECT_STREQ(name(run.events()[0].what), "is struck");
   EXPECT_EQ(vy[row], run.event_sample(0).velocity(p).y());
   EXPECT_EQ(vy[row + 1], run.sample_after(0).velocity(p).y());
   EXPECT_NEAR(vy[row], -10.0, 1e-4);

@@ -108,18 +108,30 @@ export class Arrows {
   }
   // Such that the largest one is at most a third of the scene's size, but where a few are much larger than all others.
   scaleOf(which) {
+    const [usual, largest] = this.sizesOf(this.all.filter(which));
+    if (!(largest > 0)) return 0;
+    const scale = (0.33 * this.size * this.room) / Math.min(largest, 3 * usual);
+    return scale * Math.max(0.3, Math.min(1, 0.5 / this.overlap(which, scale)));
+  }
+  // What 95 of 100 do not exceed, and the largest.
+  sizesOf(arrows) {
     const sizes = [], every = Math.max(1, Math.floor(this.run.rows / 2000));
-    for (const one of this.all) {
-      if (!which(one)) continue;
+    for (const one of arrows) {
       for (let row = 0; row < this.run.rows; row += every) {
         const size = this.run.norm(one.arrow.force, row);
         if (Number.isFinite(size) && size > 0) sizes.push(size);
       }
     }
-    if (sizes.length === 0) return 0;
     sizes.sort((a, b) => a - b);
-    const largest = sizes.at(-1), usual = sizes[Math.floor(0.95 * (sizes.length - 1))];
-    return (0.33 * this.size * this.room) / Math.min(largest, 3 * usual);
+    return sizes.length === 0 ? [0, 0] : [sizes[Math.floor(0.95 * (sizes.length - 1))], sizes.at(-1)];
+  }
+  // The arrows at both ends of a rod cross where they are longer than half of it. How long they usually are, in lengths
+  // of the rod, where they are longest.
+  overlap(which, scale) {
+    const ends = new Map(this.run.constraints.filter((c) => c.shape === "rod").map((c) => [c, []]));
+    for (const one of this.all) if (which(one)) ends.get(one.constraint)?.push(one);
+    const both = [...ends].filter(([, arrows]) => arrows.length === 2);
+    return Math.max(0.5, ...both.map(([rod, arrows]) => (scale * this.sizesOf(arrows)[0]) / rod.sizes[0]));
   }
   update(frame) {
     for (const one of this.all) {

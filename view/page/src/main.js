@@ -40,6 +40,8 @@ class Page {
       requestAnimationFrame(loop);
     };
     requestAnimationFrame(loop);
+    // Who opens it wants to see it move; a system that asks for less motion gets a still picture.
+    if (!matchMedia("(prefers-reduced-motion: reduce)").matches) this.player.play();
   }
 
   heading() {
@@ -205,6 +207,8 @@ class Page {
       mark.style.left = `${(100 * (event.time - this.run.start)) / (this.run.end - this.run.start || 1)}%`;
       $("marks").append(mark);
     }
+    on("repeat", () => this.setRepeat(!player.repeats));
+    this.setRepeat(true);
     this.setTrails(stage.trailsOn);
     this.setArrows(true);
   }
@@ -215,6 +219,10 @@ class Page {
   stepEvent(by) {
     const event = this.player.stepEvent(by);
     $("live").textContent = event ? `${event.name} ${event.what}, t = ${number(event.time, 6)}` : "no event further on";
+  }
+  setRepeat(on) {
+    this.player.repeats = on;
+    $("repeat").setAttribute("aria-pressed", String(on));
   }
   setTrails(on) {
     this.stage.trailsOn = on;
@@ -247,7 +255,7 @@ class Page {
       n: () => this.stepEvent(1), p: () => this.stepEvent(-1),
       "+": () => player.faster(2), "=": () => player.faster(2), "-": () => player.faster(0.5),
       t: () => this.setTrails(!this.stage.trailsOn), l: () => this.setLabels(!this.labelsOn),
-      a: () => this.setArrows(!this.stage.arrows.visible), f: () => this.fit(),
+      r: () => this.setRepeat(!player.repeats), a: () => this.setArrows(!this.stage.arrows.visible), f: () => this.fit(),
       d: () => this.setTheme(this.theme === "dark" ? "light" : "dark"),
       "]": () => this.scaleArrows(1.25), "[": () => this.scaleArrows(0.8),
       "?": () => $("help").showModal(), Escape: () => this.select(null),

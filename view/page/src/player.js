@@ -11,6 +11,8 @@ export class Player {
     // At its own pace if that can be watched, otherwise so that it lasts 15 seconds.
     this.speed = lasts >= 4 && lasts <= 60 ? 1 : lasts / 15 || 1;
     this.last = null;
+    this.repeats = false;
+    this.rest = 0; // how long it has stood at the end [s]
   }
   onChange(f) {
     this.listeners.push(f);
@@ -67,7 +69,14 @@ export class Player {
     if (!this.playing) return;
     const passed = this.last === null ? 0 : Math.min(0.25, (now - this.last) / 1000);
     this.last = now;
-    this.seek(this.t + passed * this.speed);
-    if (this.t >= this.run.end) this.pause();
+    if (this.t < this.run.end) {
+      this.rest = 0;
+      this.seek(this.t + passed * this.speed);
+    } else if (this.repeats) {
+      this.rest += passed;
+      if (this.rest > 1) this.seek(this.run.start); // the end can be seen
+      return;
+    }
+    if (this.t >= this.run.end && !this.repeats) this.pause();
   }
 }
