@@ -3,6 +3,7 @@
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/equilibrium.h>
+#include <dalembert/solvers/equilibrium/mass_metric.h>
 
 #include <algorithm>
 #include <array>
@@ -158,7 +159,8 @@ ActiveRows Balance::rows_at(const State& s) const {
 void Balance::measure_stiffness(const State& s) {
   const LinearTerms terms = linear_terms(*system_, frame_, {time_, s.q, s.v}, s.lambda);
   const Islands& parts = problem_.islands();
-  std::vector<double> own(s.q.size(), 0.0), of_part(parts.count, 0.0), rate(parts.count, 0.0);
+  std::vector<double> own(s.q.size(), 0.0), of_part(parts.count, 0.0),
+      rate(parts.count, roundings_of_a_sum * epsilon / scales_.time);
   least_force_.assign(s.q.size(), 0.0);
   for (std::size_t i = 0; i < s.q.size(); ++i) {
     double& fastest = rate[parts.of_coordinate[i]];

@@ -180,9 +180,9 @@ class SteadySearch {
                        roundings_of_a_sum * epsilon * scales_.length / scales_.time;
     const VectorXd y = rests ? VectorXd(VectorXd::Zero(y_.size())) : y_;
     auto motion = std::make_shared<UniformMotion>(symmetries_.motion(y));
-    if (const VectorXd straight = symmetries_.fields(q_) * y;
-        motion->rate * scales_.length <= roundings_of_a_sum * epsilon * straight.cwiseAbs().maxCoeff())
-      *motion = {{q_.size(), q_.size()}, straight};
+    const VectorXd straight = symmetries_.fields(q_) * y;
+    const double least = std::max(straight.cwiseAbs().maxCoeff() / scales_.length, 1.0 / scales_.time);
+    if (motion->rate <= roundings_of_a_sum * epsilon * least) *motion = {{q_.size(), q_.size()}, straight};
     const MatrixXd same = symmetries_.commuting(q_, y), X = symmetries_.displacements(q_, same);
     motion->symmetric = X;
     const MatrixXd fixing = same * dense::kernel(X, rank_threshold);

@@ -198,6 +198,14 @@ TEST(Reversible, SleighGoesOnStraightWithItsEdgeBehindOnly) {
   }
 }
 
+TEST(Reversible, SleighLosesItsStabilityWhereItStandsStill) {
+  const auto diagram = follow_steady<2>(
+      [](double speed) { return PosedSteady<2>{sleigh(speed, 0.3, 0.0, 0.0)}; }, {.from = -2.0, .to = 2.1});
+  ASSERT_EQ(diagram.bifurcations.size(), 1U);
+  EXPECT_NEAR(diagram.bifurcations[0].parameter, 0.0, 1e-12);
+  EXPECT_EQ(diagram.branches.at(0).why, "");
+}
+
 TEST(Reversible, WhatHasNoForceAtRestIsSteadyAsItMoves) {
   // A thrust along the way that balances the drag: m' u' = -0.1 u of the speed, m' = m + C/r^2 = 1.5.
   const auto modes = modes_of(pushed(2.0, [](const auto&, const auto& v) {
