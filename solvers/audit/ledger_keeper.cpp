@@ -32,8 +32,8 @@ LedgerKeeper::LedgerKeeper(std::shared_ptr<const System> stated)
 void LedgerKeeper::find_powers(const FlatSample& sample) {
   const bool first = names_.empty();
   powers_.clear();
-  const auto put = [&](std::string name, double value) {
-    if (first) names_.push_back(std::move(name));
+  const auto put = [&](const std::string& name, double value) {
+    if (first) names_.push_back(name);
     powers_.push_back(value);
   };
   put("constant forces", stated_->constant_power(sample.v));
@@ -55,7 +55,8 @@ void LedgerKeeper::find_powers(const FlatSample& sample) {
       put(first ? c.label() : std::string(), power_of(c));
     }
   }
-  if (bodies) put("what holds bodies together", inside);
+  static const std::string of_bodies = "what holds bodies together";
+  if (bodies) put(of_bodies, inside);
   work_.resize(powers_.size());
 }
 
