@@ -65,10 +65,11 @@ Curvature curvature(const System& system, const Instant& at, const std::vector<d
 
 /// The part of a basis of velocities that Q does not hold: all of it unless Q has one sign there.
 MatrixXd left_free(const Curvature& its, const MatrixXd& basis) {
+  if (basis.cols() == 0) return basis;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> of(basis.transpose() * its.Q * basis);
   const VectorXd& values = of.eigenvalues();
   const double none = std::sqrt(rank_threshold) * its.size;  // as positions and derivatives are known
-  if (values.size() == 0 || (values.minCoeff() < -none && values.maxCoeff() > none)) return basis;
+  if (values.minCoeff() < -none && values.maxCoeff() > none) return basis;
   std::vector<Index> free;
   for (Index i = 0; i < values.size(); ++i)
     if (std::abs(values[i]) <= none) free.push_back(i);

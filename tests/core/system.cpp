@@ -162,6 +162,14 @@ TEST(System, DescriptionLeavesBranchesAndRedundantRowsFree) {
   }
 }
 
+TEST(System, DescriptionCountsNoFreedomOfWhatIsHeldTwice) {
+  Scene<2> scene("held");
+  const auto p = scene.add_particle({.mass = 1.0});
+  for (const double angle : {0.0, 1.0, 2.0})
+    scene.add(Distance{Fixed<2>{{std::cos(angle), std::sin(angle)}}, p, 1.0});
+  EXPECT_THAT(scene.describe(), HasSubstr(" 0 of position"));
+}
+
 TEST(System, DescriptionSaysWhatAFreeParticleLeavesOut) {
   Scene<3> scene;
   scene.add_particle({.mass = 1.0});
