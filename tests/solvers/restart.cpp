@@ -94,7 +94,7 @@ struct Counted {
 
 /// All that can be read from a run at its last step, and before it.
 std::vector<double> seen(Stepping& run, Moment& now) {
-  std::vector<double> all{run.time(), static_cast<double>(run.statistics().steps)};
+  std::vector<double> all{run.time(), static_cast<double>(run.statistics(run.time()).steps)};
   run.read(run.time(), now);
   for (const auto* part : {&now.q, &now.v, &now.a, &now.lambda})
     all.insert(all.end(), part->begin(), part->end());
