@@ -101,7 +101,7 @@ export class Browser {
     this.fail(new Error("stopped"));
     this.child.kill();
     await ended;
-    rmSync(this.profile, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
+    rmSync(this.profile, { recursive: true, force: true, maxRetries: 20, retryDelay: 200 });
   }
 }
 export const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
