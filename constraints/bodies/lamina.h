@@ -5,6 +5,8 @@
 #include <dalembert/core/results/sample.h>
 #include <dalembert/core/scene/scene.h>
 
+#include <Eigen/Core>
+
 #include <array>
 #include <string>
 

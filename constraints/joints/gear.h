@@ -32,14 +32,14 @@ struct Gear {
   Gear(const A& a, const B& b, const Vec<3>& centre_a, const Vec<3>& centre_b, const Vec<3>& axis,
        int teeth_of_a, int teeth_of_b) requires(A::dimension == 3)
       : frames(a, centre_a, b, centre_b, detail::axes_across(axis, centre_b - centre_a)),
-        distance(frames.stated.col(0).dot(centre_b - centre_a)),
+        distance((centre_b - centre_a).dot(frames.stated.col(0))),
         teeth_a(teeth_of_a),
         teeth_b(teeth_of_b) {}
   /// The same in the plane.
   Gear(const A& a, const B& b, const Vec<2>& centre_a, const Vec<2>& centre_b, int teeth_of_a,
        int teeth_of_b) requires(A::dimension == 2)
       : frames(a, centre_a, b, centre_b, detail::joint_axes(Vec<2>(centre_b - centre_a))),
-        distance(frames.stated.col(0).dot(centre_b - centre_a)),
+        distance((centre_b - centre_a).dot(frames.stated.col(0))),
         teeth_a(teeth_of_a),
         teeth_b(teeth_of_b) {}
 
@@ -54,7 +54,7 @@ struct Gear {
   }
   auto operator()(const auto& c_a, const auto& x_a, const auto& y_a, const auto& c_b, const auto& x_b,
                   const auto& y_b) const {
-    const auto line = (c_b - c_a).eval();
+    const auto line = c_b - c_a;
     const int common = std::gcd(teeth_a, teeth_b);
     const auto phase = (teeth_a / common) * detail::angle_between(x_a, y_a, line) +
                        (teeth_b / common) * detail::angle_between(x_b, y_b, line);

@@ -1,0 +1,194 @@
+#pragma once
+
+#include <dalembert/core/autodiff/arithmetic.h>
+#include <dalembert/core/vec.h>
+
+#include <cmath>
+
+/// Numbers that carry exact derivatives along: forward automatic differentiation. Of a function f of inputs
+/// z, in K of whose directions it is differentiated, and of one more direction s, mostly that of the motion.
+///
+///   f(a)     :  f_z = f_a a_z,            f_zs = f_a a_zs + f_aa a_s a_z                           (1)
+///   a b      :  f_z = b a_z + a b_z,      f_zs = b a_zs + a b_zs + a_s b_z + b_s a_z               (2)
+///
+/// Two types, as an equation is evaluated in two ways: `Jet` for its residual with gradient and bias in
+/// one pass, `HyperDual` for a column of its second derivatives. All pairs of directions at once, as a
+/// Hessian, would be a third type to compile for every equation, and for six inputs slower than six passes.
+///
+/// Derivatives in several directions are held in pairs for the processor's vector unit, written out: a
+/// compiler that is to find them by itself does so at -O3 only, and not always well. Every operation returns
+/// a number: with expressions `auto s = x * y + 1.0;` in a user's lambda would refer to what is gone.
+namespace dalembert {
+
+namespace detail {
+
+/// How many directions a number has that differentiates with respect to `inputs`, in as few passes as take
+/// nine directions each.
+[[nodiscard]] constexpr int directions_for(int inputs) {
+  const int passes = (inputs + 8) / 9;
+  return (inputs + passes - 1) / passes;
+}
+
+using Pair [[gnu::vector_size(16)]] = double;
+
+/// K derivatives; of an odd K the last pair has one number that nobody reads.
+template <int K>
+struct Lanes {
+  static constexpr int pairs = (K + 1) / 2;
+  Pair p[pairs > 0 ? pairs : 1];
+
+  [[nodiscard]] DALEMBERT_INLINE double operator[](int i) const { return p[i / 2][i % 2]; }
+  /// All 0, and of input number `lane` 1 in its direction, if it is one of these K.
+  [[nodiscard]] DALEMBERT_INLINE static Lanes unit(int lane) {
+    Lanes r;
+    DALEMBERT_UNROLL for (int i = 0; i < pairs; ++i) {
+      r.p[i] = Pair{lane == 2 * i ? 1.0 : 0.0, lane == 2 * i + 1 ? 1.0 : 0.0};
+    }
+    return r;
+  }
+  [[nodiscard]] DALEMBERT_INLINE static Lanes zero() {
+    Lanes r;
+    DALEMBERT_UNROLL for (int i = 0; i < pairs; ++i) r.p[i] = Pair{0.0, 0.0};
+    return r;
+  }
+  DALEMBERT_INLINE friend Lanes operator+(const Lanes& a, const Lanes& b) {
+    Lanes r;
+    DALEMBERT_UNROLL for (int i = 0; i < pairs; ++i) r.p[i] = a.p[i] + b.p[i];
+    return r;
+  }
+  DALEMBERT_INLINE friend Lanes operator-(const Lanes& a, const Lanes& b) {
+    Lanes r;
+    DALEMBERT_UNROLL for (int i = 0; i < pairs; ++i) r.p[i] = a.p[i] - b.p[i];
+    return r;
+  }
+  DALEMBERT_INLINE friend Lanes operator*(double a, const Lanes& b) {
+    Lanes r;
+    DALEMBERT_UNROLL for (int i = 0; i < pairs; ++i) r.p[i] = a * b.p[i];
+    return r;
+  }
+};
+
+}  // namespace detail
+
+/// A value with its derivatives in K directions, and its first and second one along the motion:
+/// f, f_s, f_ss and f_z.
+template <int K>
+struct Jet : detail::Arithmetic<Jet<K>> {
+  double value, s, ss;
+  detail::Lanes<K> z;
+
+  Jet() = default;
+  /// A constant. Implicit, so that numbers with and without derivatives mix in a formula.
+  DALEMBERT_INLINE Jet(double constant)  // NOLINT(google-explicit-constructor)
+      : Jet(constant, 0.0, 0.0, detail::Lanes<K>::zero()) {}
+  DALEMBERT_INLINE Jet(double f, double f_s, double f_ss, const detail::Lanes<K>& f_z)
+      : value(f), s(f_s), ss(f_ss), z(f_z) {}
+  /// The input whose direction is number `lane`, and its rate along the motion.
+  [[nodiscard]] DALEMBERT_INLINE static Jet input(double value, int lane, double rate = 0.0) {
+    return {value, rate, 0.0, detail::Lanes<K>::unit(lane)};
+  }
+  /// (1): f of a, given f and its derivatives there.
+  [[nodiscard]] DALEMBERT_INLINE static Jet chain(const Jet& a, double f, double f_a, double f_aa) {
+    return {f, f_a * a.s, f_a * a.ss + f_aa * a.s * a.s, f_a * a.z};
+  }
+  [[nodiscard]] DALEMBERT_INLINE static Jet sum(const Jet& a, const Jet& b) {
+    return {a.value + b.value, a.s + b.s, a.ss + b.ss, a.z + b.z};
+  }
+  [[nodiscard]] DALEMBERT_INLINE static Jet difference(const Jet& a, const Jet& b) {
+    return {a.value - b.value, a.s - b.s, a.ss - b.ss, a.z - b.z};
+  }
+  [[nodiscard]] DALEMBERT_INLINE static Jet scaled(double c, const Jet& a) {
+    return {c * a.value, c * a.s, c * a.ss, c * a.z};
+  }
+  [[nodiscard]] DALEMBERT_INLINE static Jet product(const Jet& a, const Jet& b) {
+    return {a.value * b.value, b.value * a.s + a.value * b.s,
+            b.value * a.ss + a.value * b.ss + 2.0 * a.s * b.s, b.value * a.z + a.value * b.z};
+  }
+  /// q = a/b, from a = q b.
+  [[nodiscard]] DALEMBERT_INLINE static Jet quotient(const Jet& a, const Jet& b) {
+    const double r = 1.0 / b.value, q = a.value / b.value, q_s = r * (a.s - q * b.s);
+    return {q, q_s, r * (a.ss - q * b.ss - 2.0 * q_s * b.s), r * (a.z - q * b.z)};
+  }
+  /// The same value and derivatives, with another value.
+  [[nodiscard]] DALEMBERT_INLINE static Jet with_value(Jet a, double value) {
+    a.value = value;
+    return a;
+  }
+  /// Whether value and gradient are finite.
+  [[nodiscard]] bool finite() const {
+    double zero = 0.0 * value;
+    for (int i = 0; i < K; ++i) zero += 0.0 * z[i];
+    return zero == 0.0;
+  }
+};
+
+/// A value with its derivatives in K directions, and those of all of these along one more direction:
+/// f, f_s, f_z and f_zs.
+template <int K>
+struct HyperDual : detail::Arithmetic<HyperDual<K>> {
+  double value, s;
+  detail::Lanes<K> z, zs;
+
+  HyperDual() = default;
+  /// A constant.
+  DALEMBERT_INLINE HyperDual(double constant)  // NOLINT(google-explicit-constructor)
+      : HyperDual(constant, 0.0, detail::Lanes<K>::zero(), detail::Lanes<K>::zero()) {}
+  DALEMBERT_INLINE HyperDual(double f, double f_s, const detail::Lanes<K>& f_z, const detail::Lanes<K>& f_zs)
+      : value(f), s(f_s), z(f_z), zs(f_zs) {}
+  [[nodiscard]] DALEMBERT_INLINE static HyperDual input(double value, int lane, double rate = 0.0) {
+    return {value, rate, detail::Lanes<K>::unit(lane), detail::Lanes<K>::zero()};
+  }
+  [[nodiscard]] DALEMBERT_INLINE static HyperDual chain(const HyperDual& a, double f, double f_a,
+                                                        double f_aa) {
+    return {f, f_a * a.s, f_a * a.z, f_a * a.zs + (f_aa * a.s) * a.z};
+  }
+  [[nodiscard]] DALEMBERT_INLINE static HyperDual sum(const HyperDual& a, const HyperDual& b) {
+    return {a.value + b.value, a.s + b.s, a.z + b.z, a.zs + b.zs};
+  }
+  [[nodiscard]] DALEMBERT_INLINE static HyperDual difference(const HyperDual& a, const HyperDual& b) {
+    return {a.value - b.value, a.s - b.s, a.z - b.z, a.zs - b.zs};
+  }
+  [[nodiscard]] DALEMBERT_INLINE static HyperDual scaled(double c, const HyperDual& a) {
+    return {c * a.value, c * a.s, c * a.z, c * a.zs};
+  }
+  [[nodiscard]] DALEMBERT_INLINE static HyperDual product(const HyperDual& a, const HyperDual& b) {
+    return {a.value * b.value, b.value * a.s + a.value * b.s, b.value * a.z + a.value * b.z,
+            (b.value * a.zs + a.value * b.zs) + (a.s * b.z + b.s * a.z)};
+  }
+  [[nodiscard]] DALEMBERT_INLINE static HyperDual quotient(const HyperDual& a, const HyperDual& b) {
+    const double r = 1.0 / b.value, q = a.value / b.value, q_s = r * (a.s - q * b.s);
+    const detail::Lanes<K> q_z = r * (a.z - q * b.z);
+    return {q, q_s, q_z, r * ((a.zs - q * b.zs) - (q_s * b.z + b.s * q_z))};
+  }
+  [[nodiscard]] DALEMBERT_INLINE static HyperDual with_value(HyperDual a, double value) {
+    a.value = value;
+    return a;
+  }
+  [[nodiscard]] bool finite() const {
+    double zero = 0.0 * value;
+    for (int i = 0; i < K; ++i) zero += 0.0 * z[i];
+    return zero == 0.0;
+  }
+};
+
+/// A number that carries derivatives.
+template <class T>
+inline constexpr bool is_differentiated = false;
+template <int K>
+inline constexpr bool is_differentiated<Jet<K>> = true;
+template <int K>
+inline constexpr bool is_differentiated<HyperDual<K>> = true;
+template <class T>
+concept AnyDifferentiated = is_differentiated<T>;
+/// The same, preferred where both say so (see not_of_std.h).
+template <class T>
+concept Differentiated = AnyDifferentiated<T> && requires {
+  T::chain;
+};
+
+namespace detail {
+template <Differentiated T>
+inline constexpr bool is_scalar<T> = true;
+}  // namespace detail
+
+}  // namespace dalembert
