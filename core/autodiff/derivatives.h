@@ -6,14 +6,15 @@
 #include <cmath>
 
 /// Numbers that carry exact derivatives along: forward automatic differentiation. Of a function f of inputs
-/// z, in K of whose directions it is differentiated, and of one more direction s, mostly that of the motion.
+/// z, in K of whose directions it is differentiated, and of further directions s, of which one is the motion.
 ///
 ///   f(a)     :  f_z = f_a a_z,            f_zs = f_a a_zs + f_aa a_s a_z                           (1)
 ///   a b      :  f_z = b a_z + a b_z,      f_zs = b a_zs + a b_zs + a_s b_z + b_s a_z               (2)
 ///
-/// Two types, as an equation is evaluated in two ways: `Jet` for its residual with gradient and bias in
-/// one pass, `HyperDual` for a column of its second derivatives. All pairs of directions at once, as a
-/// Hessian, would be a third type to compile for every equation, and for six inputs slower than six passes.
+/// Three types, as an equation is evaluated in three ways: `Dual` for its residual with gradient, `Jet` for
+/// these and the bias in one pass, `HyperDual` for two columns of its second derivatives. (All pairs of
+/// directions at once, as a Hessian, are slower than three passes for six inputs; one column at a time finds
+/// value and gradient twice as often. Residuals by Jet take up to twice as long as by Dual.)
 ///
 /// Derivatives in several directions are held in pairs for the processor's vector unit, written out: a
 /// compiler that is to find them by itself does so at -O3 only, and not always well. Every operation returns
@@ -70,15 +71,66 @@ struct Lanes {
 
 }  // namespace detail
 
+/// A value with its derivatives in K directions: f and f_z.
+template <int K>
+struct Dual : detail::Arithmetic<Dual<K>> {
+  static constexpr int directions = K, along = 0;  ///< directions s
+  double value;
+  detail::Lanes<K> z;
+
+  Dual() = default;
+  /// A constant. Implicit, so that numbers with and without derivatives mix in a formula.
+  DALEMBERT_INLINE Dual(double constant)  // NOLINT(google-explicit-constructor)
+      : Dual(constant, detail::Lanes<K>::zero()) {}
+  DALEMBERT_INLINE Dual(double f, const detail::Lanes<K>& f_z) : value(f), z(f_z) {}
+  /// The input whose direction is number `lane`.
+  [[nodiscard]] DALEMBERT_INLINE static Dual input(double value, int lane) {
+    return {value, detail::Lanes<K>::unit(lane)};
+  }
+  /// (1): f of a, given f and its derivatives there.
+  [[nodiscard]] DALEMBERT_INLINE static Dual chain(const Dual& a, double f, double f_a, double) {
+    return {f, f_a * a.z};
+  }
+  [[nodiscard]] DALEMBERT_INLINE static Dual sum(const Dual& a, const Dual& b) {
+    return {a.value + b.value, a.z + b.z};
+  }
+  [[nodiscard]] DALEMBERT_INLINE static Dual difference(const Dual& a, const Dual& b) {
+    return {a.value - b.value, a.z - b.z};
+  }
+  [[nodiscard]] DALEMBERT_INLINE static Dual scaled(double c, const Dual& a) {
+    return {c * a.value, c * a.z};
+  }
+  [[nodiscard]] DALEMBERT_INLINE static Dual product(const Dual& a, const Dual& b) {
+    return {a.value * b.value, b.value * a.z + a.value * b.z};
+  }
+  /// q = a/b, from a = q b.
+  [[nodiscard]] DALEMBERT_INLINE static Dual quotient(const Dual& a, const Dual& b) {
+    const double r = 1.0 / b.value, q = a.value / b.value;
+    return {q, r * (a.z - q * b.z)};
+  }
+  /// The same derivatives, with another value.
+  [[nodiscard]] DALEMBERT_INLINE static Dual with_value(Dual a, double value) {
+    a.value = value;
+    return a;
+  }
+  /// Whether value and gradient are finite.
+  [[nodiscard]] bool finite() const {
+    double zero = 0.0 * value;
+    for (int i = 0; i < K; ++i) zero += 0.0 * z[i];
+    return zero == 0.0;
+  }
+};
+
 /// A value with its derivatives in K directions, and its first and second one along the motion:
 /// f, f_s, f_ss and f_z.
 template <int K>
 struct Jet : detail::Arithmetic<Jet<K>> {
+  static constexpr int directions = K, along = 1;
   double value, s, ss;
   detail::Lanes<K> z;
 
   Jet() = default;
-  /// A constant. Implicit, so that numbers with and without derivatives mix in a formula.
+  /// A constant.
   DALEMBERT_INLINE Jet(double constant)  // NOLINT(google-explicit-constructor)
       : Jet(constant, 0.0, 0.0, detail::Lanes<K>::zero()) {}
   DALEMBERT_INLINE Jet(double f, double f_s, double f_ss, const detail::Lanes<K>& f_z)
@@ -122,43 +174,53 @@ struct Jet : detail::Arithmetic<Jet<K>> {
   }
 };
 
-/// A value with its derivatives in K directions, and those of all of these along one more direction:
-/// f, f_s, f_z and f_zs.
+/// A value with its derivatives in K directions, and those of all of these along two more directions:
+/// f, f_s, f_z and f_zs, for each of both s.
 template <int K>
 struct HyperDual : detail::Arithmetic<HyperDual<K>> {
-  double value, s;
-  detail::Lanes<K> z, zs;
+  using Both = detail::Pair;
+  static constexpr int directions = K, along = 2;
+
+  double value;
+  Both s;
+  detail::Lanes<K> z, zs[2];
 
   HyperDual() = default;
   /// A constant.
   DALEMBERT_INLINE HyperDual(double constant)  // NOLINT(google-explicit-constructor)
-      : HyperDual(constant, 0.0, detail::Lanes<K>::zero(), detail::Lanes<K>::zero()) {}
-  DALEMBERT_INLINE HyperDual(double f, double f_s, const detail::Lanes<K>& f_z, const detail::Lanes<K>& f_zs)
-      : value(f), s(f_s), z(f_z), zs(f_zs) {}
-  [[nodiscard]] DALEMBERT_INLINE static HyperDual input(double value, int lane, double rate = 0.0) {
-    return {value, rate, detail::Lanes<K>::unit(lane), detail::Lanes<K>::zero()};
+      : HyperDual(constant, Both{0.0, 0.0}, detail::Lanes<K>::zero(), detail::Lanes<K>::zero(),
+                  detail::Lanes<K>::zero()) {}
+  DALEMBERT_INLINE HyperDual(double f, Both f_s, const detail::Lanes<K>& f_z, const detail::Lanes<K>& f_zs0,
+                             const detail::Lanes<K>& f_zs1)
+      : value(f), s(f_s), z(f_z), zs{f_zs0, f_zs1} {}
+  [[nodiscard]] DALEMBERT_INLINE static HyperDual input(double value, int lane, Both rate = Both{0.0, 0.0}) {
+    return {value, rate, detail::Lanes<K>::unit(lane), detail::Lanes<K>::zero(), detail::Lanes<K>::zero()};
   }
   [[nodiscard]] DALEMBERT_INLINE static HyperDual chain(const HyperDual& a, double f, double f_a,
                                                         double f_aa) {
-    return {f, f_a * a.s, f_a * a.z, f_a * a.zs + (f_aa * a.s) * a.z};
+    const Both f_as = f_aa * a.s;
+    return {f, f_a * a.s, f_a * a.z, f_a * a.zs[0] + f_as[0] * a.z, f_a * a.zs[1] + f_as[1] * a.z};
   }
   [[nodiscard]] DALEMBERT_INLINE static HyperDual sum(const HyperDual& a, const HyperDual& b) {
-    return {a.value + b.value, a.s + b.s, a.z + b.z, a.zs + b.zs};
+    return {a.value + b.value, a.s + b.s, a.z + b.z, a.zs[0] + b.zs[0], a.zs[1] + b.zs[1]};
   }
   [[nodiscard]] DALEMBERT_INLINE static HyperDual difference(const HyperDual& a, const HyperDual& b) {
-    return {a.value - b.value, a.s - b.s, a.z - b.z, a.zs - b.zs};
+    return {a.value - b.value, a.s - b.s, a.z - b.z, a.zs[0] - b.zs[0], a.zs[1] - b.zs[1]};
   }
   [[nodiscard]] DALEMBERT_INLINE static HyperDual scaled(double c, const HyperDual& a) {
-    return {c * a.value, c * a.s, c * a.z, c * a.zs};
+    return {c * a.value, c * a.s, c * a.z, c * a.zs[0], c * a.zs[1]};
   }
   [[nodiscard]] DALEMBERT_INLINE static HyperDual product(const HyperDual& a, const HyperDual& b) {
     return {a.value * b.value, b.value * a.s + a.value * b.s, b.value * a.z + a.value * b.z,
-            (b.value * a.zs + a.value * b.zs) + (a.s * b.z + b.s * a.z)};
+            (b.value * a.zs[0] + a.value * b.zs[0]) + (a.s[0] * b.z + b.s[0] * a.z),
+            (b.value * a.zs[1] + a.value * b.zs[1]) + (a.s[1] * b.z + b.s[1] * a.z)};
   }
   [[nodiscard]] DALEMBERT_INLINE static HyperDual quotient(const HyperDual& a, const HyperDual& b) {
-    const double r = 1.0 / b.value, q = a.value / b.value, q_s = r * (a.s - q * b.s);
+    const double r = 1.0 / b.value, q = a.value / b.value;
+    const Both q_s = r * (a.s - q * b.s);
     const detail::Lanes<K> q_z = r * (a.z - q * b.z);
-    return {q, q_s, q_z, r * ((a.zs - q * b.zs) - (q_s * b.z + b.s * q_z))};
+    return {q, q_s, q_z, r * ((a.zs[0] - q * b.zs[0]) - (q_s[0] * b.z + b.s[0] * q_z)),
+            r * ((a.zs[1] - q * b.zs[1]) - (q_s[1] * b.z + b.s[1] * q_z))};
   }
   [[nodiscard]] DALEMBERT_INLINE static HyperDual with_value(HyperDual a, double value) {
     a.value = value;
@@ -174,6 +236,8 @@ struct HyperDual : detail::Arithmetic<HyperDual<K>> {
 /// A number that carries derivatives.
 template <class T>
 inline constexpr bool is_differentiated = false;
+template <int K>
+inline constexpr bool is_differentiated<Dual<K>> = true;
 template <int K>
 inline constexpr bool is_differentiated<Jet<K>> = true;
 template <int K>

@@ -59,7 +59,7 @@ namespace detail {
 /// What an equation is tried with to see whether it can be called: a scalar it is evaluated with as well,
 /// so that trying costs no compilation of its own.
 template <class C>
-using Probe = Jet<directions_for(PointFacts<C>::inputs)>;
+using Probe = Dual<directions_for(PointFacts<C>::inputs)>;
 template <class C>
 using ProbePositions = typename PointFacts<C>::template Positions<Probe<C>>;
 template <class C>

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <exception>
 #include <numeric>
+#include <type_traits>
 
 namespace dalembert::detail {
 
@@ -52,143 +52,184 @@ DifferentiatedEquations::DifferentiatedEquations(const EquationType& type)
     : type_(&type), elements_(type.elements), in_order_(elements_at_once * size(type.elements.inputs)) {
   std::iota(in_order_.begin(), in_order_.end(), 0);
   const std::size_t n = size(type.elements.inputs);
-  directions_.resize(n * n);
-  for (std::size_t k = 0; k < n; ++k) directions_[k * n + k] = 1.0;
+  directions_.resize((n + 1) / 2 * 2 * n);
+  for (std::size_t k = 0; k < n; ++k) directions_[k / 2 * 2 * n + 2 * k + k % 2] = 1.0;
 }
 
-template <int K>
+/// By S = Dual, or by Jet if the bias is asked for.
+template <class S>
 struct DifferentiatedEquations::Evaluation {
+  static constexpr int K = S::directions;
+  static constexpr bool biased = S::along == 1;
+
   const DifferentiatedEquations& own;
   const EquationType& its = *own.type_;
   const ElementType& of = its.elements;
   const Instant& at;
   const ConstraintValues& out;
   std::size_t from;
-  std::size_t rows = size(its.rows), width = size(of.coordinates), inputs = size(of.inputs);
-  bool at_once = its.variables <= K;
-  std::size_t several = at_once ? 0 : (size(its.variables) + K - 1) / K * K;  ///< numbers of all passes
-  std::size_t most = at_once ? elements_at_once : 1;
+  int inputs = of.inputs;
+  std::size_t rows = size(its.rows), width = size(of.coordinates);
 
-  void run_through(std::size_t end) {
-    Scratch room(Scratch::size_of<Jet<K>>(most * rows) + 2 * Scratch::size_of<double>(most * inputs) +
-                 Scratch::size_of<double>(rows * several));
-    Jet<K>* const jets = room.template take<Jet<K>>(most * rows);
-    double* const x = room.template take<double>(most * inputs);
-    double* const x_s = room.template take<double>(most * inputs);
-    double* const gradients = room.template take<double>(rows * several);
-    for (std::size_t i = from; i < end;) {
-      const std::size_t count = std::min(most, end - i);
-      Pass pass{.elements = own.elements_.data(),
-                .i = i,
-                .count = static_cast<int>(count),
-                .along_directions = false,
-                .t = at.t,
-                .t_s = 1.0,
-                .x = at.q.data(),
-                .x_s = at.v.data(),
-                .v = at.v.data(),
-                .at = own.elements_.coordinates(i).data(),
-                .first = 0,
-                .out = jets};
-      if (!of.direct) {
-        for (std::size_t e = 0; e < count; ++e)
-          own.elements_.gather(i + e, at, x + e * inputs, x_s + e * inputs);
-        pass.x = x;
-        pass.x_s = pass.v = x_s;
-        pass.at = own.in_order_.data();
-      }
-      if (at_once) {
-        run(its.jets, pass);
-        write(jets, i, count);
-        if (!out.w.empty()) write_gradients(jets, i, count);
-      } else {
-        const std::size_t mark = Branches::next();
-        for (; pass.first < its.variables && (pass.first == 0 || !out.w.empty()); pass.first += K) {
-          Branches::again(mark);
-          pass.i = i;
-          pass.count = 1;
-          pass.at = of.direct ? own.elements_.coordinates(i).data() : own.in_order_.data();
-          run(its.jets, pass);
-          for (std::size_t k = 0; k < rows; ++k)
-            for (int j = 0; j < K; ++j) gradients[k * several + size(pass.first + j)] = jets[k].z[j];
-        }
-        write(jets, i, 1);
-        if (!out.w.empty()) write_gradients(gradients, i);
-      }
-      i += count;
+  void run_through(std::size_t end) const {
+    if (its.variables <= K) {
+      all_at_once(end);
+    } else {
+      in_passes(end);
     }
   }
 
-  /// What is no gradient, of elements from number `i` on.
-  void write(const Jet<K>* value, std::size_t i, std::size_t count) const {
-    const std::size_t first = (i - from) * rows, last = first + count * rows;
-    for (std::size_t row = first; row < last; ++row, ++value) {
-      if (!out.psi.empty()) {
-        if (!std::isfinite(value->value)) throw ElementFault{from + row / rows, "is not a finite number"};
-        out.psi[row] = its.on_velocities ? value->value : value->s;
-        if (!its.on_velocities) out.g[row] = value->value;
-      }
-      if (!out.gamma.empty()) {
-        const double gamma = its.on_velocities ? value->s : value->ss;
-        if (!std::isfinite(gamma))
-          throw ElementFault{from + row / rows, its.on_velocities ? "has no finite derivative"
-                                                                  : "has no finite second derivative"};
-        out.gamma[row] = gamma;
+  /// At elements from number i on; the inputs of those that do not simply read coordinates go to x and x_s.
+  [[nodiscard]] Pass pass_of(std::size_t i, std::size_t count, double* x, double* x_s, S* values) const {
+    Pass pass{.elements = own.elements_.data(),
+              .i = i,
+              .count = static_cast<int>(count),
+              .t = at.t,
+              .t_s = 1.0,
+              .x = at.q.data(),
+              .x_s = at.v.data(),
+              .v = at.v.data(),
+              .at = own.elements_.coordinates(i).data(),
+              .first = 0,
+              .out = values};
+    if (of.direct) return pass;
+    for (std::size_t e = 0; e < count; ++e)
+      own.elements_.gather(i + e, at, x + e * size(inputs), x_s + e * size(inputs));
+    pass.x = x;
+    pass.x_s = pass.v = x_s;
+    pass.at = own.in_order_.data();
+    return pass;
+  }
+
+  void all_at_once(std::size_t end) const {
+    Scratch room(Scratch::size_of<S>(elements_at_once * rows) +
+                 2 * Scratch::size_of<double>(elements_at_once * size(inputs)));
+    S* const values = room.template take<S>(elements_at_once * rows);
+    double* const x = room.template take<double>(elements_at_once * size(inputs));
+    double* const x_s = room.template take<double>(elements_at_once * size(inputs));
+    for (std::size_t i = from; i < end;) {
+      const std::size_t count = std::min(elements_at_once, end - i);
+      Pass pass = pass_of(i, count, x, x_s, values);
+      const int* places = pass.at;
+      run(biased ? its.jets : its.duals, pass);
+      const S* value = values;
+      for (const std::size_t last = i + count; i < last; ++i, places += inputs) {
+        for (std::size_t r = 0; r < rows; ++r, ++value)
+          write(*value, reinterpret_cast<const double*>(value->z.p), std::integral_constant<int, K>{}, i, r,
+                pass.x_s, places);
       }
     }
+  }
+
+  void in_passes(std::size_t end) const {
+    const bool gradients_asked = !biased || !out.w.empty();
+    const std::size_t passes = gradients_asked ? (size(its.variables) + K - 1) / K : 1, several = passes * K;
+    Scratch room(Scratch::size_of<S>(rows) + 2 * Scratch::size_of<double>(size(inputs)) +
+                 Scratch::size_of<double>(rows * several));
+    S* const values = room.template take<S>(rows);
+    double* const x = room.template take<double>(size(inputs));
+    double* const x_s = room.template take<double>(size(inputs));
+    double* const gradients = room.template take<double>(rows * several);
+    for (std::size_t i = from; i < end; ++i) {
+      const std::size_t mark = Branches::next();
+      const Pass first = pass_of(i, 1, x, x_s, values);
+      for (std::size_t p = 0; p < passes; ++p) {
+        Branches::again(mark);
+        Pass pass = first;
+        pass.first = static_cast<int>(p) * K;
+        run(biased ? its.jets : its.duals, pass);
+        for (std::size_t r = 0; r < rows; ++r)
+          for (std::size_t j = 0; j < K; ++j)
+            gradients[r * several + p * K + j] = values[r].z[static_cast<int>(j)];
+      }
+      for (std::size_t r = 0; r < rows; ++r)
+        write(values[r], gradients + r * several, its.variables, i, r, first.x_s, first.at);
+    }
+  }
+
+  /// Row r of element i. `variables` is a constant where it is known.
+  template <class Count>
+  DALEMBERT_INLINE void write(const S& g, const double* gradient, Count variables, std::size_t i,
+                              std::size_t r, const double* rates, const int* places) const {
+    const std::size_t row = (i - from) * rows + r;
+    if (!out.psi.empty()) {
+      if (!std::isfinite(g.value)) throw ElementFault{i, "is not a finite number"};
+      if (its.on_velocities) {
+        out.psi[row] = g.value;
+      } else {
+        out.g[row] = g.value;
+        if constexpr (biased) {
+          out.psi[row] = g.s;
+        } else {
+          out.psi[row] = rate(gradient, variables, rates, places);
+        }
+      }
+    }
+    if (!out.w.empty()) {
+      double zero = 0.0;
+      for (int j = 0; j < variables; ++j) zero += 0.0 * gradient[j];
+      if (zero != 0.0) refuse_gradient(i);
+      double* const w = out.w.data() + row * width;
+      if (!of.direct) {
+        own.elements_.pull_back(i, gradient, w);
+      } else if (its.timed()) {
+        for (int j = 0; j < variables - 1; ++j) w[j] = gradient[j];
+      } else {
+        for (int j = 0; j < variables; ++j) w[j] = gradient[j];
+      }
+    }
+    if constexpr (biased) {
+      const double gamma = its.on_velocities ? g.s : g.ss;
+      if (!std::isfinite(gamma))
+        throw ElementFault{
+            i, its.on_velocities ? "has no finite derivative" : "has no finite second derivative"};
+      out.gamma[row] = gamma;
+    }
+  }
+  /// g_r v + g_t.
+  template <class Count>
+  [[nodiscard]] DALEMBERT_INLINE double rate(const double* gradient, Count variables, const double* rates,
+                                             const int* places) const {
+    const int last = variables - 1;
+    double sum = its.timed() ? gradient[last] : gradient[last] * rates[places[last]];
+    for (int j = 0; j < last; ++j) sum += gradient[j] * rates[places[j]];
+    return sum;
   }
   [[noreturn]] void refuse_gradient(std::size_t i) const {
     throw ElementFault{i, its.singular.empty() || its.on_velocities
                               ? "has no finite gradient"
                               : "has no gradient: " + std::string(its.singular)};
   }
-  /// Of equations with all their derivatives in one number.
-  void write_gradients(const Jet<K>* value, std::size_t i, std::size_t count) const {
-    double* w = out.w.data() + (i - from) * rows * width;
-    for (const std::size_t last = i + count; i < last; ++i) {
-      for (std::size_t k = 0; k < rows; ++k, ++value, w += width) {
-        if (zero_of(value->z) != 0.0) refuse_gradient(i);
-        if (of.direct && of.inputs == K) {
-          std::memcpy(w, value->z.p, K * sizeof(double));
-        } else if (of.direct) {
-          for (std::size_t j = 0; j < inputs; ++j) w[j] = value->z[static_cast<int>(j)];
-        } else {
-          own.elements_.pull_back(i, reinterpret_cast<const double*>(value->z.p), w);
-        }
-      }
-    }
-  }
-  void write_gradients(const double* gradients, std::size_t i) const {
-    for (std::size_t k = 0; k < rows; ++k, gradients += several) {
-      for (std::size_t j = 0; j < inputs; ++j)
-        if (!std::isfinite(gradients[j])) refuse_gradient(i);
-      own.elements_.pull_back(i, gradients, out.w.data() + ((i - from) * rows + k) * width);
-    }
-  }
 };
 
 void DifferentiatedEquations::evaluate(const Instant& at, std::size_t from, std::size_t end,
                                        const ConstraintValues& out) const {
   with_directions(type_->directions, [&](auto K) {
-    Evaluation<K.value>{.own = *this, .at = at, .out = out, .from = from}.run_through(end);
+    if (out.gamma.empty()) {
+      Evaluation<Dual<K>>{.own = *this, .at = at, .out = out, .from = from}.run_through(end);
+    } else {
+      Evaluation<Jet<K>>{.own = *this, .at = at, .out = out, .from = from}.run_through(end);
+    }
   });
 }
 
+/// d(W^T lambda)/dq and psi_q of one element, by pairs of directions.
 template <int K>
 struct DifferentiatedEquations::Linearisation {
+  using S = HyperDual<K>;
   const DifferentiatedEquations& own;
   const EquationType& its = *own.type_;
   const ElementType& of = its.elements;
   const Instant& at;
   std::size_t i;
   const double* lambda;
-  int rows = its.rows, inputs = of.inputs;
+  int rows = its.rows, inputs = of.inputs, pairs = (inputs + 1) / 2;
   bool at_once = its.variables <= K;
   std::size_t mark = Branches::next();
-  int together = Branches::heard() ? 1 : inputs;  ///< directions in one pass
+  int together = Branches::heard() ? 1 : pairs;  ///< pairs of directions in one pass
   // Of the rows along directions; inputs and rates; per row psi_r; of lambda times all rows the second
   // derivatives.
-  HyperDual<K>* duals = nullptr;
+  S* values = nullptr;
   double *x = nullptr, *v = nullptr, *zeros = nullptr, *psi_r = nullptr, *sums = nullptr;
   double *slopes = nullptr, *curvatures = nullptr;
 
@@ -197,7 +238,6 @@ struct DifferentiatedEquations::Linearisation {
     Pass one{.elements = own.elements_.data(),
              .i = i,
              .count = count,
-             .along_directions = true,
              .t = at.t,
              .t_s = t_s,
              .x = x,
@@ -206,37 +246,40 @@ struct DifferentiatedEquations::Linearisation {
              .v_s = v_s,
              .at = own.in_order_.data(),
              .first = first,
-             .out = duals};
-    run(its.duals, one);
+             .out = values};
+    run(its.hyper_duals, one);
+  }
+  [[nodiscard]] const double* directions(int pair) const {
+    return own.directions_.data() + pair * 2 * inputs;
   }
 
   void run_through(double* psi_q, double* block) {
-    const std::size_t n = size(inputs), numbers = size(rows);
-    Scratch room(Scratch::size_of<HyperDual<K>>(numbers * n) + 2 * Scratch::size_of<double>(n) +
-                 Scratch::size_of<double>(numbers * n) + 2 * Scratch::size_of<double>(n * n) +
-                 2 * Scratch::size_of<double>(numbers));
-    duals = room.template take<HyperDual<K>>(numbers * n);
+    const std::size_t n = size(inputs), numbers = size(rows), all = size(pairs) * 2 * n;
+    Scratch room(Scratch::size_of<S>(numbers * size(pairs)) + 2 * Scratch::size_of<double>(n) +
+                 Scratch::size_of<double>(numbers * n) + Scratch::size_of<double>(n * n) +
+                 Scratch::size_of<double>(all) + 2 * Scratch::size_of<double>(numbers));
+    values = room.template take<S>(numbers * size(pairs));
     x = room.template take<double>(n);
     v = room.template take<double>(n);
     psi_r = room.template take<double>(numbers * n);
     sums = room.template take<double>(n * n);
     own.elements_.gather(i, at, x, v);
     std::fill_n(sums, n * n, 0.0);
+    if (its.on_velocities || !at_once) {
+      zeros = room.template take<double>(all);
+      std::fill_n(zeros, all, 0.0);
+    }
     for (int first = 0; first < inputs; first += K) {
       // Second derivatives of a holonomic equation are symmetric: those before `first` are known.
-      int k = its.on_velocities ? 0 : first;
-      while (k < inputs) {
-        const int count = std::min(together, inputs - k);
-        pass(own.directions_.data() + k * inputs, nullptr, count, 0.0, first);
-        for (int c = 0; c < count; ++c) add_second(duals + c * rows, k + c, first);
-        k += count;
+      for (int p = its.on_velocities ? 0 : first / 2; p < pairs; p += together) {
+        const int count = std::min(together, pairs - p);
+        pass(directions(p), zeros, count, 0.0, first);
+        for (int c = 0; c < count; ++c) add_second(values + c * rows, 2 * (p + c), first);
       }
     }
     if (its.on_velocities) {
-      zeros = room.template take<double>(n * n);
       slopes = room.template take<double>(numbers);
       curvatures = room.template take<double>(numbers);
-      std::fill_n(zeros, n * n, 0.0);
       require_linear();
     } else {
       for (int a = 0; a < inputs; ++a)
@@ -248,23 +291,26 @@ struct DifferentiatedEquations::Linearisation {
     for (int r = 0; r < rows; ++r) own.elements_.pull_back(i, psi_r + r * inputs, psi_q + r * of.coordinates);
   }
 
-  /// What the derivatives of the rows along input k contribute.
-  void add_second(const HyperDual<K>* row, int k, int first) const {
+  /// What the derivatives of the rows along inputs k and k + 1 contribute.
+  void add_second(const S* row, int k, int first) const {
     const int here = std::min(K, inputs - first);
     double zero = 0.0;
     for (int r = 0; r < rows; ++r) {
-      const HyperDual<K>& g = row[r];
-      double* const sum = sums + k * inputs + first;
-      for (int j = 0; j < here; ++j) sum[j] += lambda[r] * g.zs[j];
-      for (int j = 0; j < here; ++j) zero += 0.0 * g.zs[j];
-      if (its.on_velocities) {
-        zero += 0.0 * g.s + zero_of(g.z);
-        psi_r[r * inputs + k] = g.s;
-      } else if (at_once) {
-        double along_motion = its.timed() ? g.zs[inputs] : 0.0;
-        for (int j = 0; j < here; ++j) along_motion += g.zs[j] * v[j];
-        zero += 0.0 * along_motion;
-        psi_r[r * inputs + k] = along_motion;
+      const S& g = row[r];
+      if (its.on_velocities) zero += 0.0 * g.s[0] + 0.0 * g.s[1] + zero_of(g.z);
+      for (int d = 0; d < 2 && k + d < inputs; ++d) {
+        const Lanes<K>& g_zs = g.zs[d];
+        double* const sum = sums + (k + d) * inputs + first;
+        for (int j = 0; j < here; ++j) sum[j] += lambda[r] * g_zs[j];
+        for (int j = 0; j < here; ++j) zero += 0.0 * g_zs[j];
+        if (its.on_velocities) {
+          psi_r[r * inputs + k + d] = g.s[d];
+        } else if (at_once) {
+          double along_motion = its.timed() ? g_zs[inputs] : 0.0;
+          for (int j = 0; j < here; ++j) along_motion += g_zs[j] * v[j];
+          zero += 0.0 * along_motion;
+          psi_r[r * inputs + k + d] = along_motion;
+        }
       }
     }
     require_finite(zero == 0.0, i, "has no finite second derivative");
@@ -272,12 +318,15 @@ struct DifferentiatedEquations::Linearisation {
 
   /// By passes along the motion, as no pass of the others has all second derivatives of a row.
   void find_psi_r() const {
+    double* const motion = zeros;
+    for (int k = 0; k < inputs; ++k) motion[2 * k] = v[k];
     for (int first = 0; first < inputs; first += K) {
-      pass(v, nullptr, 1, 1.0, first);
+      pass(motion, nullptr, 1, 1.0, first);
       for (int r = 0; r < rows; ++r) {
         for (int j = 0; j < std::min(K, inputs - first); ++j) {
-          psi_r[r * inputs + first + j] = duals[r].zs[j];
-          require_finite(std::isfinite(duals[r].zs[j]), i, "has no finite second derivative");
+          const double along_motion = values[r].zs[0][j];
+          require_finite(std::isfinite(along_motion), i, "has no finite second derivative");
+          psi_r[r * inputs + first + j] = along_motion;
         }
       }
     }
@@ -293,15 +342,17 @@ struct DifferentiatedEquations::Linearisation {
     std::fill_n(curvatures, rows, 0.0);
     double zero = 0.0;
     for (int first = 0; first < inputs; first += K) {
-      for (int k = 0; k < inputs; k += together) {
-        pass(zeros, own.directions_.data() + k * inputs, together, 0.0, first);
-        const HyperDual<K>* g = duals;
-        for (int c = 0; c < together; ++c) {
+      for (int p = 0; p < pairs; p += together) {
+        const int count = std::min(together, pairs - p);
+        pass(zeros, directions(p), count, 0.0, first);
+        const S* g = values;
+        for (int c = 0; c < count; ++c) {
           for (int r = 0; r < rows; ++r, ++g) {
             for (int j = 0; j < std::min(K, inputs - first); ++j) {
-              zero += 0.0 * g->zs[j];
+              const double second = std::max(std::abs(g->zs[0][j]), std::abs(g->zs[1][j]));
+              zero += 0.0 * g->zs[0][j] + 0.0 * g->zs[1][j];
               slopes[r] = std::max(slopes[r], std::abs(g->z[j]));
-              curvatures[r] = std::max(curvatures[r], std::abs(g->zs[j]));
+              curvatures[r] = std::max(curvatures[r], second);
             }
           }
         }

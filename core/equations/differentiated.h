@@ -59,7 +59,7 @@ class DifferentiatedEquations {
   void linearise(const Instant& at, std::size_t i, const double* lambda, double* psi_q, double* block) const;
 
  private:
-  template <int K>
+  template <class S>
   struct Evaluation;
   template <int K>
   struct Linearisation;
@@ -67,7 +67,7 @@ class DifferentiatedEquations {
   const EquationType* type_;
   Elements elements_;
   std::vector<int> in_order_;       // 0, 1, ..: the places of inputs that were gathered
-  std::vector<double> directions_;  // unit vectors
+  std::vector<double> directions_;  // unit vectors, by pairs: the two numbers of each input in turn
 };
 
 }  // namespace detail

@@ -47,7 +47,6 @@ struct LawBatch::Work {
     detail::Pass pass{.elements = own.elements_.data(),
                       .i = i,
                       .count = 1,
-                      .along_directions = false,
                       .t = at.t,
                       .t_s = 0.0,
                       .x = x,
@@ -85,15 +84,15 @@ struct LawBatch::Slopes {
   std::span<const double> lambda;
   int n = static_cast<int>(work.n);
   std::size_t mark = Branches::next();
-  Scratch room{Scratch::size_of<Jet<K>>(work.n)};
-  Jet<K>* f = room.template take<Jet<K>>(work.n);
+  Scratch room{Scratch::size_of<Dual<K>>(work.n)};
+  Dual<K>* f = room.template take<Dual<K>>(work.n);
 
   void run(int first) {
     Branches::again(mark);
     detail::Pass pass = work.pass_of(i, lambda);
     pass.first = first;
     pass.out = f;
-    detail::run(work.own.type_->jets, pass);
+    detail::run(work.own.type_->duals, pass);
   }
   /// Calls write(row, variable, slope) for variables from `first` to before `end`.
   template <class F>

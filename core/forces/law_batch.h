@@ -13,7 +13,7 @@ struct LawType {
   ForceShape shape;
   int directions;
   void (*numbers)(detail::Pass&);
-  void (*jets)(detail::Pass&);
+  void (*duals)(detail::Pass&);
   int (*constraint)(const void* force);  ///< the number of the one that it reads; null if none
 };
 
@@ -134,7 +134,7 @@ template <class E>
                         .timed = law_takes_time<E> || PointFacts<E>::driven},
               .directions = directions,
               .numbers = &run_law<E, double>,
-              .jets = &run_law<E, Jet<directions>>,
+              .duals = &run_law<E, Dual<directions>>,
               .constraint = nullptr};
   if constexpr (rows > 0) its.constraint = &constraint_read<E>;
   return its;

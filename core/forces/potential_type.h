@@ -15,7 +15,8 @@ using EnergyResult = Result<energy_takes_time<E>, EnergyOf<E>, Probe<E>, ProbePo
 template <class E>
 inline constexpr PotentialType potential_type{
     .energy = equation_type_of<Equation<E, EnergyOf<E>, energy_takes_time<E>, false,
-                                        energy_takes_time<E> || PointFacts<E>::driven, 1>>({}),
+                                        energy_takes_time<E> || PointFacts<E>::driven, 1>,
+                               false>({}),
     .shape = {.kind = kind_of<E>("Potential"),
               .width = PointFacts<E>::coordinates,
               .rows = 0,

@@ -51,7 +51,7 @@ template <class F, class S, class... A>
   }
 }
 
-/// The scalars that a Lagrangian is differentiated with, by (q, v, t) and along one velocity.
+/// The scalars that a Lagrangian is differentiated with, by (q, v, t) and along two velocities.
 template <int N>
 using LagrangeScalar = HyperDual<directions_for(2 * N + 1)>;
 
@@ -85,7 +85,7 @@ class LagrangianOf final : public Lagrangian<N> {
   [[nodiscard]] LagrangeTerms<N> terms(double t, const Vec<N>& q, const Vec<N>& v) const override {
     LagrangeTerms<N> terms;
     const std::size_t begin = Branches::next();
-    for (int k = 0; k < N; ++k) {
+    for (int k = 0; k < N; k += 2) {
       for (int first = 0; first < 2 * N + (takes_time ? 1 : 0); first += K) {
         Branches::again(begin);
         const S L = along(k, first, t, q, v);
@@ -97,24 +97,26 @@ class LagrangianOf final : public Lagrangian<N> {
   }
 
  private:
-  /// L with its derivatives by K of (q, v, t) from number `first` on, and along velocity k.
+  /// L with its derivatives by K of (q, v, t) from number `first` on, and along velocities k and k + 1.
   [[nodiscard]] S along(int k, int first, double t, const Vec<N>& q, const Vec<N>& v) const {
     VecOf<S, N> x, x_rate;
     for (int i = 0; i < N; ++i) {
       x[i] = S::input(q[i], i - first);
-      x_rate[i] = S::input(v[i], N + i - first, i == k ? 1.0 : 0.0);
+      x_rate[i] = S::input(v[i], N + i - first, {i == k ? 1.0 : 0.0, i == k + 1 ? 1.0 : 0.0});
     }
     return S(detail::call_in_time(function_, S::input(t, 2 * N - first), x, x_rate));
   }
   static void put(const S& L, int j, int variable, int k, LagrangeTerms<N>& terms) {
-    if (variable < N) {
-      terms.L_q[variable] = L.z[j];
-      terms.L_vq(k, variable) = L.zs[j];
-    } else if (variable < 2 * N) {
-      terms.L_v[variable - N] = L.z[j];
-      terms.L_vv(k, variable - N) = L.zs[j];
-    } else if (variable == 2 * N) {
-      terms.L_vt[k] = L.zs[j];
+    if (variable < N) terms.L_q[variable] = L.z[j];
+    if (variable >= N && variable < 2 * N) terms.L_v[variable - N] = L.z[j];
+    for (int d = 0; d < 2 && k + d < N; ++d) {
+      if (variable < N) {
+        terms.L_vq(k + d, variable) = L.zs[d][j];
+      } else if (variable < 2 * N) {
+        terms.L_vv(k + d, variable - N) = L.zs[d][j];
+      } else if (variable == 2 * N) {
+        terms.L_vt[k + d] = L.zs[d][j];
+      }
     }
   }
 

@@ -26,19 +26,24 @@ struct Function {
   std::string name;
   Arguments<double> x;
   double (*number)(const Arguments<double>&);
+  Dual<k> (*dual)(const Arguments<Dual<k>>&);
   Jet<k> (*jet)(const Arguments<Jet<k>>&);
   HyperDual<k> (*tangent)(const Arguments<HyperDual<k>>&);
 
   template <class F>
   Function(std::string n, const Arguments<double>& at, F f)
-      : name(std::move(n)), x(at), number(f), jet(f), tangent(f) {}
+      : name(std::move(n)), x(at), number(f), dual(f), jet(f), tangent(f) {}
 };
 
-/// Along s the inputs change at some rates.
+/// Along s the inputs change at some rates, along the second of two at minus half of these.
 template <class S, int k>
 VecOf<S, k> inputs(const VecOf<double, k>& x, const VecOf<double, k>& rates) {
   VecOf<S, k> r;
-  for (int i = 0; i < k; ++i) r[i] = S::input(x[i], i, rates[i]);
+  for (int i = 0; i < k; ++i) {
+    if constexpr (S::along == 0) r[i] = S::input(x[i], i);
+    if constexpr (S::along == 1) r[i] = S::input(x[i], i, rates[i]);
+    if constexpr (S::along == 2) r[i] = S::input(x[i], i, {rates[i], -0.5 * rates[i]});
+  }
   return r;
 }
 
@@ -64,16 +69,21 @@ void expect_derivatives(const Function<k>& f) {
   const HyperDual<k> y_t = tangent(f.x, v);
   EXPECT_DOUBLE_EQ(y.value, f.number(f.x)) << f.name;
   EXPECT_EQ(y_t.value, y.value) << f.name;
-  EXPECT_DOUBLE_EQ(y_t.s, y.s) << f.name;
+  EXPECT_DOUBLE_EQ(y_t.s[0], y.s) << f.name;
+  EXPECT_DOUBLE_EQ(y_t.s[1], -0.5 * y.s) << f.name;
+  const Dual<k> y_z = f.dual(inputs<Dual<k>>(f.x, v));
+  EXPECT_EQ(y_z.value, y.value) << f.name;
   expect_slope(slope([&](double s) { return one(jet(s).value); }), one(y.s), f.name + ": along the motion");
   expect_slope(slope([&](double s) { return one(jet(s).s); }), one(y.ss), f.name + ": twice");
   for (int j = 0; j < k; ++j) {
     const auto unit = VecOf<double, k>::Unit(j);
     const auto at = [&](double s) { return VecOf<double, k>(f.x + s * unit); };
     EXPECT_EQ(y_t.z[j], y.z[j]) << f.name;
+    EXPECT_EQ(y_z.z[j], y.z[j]) << f.name;
+    EXPECT_DOUBLE_EQ(y_t.zs[1][j], -0.5 * y_t.zs[0][j]) << f.name;
     expect_slope(slope([&](double s) { return one(f.number(at(s))); }), one(y.z[j]), f.name + ": gradient");
     expect_slope(slope([&](double s) { return numbers(tangent(at(s), v).z); }),
-                 numbers(tangent(f.x, unit).zs), f.name + ": second derivatives");
+                 numbers(tangent(f.x, unit).zs[0]), f.name + ": second derivatives");
   }
 }
 
@@ -205,14 +215,14 @@ TEST(Derivatives, OfVectorAlgebraAreThoseOfItsFormulas) {
 
 TEST(Derivatives, AutoTypedPartsOfAFormulaOutliveTheirExpression) {
   using S = HyperDual<2>;
-  const S x = S::input(3.0, 0, 1.0);
+  const S x = S::input(3.0, 0, {1.0, 0.0});
   const S y = S::input(4.0, 1);
   auto s = x * y + 1.0;  // with expression templates: a reference to the dead x * y
   auto r = s * s - 2.0 * (x + y);
   EXPECT_EQ(r.value, 13.0 * 13.0 - 14.0);
   EXPECT_EQ(r.z[0], 2.0 * 13.0 * 4.0 - 2.0);
   EXPECT_EQ(r.z[1], 2.0 * 13.0 * 3.0 - 2.0);
-  EXPECT_EQ(r.zs[1], 2.0 * 13.0 + 2.0 * 3.0 * 4.0);
+  EXPECT_EQ(r.zs[0][1], 2.0 * 13.0 + 2.0 * 3.0 * 4.0);
 }
 
 TEST(Derivatives, OfPowersAtZeroHaveTheirLimits) {
