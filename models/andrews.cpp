@@ -12,7 +12,7 @@ namespace dalembert::models {
 
 namespace {
 
-using PlaneVector = Eigen::Vector<Real, 2>;
+using PlaneVector = VecOf<Real, 2>;
 constexpr std::size_t count = 7;
 
 /// The link at whose second joint each begins; -1: at a fixed point.
@@ -58,9 +58,9 @@ State at_rest(const Andrews& a) {
 }
 
 /// theta'' and then the forces at E.
-Eigen::Vector<Real, 13> solve_motion(const Andrews& a, const State& y) {
+VecOf<Real, 13> solve_motion(const Andrews& a, const State& y) {
   Eigen::Matrix<Real, 13, 13> K = Eigen::Matrix<Real, 13, 13>::Zero();
-  Eigen::Vector<Real, 13> b = Eigen::Vector<Real, 13>::Zero();
+  VecOf<Real, 13> b = VecOf<Real, 13>::Zero();
   for (std::size_t k = 0; k < count; ++k) {
     const AndrewsLink& link = a.links[k];
     const PointMotion centre = motion(a, k, link.centre, y);
@@ -87,7 +87,7 @@ Eigen::Vector<Real, 13> solve_motion(const Andrews& a, const State& y) {
 }
 
 Observation<2> observation(const Andrews& a, const State& y) {
-  const Eigen::Vector<Real, 13> solved = solve_motion(a, y);
+  const VecOf<Real, 13> solved = solve_motion(a, y);
   Observation<2> seen;
   for (std::size_t k = 0; k < count; ++k) seen.positions.push_back(joint_motion(a, k, y).r.cast<double>());
   for (int i = 7; i < 13; ++i) seen.forces.push_back(static_cast<double>(solved[i]));
@@ -146,7 +146,7 @@ AndrewsScene Andrews::scene() const {
 
 std::vector<Observation<2>> Andrews::reference(std::span<const double> times) const {
   const auto equations = [this](const State& y, State& y_rate) {  // y = (theta, theta')
-    const Eigen::Vector<Real, 13> solved = solve_motion(*this, y);
+    const VecOf<Real, 13> solved = solve_motion(*this, y);
     for (std::size_t k = 0; k < count; ++k) {
       y_rate[k] = y[count + k];
       y_rate[count + k] = solved[static_cast<int>(k)];

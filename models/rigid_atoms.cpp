@@ -14,7 +14,7 @@ namespace dalembert::models {
 
 namespace {
 
-using Vector = Eigen::Vector<Real, 3>;
+using Vector = VecOf<Real, 3>;
 using Matrix = Eigen::Matrix<Real, 3, 3>;
 
 /// The state is w in body axes, then R column by column.
@@ -74,7 +74,7 @@ std::vector<Vec<3>> RigidAtoms::places() const {
 
 Eigen::Matrix3d RigidAtoms::inertia() const {
   Eigen::Matrix3d I = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d s : places())
+  for (const Vec<3>& s : places())
     I += mass / atoms * (s.squaredNorm() * Eigen::Matrix3d::Identity() - s * s.transpose());
   return I;
 }
@@ -89,7 +89,7 @@ std::vector<Observation<3>> RigidAtoms::reference(std::span<const double> times)
   const Top top(inertia().cast<Real>());
   const std::vector<Vec<3>> in_body = places();
   State start(12, 0);
-  Eigen::Map<Vector>(start.data()) = Vector(angular_velocity.cast<Real>());
+  Eigen::Map<Vector>(start.data()) = angular_velocity.cast<Real>();
   Eigen::Map<Matrix>(start.data() + 3).setIdentity();
   std::vector<Observation<3>> seen;
   integrate(std::cref(top), start, times, [&](const State& y) {

@@ -10,7 +10,7 @@ namespace dalembert::models {
 
 namespace {
 
-using Vector = Eigen::Vector<Real, 3>;
+using Vector = VecOf<Real, 3>;
 
 /// The disk at one instant; the state is theta, theta', Omega, w3, the direction psi of h, the angle
 /// chi of the mark from t towards rho, and x and y of the centre.
@@ -48,7 +48,7 @@ SpinningDiskScene SpinningDisk::scene() const {
   scene.add(UniformGravity<3>{{0.0, 0.0, -gravity}});
   const double across = mass * radius * radius / 4.0;
   Eigen::Matrix3d axes;
-  axes << Eigen::Vector3d(t), Eigen::Vector3d(rho), Eigen::Vector3d(n);
+  axes << t, rho, n;
   const Lamina disk = add_lamina(scene,
                                  {.mass = mass,
                                   .inertia = {across, across},

@@ -1,7 +1,5 @@
 #include <dalembert/bench/extremes/bounds.h>
 
-#include <dalembert/eigen.h>
-
 #include <Eigen/Geometry>
 
 #include <array>
@@ -163,7 +161,7 @@ const std::array<Hinge, 6> hinges = {{{{0, 0, 0}, {0, 1, 0}},
 template <class A, class B>
 void add_hinge(Scene<3>& scene, const Hinge& hinge, bool balls, const A& in_a, const B& in_b) {
   constexpr double reach = 0.2;
-  const Vec<3> beyond = hinge.at + reach * hinge.axis, side = eigen(hinge.axis).unitOrthogonal();
+  const Vec<3> beyond = hinge.at + reach * hinge.axis, side = hinge.axis.unitOrthogonal();
   scene.add(Coincident{in_a(hinge.at), in_b(hinge.at)});
   if (balls) {
     scene.add(Coincident{in_a(beyond), in_b(beyond)});
@@ -183,12 +181,12 @@ Mechanism ring(bool balls) {
   for (std::size_t i = 0; i < 5; ++i) {
     const Vec<3> along = hinges[i + 1].at - hinges[i].at, side = hinges[i].axis;
     Eigen::Matrix3d axes;
-    axes << eigen(along), eigen(side), eigen(along.cross(side));
+    axes << along, side, along.cross(side);
     const Vec<3> centre = 0.5 * (hinges[i].at + hinges[i + 1].at);
     m.bodies.push_back(
         add_body<3>(m.scene, {.mass = 1.0, .inertia = {0.04, 0.09, 0.1}, .centre = centre, .axes = axes},
                     "body " + std::to_string(i + 1)));
-    frames.push_back(Eigen::Translation3d(eigen(centre)) * Eigen::AngleAxisd(axes));
+    frames.push_back(Eigen::Translation3d(centre) * Eigen::AngleAxisd(axes));
   }
   const auto in = [&](std::size_t i) {
     return [&, i](const Vec<3>& p) { return m.bodies[i].point(frames[i].inverse() * p); };

@@ -35,9 +35,8 @@ struct Equimomental {
   /// (3), from particle 0 on.
   [[nodiscard]] Vec<n + 1> weights(const Vec<n>& x) const {
     Vec<n + 1> w;
-    const Vec<n> others = s * (1.0 - x.sum() / (R * (1.0 + c))) + x / R;
-    w[0] = 1.0 - others.sum();
-    for (int k = 0; k < n; ++k) w[k + 1] = others[k];
+    w.template tail<n>() = s * (1.0 - x.sum() / (R * (1.0 + c))) + x / R;
+    w[0] = 1.0 - w.template tail<n>().sum();
     return w;
   }
 };

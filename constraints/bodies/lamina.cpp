@@ -24,7 +24,10 @@ void check(const LaminaState& s, const std::string& name) {
 }  // namespace
 
 BodyPoint<3, 3> Lamina::point(const Vec<2>& local) const {
-  return {particles, BodyPoint<3, 3>::weighted(Equimomental<2>(arms).weights(local))};
+  const Vec<3> w = Equimomental<2>(arms).weights(local);
+  BodyPoint<3, 3> p{particles, {}};
+  for (int i = 0; i < 3; ++i) p.L.middleCols<3>(3 * i) = w[i] * Eigen::Matrix3d::Identity();
+  return p;
 }
 
 BodyPoint<3, 3> Lamina::vector(const Vec<2>& local) const {
@@ -36,7 +39,9 @@ BodyPoint<3, 3> Lamina::vector(const Vec<2>& local) const {
 Eigen::Matrix3d Lamina::axes(const Sample<3>& sample) const {
   const double far = arms.norm();  // as far as particles, for small round-off
   const Vec<3> x = sample.position(vector({far, 0.0})) / far, y = sample.position(vector({0.0, far})) / far;
-  return detail::by_columns(x, y, x.cross(y));
+  Eigen::Matrix3d axes;
+  axes << x, y, x.cross(y);
+  return axes;
 }
 
 Lamina add_lamina(Scene<3>& scene, const LaminaState& s, const std::string& name) {

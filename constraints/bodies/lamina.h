@@ -5,8 +5,6 @@
 #include <dalembert/core/results/sample.h>
 #include <dalembert/core/scene/scene.h>
 
-#include <Eigen/Core>
-
 #include <array>
 #include <string>
 

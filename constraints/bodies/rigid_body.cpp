@@ -31,7 +31,7 @@ struct Particles {
       const Equimomental<3> set(arms);
       for (int i = 0; i < count; ++i) {
         share[i] = set.share(i);
-        place.col(i) = Eigen::Vector3d(set.place(i));
+        place.col(i) = set.place(i);
       }
     }
   }
@@ -49,9 +49,7 @@ Vec<3> arms_of(const BodyState<3>& s, const std::string& name) {
       s.inertia.allFinite() && second_moments.minCoeff() > 0.0, name,
       "each principal moment of inertia must be finite and less than the sum of the other two; a lamina is "
       "three particles held by Distances, a thin rod two");
-  Vec<3> arms;
-  for (int k = 0; k < 3; ++k) arms[k] = std::sqrt(second_moments[k] / s.mass);
-  return arms;
+  return (second_moments / s.mass).cwiseSqrt();
 }
 
 Eigen::Matrix2d axes_of(const BodyState<2>& s) {
@@ -70,13 +68,19 @@ Vec<3> turning(const BodyState<3>& s, const Vec<3>& arm) { return s.angular_velo
 
 template <int D>
 BodyPoint<D> RigidBody<D>::point(const Vec<D>& local) const {
+  BodyPoint<D> p{particles, {}};
   if constexpr (D == 2) {
     // centre + x e + y (e turned left), e = (p_2 - p_1)/(2 rho)
-    const double x = local.x() / (2.0 * arms.x()), y = local.y() / (2.0 * arms.x());
-    return {particles, {0.5 - x, -y, y, 0.5 - x, 0.5 + x, y, -y, 0.5 + x}};
+    Eigen::Matrix2d turned_left;
+    turned_left << 0.0, -1.0, 1.0, 0.0;
+    const Eigen::Matrix2d e_part =
+        (local.x() * Eigen::Matrix2d::Identity() + local.y() * turned_left) / (2.0 * arms.x());
+    p.L << 0.5 * Eigen::Matrix2d::Identity() - e_part, 0.5 * Eigen::Matrix2d::Identity() + e_part;
   } else {
-    return {particles, BodyPoint<D>::weighted(Equimomental<3>(arms).weights(local))};
+    const Vec<4> w = Equimomental<3>(arms).weights(local);
+    for (int i = 0; i < 4; ++i) p.L.template middleCols<3>(3 * i) = w[i] * Eigen::Matrix3d::Identity();
   }
+  return p;
 }
 
 template <int D>
@@ -107,8 +111,7 @@ typename RigidBody<D>::Axes RigidBody<D>::axes(const Sample<D>& sample) const {
   const Vec<D> origin = sample.position(centre());
   // Points as far from the centre as particles keep round-off small whatever the size of the body.
   const double far = arms.norm();
-  for (int k = 0; k < D; ++k)
-    axes.col(k) = Eigen::Matrix<double, D, 1>((sample.position(point(far * Vec<D>::Unit(k))) - origin) / far);
+  for (int k = 0; k < D; ++k) axes.col(k) = (sample.position(point(far * Vec<D>::Unit(k))) - origin) / far;
   return axes;
 }
 

@@ -20,7 +20,10 @@ V between(const V& start, const V& end, double fraction) {
 template <int D>
 BodyPoint<D, 2> ThinRod<D>::point(double fraction) const {
   const double weight = 0.5 + (fraction - 0.5) / (2.0 * arm);  // of the particle near the end
-  return {particles, BodyPoint<D, 2>::weighted({1.0 - weight, weight})};
+  const auto one = Eigen::Matrix<double, D, D>::Identity();
+  BodyPoint<D, 2> p{particles, {}};
+  p.L << (1.0 - weight) * one, weight * one;
+  return p;
 }
 
 template <int D>

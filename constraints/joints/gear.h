@@ -32,14 +32,14 @@ struct Gear {
   Gear(const A& a, const B& b, const Vec<3>& centre_a, const Vec<3>& centre_b, const Vec<3>& axis,
        int teeth_of_a, int teeth_of_b) requires(A::dimension == 3)
       : frames(a, centre_a, b, centre_b, detail::axes_across(axis, centre_b - centre_a)),
-        distance((centre_b - centre_a).dot(frames.stated.col(0))),
+        distance(frames.stated.col(0).dot(centre_b - centre_a)),
         teeth_a(teeth_of_a),
         teeth_b(teeth_of_b) {}
   /// The same in the plane.
   Gear(const A& a, const B& b, const Vec<2>& centre_a, const Vec<2>& centre_b, int teeth_of_a,
        int teeth_of_b) requires(A::dimension == 2)
       : frames(a, centre_a, b, centre_b, detail::joint_axes(Vec<2>(centre_b - centre_a))),
-        distance((centre_b - centre_a).dot(frames.stated.col(0))),
+        distance(frames.stated.col(0).dot(centre_b - centre_a)),
         teeth_a(teeth_of_a),
         teeth_b(teeth_of_b) {}
 

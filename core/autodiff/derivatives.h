@@ -255,4 +255,41 @@ template <Differentiated T>
 inline constexpr bool is_scalar<T> = true;
 }  // namespace detail
 
+/// A number that carries derivatives, times a vector of Eigen.
+template <Differentiated S, detail::OfEigen E>
+  requires(E::ColsAtCompileTime == 1 && E::RowsAtCompileTime > 0)
+auto operator*(const S& a, const E& b) { return a * VecOf<typename E::Scalar, E::RowsAtCompileTime>(b); }
+template <Differentiated S, detail::OfEigen E>
+  requires(E::ColsAtCompileTime == 1 && E::RowsAtCompileTime > 0)
+auto operator*(const E& a, const S& b) { return VecOf<typename E::Scalar, E::RowsAtCompileTime>(a) * b; }
+
 }  // namespace dalembert
+
+namespace Eigen {
+
+template <dalembert::Differentiated S>
+struct NumTraits<S> : NumTraits<double> {
+  using Real = S;
+  using NonInteger = S;
+  using Nested = S;
+  using Literal = S;
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 0,
+    ReadCost = 8,
+    AddCost = 16,
+    MulCost = 32
+  };
+};
+template <dalembert::Differentiated S, class Op>
+struct ScalarBinaryOpTraits<S, double, Op> {
+  using ReturnType = S;
+};
+template <dalembert::Differentiated S, class Op>
+struct ScalarBinaryOpTraits<double, S, Op> {
+  using ReturnType = S;
+};
+
+}  // namespace Eigen

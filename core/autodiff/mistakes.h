@@ -40,9 +40,12 @@ concept NamesItsArguments = std::is_function_v<std::remove_pointer_t<F>> || requ
 template <class T>
 concept Number = is_differentiated<T> ||(std::is_arithmetic_v<T> && !std::same_as<T, bool>);
 
-/// Several equations or a force.
+/// Several equations or a force: of Eigen's, too, if they outlive their evaluation (an expression refers to
+/// what is gone) and none can be overlooked (as in a row, or where only the running program knows how many).
 template <class T>
-concept Column = is_vector<T>;
+concept Column = is_vector<T> ||
+    (std::is_base_of_v<Eigen::PlainObjectBase<T>, T>&& T::ColsAtCompileTime == 1 &&
+     (T::RowsAtCompileTime > 0));
 
 template <class T, int D>
 concept ColumnOf = Column<T> &&(T::RowsAtCompileTime == D);
@@ -56,7 +59,7 @@ template <std::size_t I, class P, class T>
 [[nodiscard]] consteval bool is_force_on() {
   if constexpr (P::inputs == 0) {
     return true;
-  } else if constexpr (is_vector<T>) {
+  } else if constexpr (Column<T>) {
     return I == 0 && ColumnOf<T, P::inputs>;
   } else if constexpr (requires { requires(I < std::tuple_size<T>::value); }) {
     return ColumnOf<std::remove_cvref_t<std::tuple_element_t<I, T>>, P::inputs>;

@@ -70,7 +70,7 @@ using ProbeMotion =
 template <class T>
 inline constexpr int rows_in = 1;
 template <class T>
-  requires is_vector<T>
+  requires Column<T>
 inline constexpr int rows_in<T> = T::RowsAtCompileTime;
 
 template <class C>

@@ -68,7 +68,7 @@ struct Equation {
 
 template <int rows, class S, class G>
 DALEMBERT_INLINE void write_rows(const G& g, S* out) {
-  if constexpr (is_vector<G>) {
+  if constexpr (Column<G>) {
     for (int k = 0; k < rows; ++k) out[k] = S(g[k]);
   } else {
     *out = S(g);

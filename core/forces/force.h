@@ -24,7 +24,7 @@ struct ForceOf {
 /// of vectors for several.
 template <std::size_t I, class T>
 [[nodiscard]] const auto& force_on(const T& forces) {
-  if constexpr (is_vector<T>) {
+  if constexpr (Column<T>) {
     return forces;
   } else {
     return std::get<I>(forces);

@@ -74,8 +74,7 @@ class LagrangianMotion {
     const Eigen::Index first = first_row(constraint);
     const Reactions now = determined(i);
     Vec<N> force = Vec<N>::Zero();
-    for (Eigen::Index r = first; r < first + Rows; ++r)
-      force += now.lambda[r] * Vec<N>(now.A.row(r).transpose());
+    for (Eigen::Index r = first; r < first + Rows; ++r) force += now.lambda[r] * now.A.row(r).transpose();
     return force.cwiseQuotient(system_.scale());
   }
 

@@ -21,22 +21,13 @@ struct BodyPoint {
   static constexpr int count = Particles;  ///< of particles
   static constexpr int coordinates = count * D;
   static constexpr bool driven = false;
-  /// From the particles' coordinates to the point's: a matrix by columns, entry (i, k) is number D k + i.
-  using Map = Vec<D * coordinates>;
+  using Map = Eigen::Matrix<double, D, coordinates>;  ///< from the particles' coordinates to the point's
 
   std::array<Particle<D>, static_cast<std::size_t>(count)> particles;  ///< of its body
   Map L;                                                               ///< constant
 
   /// Constant.
   [[nodiscard]] const Map& map() const { return L; }
-  /// r = sum of weights times the positions of the particles.
-  [[nodiscard]] static Map weighted(const Vec<Particles>& weights) {
-    Map L = Map::Zero();
-    for (int p = 0; p < Particles; ++p) {
-      for (int i = 0; i < D; ++i) L[D * (D * p + i) + i] = weights[p];
-    }
-    return L;
-  }
   /// Its value from all coordinates, or from their rates.
   [[nodiscard]] Vec<D> gather(std::span<const double> x) const {
     Vec<D> r = Vec<D>::Zero();
@@ -44,7 +35,7 @@ struct BodyPoint {
     for (const auto& particle : particles) {
       const Vec<D> p = particle.gather(x);
       for (int k = 0; k < D; ++k, ++column) {
-        for (int i = 0; i < D; ++i) r[i] += L[D * column + i] * p[k];
+        for (int i = 0; i < D; ++i) r[i] += L(i, column) * p[k];
       }
     }
     return r;

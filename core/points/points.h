@@ -47,7 +47,9 @@ struct Particle {
   std::uint64_t scene = 0;  ///< identity of the scene it belongs to
 
   /// Its D numbers out of q (its position) or v (its velocity).
-  [[nodiscard]] Vec<D> gather(std::span<const double> x) const { return Vec<D>::from(x.data() + coordinate); }
+  [[nodiscard]] Vec<D> gather(std::span<const double> x) const {
+    return Eigen::Map<const Vec<D>>(x.data() + coordinate);
+  }
   /// The coordinates that it reads.
   [[nodiscard]] auto reads() const { return consecutive<D>(coordinate); }
 
@@ -95,7 +97,8 @@ template <class Path>
       !detail::NamesItsArguments<Path>,
       "write `auto` for the time that a path takes: it is called with numbers that carry derivatives");
   using Position = decltype(path(0.0));
-  static_assert(detail::Column<Position>, "a path returns a plain column of fixed size, vec(x, y)");
+  static_assert(detail::Column<Position>,
+                "a path returns a plain column of fixed size, vec(x, y); of an Eigen expression its .eval()");
   return Driven<Position::RowsAtCompileTime, Path>{std::move(path)};
 }
 

@@ -5,8 +5,6 @@
 #include <dalembert/core/results/readings.h>
 #include <dalembert/core/results/statistics.h>
 
-#include <Eigen/Core>
-
 #include <cstddef>
 #include <initializer_list>
 #include <iosfwd>
@@ -161,9 +159,10 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   [[nodiscard]] Multiplier<Rows> impulse(Constraint<Rows> constraint, std::size_t k) const {
     const std::size_t first = of(constraint) - 3 * record_->coordinates;
     require_event(k);
-    Vec<Rows> own = Vec<Rows>::Zero();
+    Eigen::Vector<double, Rows> own = Eigen::Vector<double, Rows>::Zero();
     if (!record_->impulses.empty())
-      own = Vec<Rows>::from(record_->impulses.data() + k * record_->rows + first);
+      own =
+          Eigen::Map<const Eigen::Vector<double, Rows>>(record_->impulses.data() + k * record_->rows + first);
     if constexpr (Rows == 1) {
       return own[0];
     } else {

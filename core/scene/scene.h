@@ -9,9 +9,9 @@
 #include <dalembert/core/scene/system.h>
 #include <dalembert/core/scene/value.h>
 
-#include <algorithm>
+#include <Eigen/Geometry>
+
 #include <functional>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -34,31 +34,6 @@ struct RotorState {
   double angle = 0.0;             ///< [rad]
   double angular_velocity = 0.0;  ///< [rad / time]
 };
-
-namespace detail {
-
-/// A box around places along the axes of space; empty at first.
-template <int D>
-struct Box {
-  Vec<D> low = Vec<D>::Constant(std::numeric_limits<double>::infinity());
-  Vec<D> high = -low;
-
-  void extend(const Vec<D>& r) {
-    for (int k = 0; k < D; ++k) {
-      low[k] = std::min(low[k], r[k]);
-      high[k] = std::max(high[k], r[k]);
-    }
-  }
-  void extend(const Box& other) {
-    if (other.empty()) return;
-    extend(other.low);
-    extend(other.high);
-  }
-  [[nodiscard]] bool empty() const { return !(low[0] <= high[0]); }
-  [[nodiscard]] double diagonal() const { return empty() ? 0.0 : (high - low).norm(); }
-};
-
-}  // namespace detail
 
 /// What the user states: particles, forces, and constraints, each as its equation. D is 2 or 3.
 ///
@@ -207,7 +182,7 @@ class Scene {
   void require_state(const Sample<D>& sample) const;
 
  private:
-  using Box = detail::Box<D>;
+  using Box = Eigen::AlignedBox<double, D>;
   using Path = std::function<Vec<D>(double)>;
 
   /// The elements of one type, and the scene's number of each.

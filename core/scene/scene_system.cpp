@@ -48,7 +48,7 @@ System Scene<D>::system() const {
       paths.insert(paths.end(), place.around.paths.begin(), place.around.paths.end());
     }
   }
-  for (const auto& p : layout_.particles) box.extend(Vec<D>::from(q_.data() + p.coordinate));
+  for (const auto& p : layout_.particles) box.extend(Eigen::Map<const Vec<D>>(q_.data() + p.coordinate));
   // A path that has no value at the start is rejected there, by the constraint that needs it.
   const auto extent = [box, paths = std::move(paths)](double t) {
     auto with_paths = box;
@@ -58,7 +58,7 @@ System Scene<D>::system() const {
       } catch (...) {
       }
     }
-    return with_paths.diagonal();
+    return with_paths.isEmpty() ? 0.0 : with_paths.diagonal().norm();
   };
   SystemParts parts{.layout = layout_, .masses = masses_, .extent = extent};
   parts.layout.id = identity_.number();

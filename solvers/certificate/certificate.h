@@ -136,7 +136,10 @@ class Certificate {
 
  private:
   [[nodiscard]] static double size(double x) { return std::abs(x); }
-  [[nodiscard]] static double size(const auto& vector) { return vector.norm(); }
+  template <class Derived>
+  [[nodiscard]] static double size(const Eigen::MatrixBase<Derived>& x) {
+    return x.norm();
+  }
   [[nodiscard]] const Certainty& at(std::size_t i) const {
     (void)run_.sample(i);  // is there one?
     return runs_.sample(i);

@@ -24,7 +24,7 @@ struct UprightOnAPlane {
   explicit UprightOnAPlane(double slope) {
     scene.add(UniformGravity<3>{g * Vec<3>(std::sin(slope), 0.0, -std::cos(slope))});
     Eigen::Matrix3d axes;
-    axes << Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY();
+    axes << Vec<3>::UnitZ(), Vec<3>::UnitX(), Vec<3>::UnitY();
     const double across = mass * radius * radius / 4.0;
     disk = add_lamina(scene,
                       {.mass = mass, .inertia = {across, across}, .centre = {0.0, 0.0, radius}, .axes = axes},

@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(Steppers, UniversalShaft, both_steppers, stepper_name);
 TEST_P(UniversalShaft, HasTheClassicalRatioAndTheTorqueOfItsCross) {
   const Vec<3> e1(1.0, 0.0, 0.0), e2(std::cos(b), std::sin(b), 0.0), across(-std::sin(b), std::cos(b), 0.0);
   Eigen::Matrix3d axes;
-  axes << Eigen::Vector3d(e2), Eigen::Vector3d(across), Eigen::Vector3d::UnitZ();
+  axes << e2, across, Vec<3>::UnitZ();
   Scene<3> scene;
   const auto driving = add_body<3>(
       scene, {.mass = 2.0, .inertia = {J1, 0.25, 0.25}, .centre = -0.7 * e1, .angular_velocity = speed * e1},

@@ -23,7 +23,7 @@ struct Placement {
   auto point(const S&... x) const {
     const auto r = vec(x...);
     using T = typename decltype(r)::Scalar;
-    return VecOf<T, D>(turn * r + shift);
+    return VecOf<T, D>(turn.template cast<T>() * r + shift.template cast<T>());
   }
   [[nodiscard]] Fixed<D> fixed(auto... x) const { return {point(x...)}; }
   [[nodiscard]] Vec<D> direction(auto... x) const { return turn * vec(x...); }

@@ -1,7 +1,5 @@
 #include "laws_joints.h"
 
-#include <dalembert/eigen.h>
-
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
@@ -16,7 +14,7 @@ namespace {
 /// Two bodies in general position, turning.
 Bodies<3> add_bodies(Scene<3>& scene, const Placement<3>& at) {
   const auto turned = [&at](double angle, const Vec<3>& axis) {
-    return Eigen::Matrix3d(at.turn * Eigen::AngleAxisd(angle, eigen(axis.normalized())).toRotationMatrix());
+    return Eigen::Matrix3d(at.turn * Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix());
   };
   return {add_body<3>(scene,
                       {.mass = 2.0,

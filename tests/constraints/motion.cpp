@@ -1,6 +1,5 @@
 #include "../both_steppers.h"
 #include <dalembert/dalembert.h>
-#include <dalembert/eigen.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -16,8 +15,7 @@ namespace {
 // Sums of four particles' terms of size up to 10, some ten operations each.
 constexpr double round_off = 500.0 * std::numeric_limits<double>::epsilon();
 
-const Eigen::Matrix3d turned =
-    Eigen::AngleAxisd(0.8, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
+const Eigen::Matrix3d turned = Eigen::AngleAxisd(0.8, Vec<3>(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
 
 TEST(MotionOfABody, IsWhatWasStatedInSpace) {
   Scene<3> scene;
@@ -33,7 +31,7 @@ TEST(MotionOfABody, IsWhatWasStatedInSpace) {
 
   const Simulation<3> at(scene, {.t_end = 1.0});
   const Sample<3> sample = at.sample();
-  const Eigen::Matrix3d I = s.axes * eigen(s.inertia).asDiagonal() * s.axes.transpose();
+  const Eigen::Matrix3d I = s.axes * s.inertia.asDiagonal() * s.axes.transpose();
   const Vec<3> w = s.angular_velocity, L = I * w, about(2.0, 1.0, -1.0);
   EXPECT_LT((angular_velocity(sample, body) - w).norm(), round_off);
   EXPECT_LT((quaternion(sample, body).toRotationMatrix() - s.axes).norm(), round_off);
@@ -77,15 +75,15 @@ TEST(MotionOfALamina, IsWhatWasStated) {
   const Lamina plate = add_lamina(scene, s, "plate");
   const Simulation<3> at(scene, {.t_end = 1.0});
   const Vec<3> moments(0.4, 1.1, 1.5);
-  const Vec<3> L = s.axes * eigen(moments).asDiagonal() * s.axes.transpose() * s.angular_velocity;
+  const Vec<3> L = s.axes * moments.asDiagonal() * s.axes.transpose() * s.angular_velocity;
   EXPECT_LT((plate.axes(at.sample()) - s.axes).norm(), round_off);
   EXPECT_LT((quaternion(at.sample(), plate).toRotationMatrix() - s.axes).norm(), round_off);
   EXPECT_LT((angular_velocity(at.sample(), plate) - s.angular_velocity).norm(), round_off);
   EXPECT_LT((angular_momentum(at.sample(), plate) - L).norm(), round_off);
   EXPECT_NEAR(kinetic_energy(at.sample(), plate), 5.25 + 0.5 * s.angular_velocity.dot(L), round_off);
   // Euler: I omega' = -omega x L
-  const Vec<3> alpha = -(s.axes * eigen(moments.cwiseInverse()).asDiagonal() * s.axes.transpose() *
-                         s.angular_velocity.cross(L));
+  const Vec<3> alpha =
+      -(s.axes * moments.cwiseInverse().asDiagonal() * s.axes.transpose() * s.angular_velocity.cross(L));
   EXPECT_LT((angular_acceleration(at.sample(), plate) - alpha).norm(), round_off);
 }
 
@@ -172,8 +170,7 @@ TEST_P(FreeTop, TurnsAsItsClosedFormDoes) {
   constexpr double allowed = 100.0 * tolerance;
   for (std::size_t i = 0; i < run.size(); ++i) {
     const double t = run.times()[i];
-    const Eigen::AngleAxisd about_L(L.norm() * t / A, eigen(L.normalized())),
-        spin(n * t, Eigen::Vector3d::UnitZ());
+    const Eigen::AngleAxisd about_L(L.norm() * t / A, L.normalized()), spin(n * t, Vec<3>::UnitZ());
     const Sample<3> now = run.sample(i);
     EXPECT_LT((top.axes(now) - about_L.toRotationMatrix() * s.axes * spin.toRotationMatrix()).norm(),
               allowed);

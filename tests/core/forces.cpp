@@ -85,7 +85,7 @@ TEST_F(Forces, ADamperResistsTheRateOfItsLength) {
   scene.add(Damper{a, b, 2.0});
   const State s{0.0, Eigen::Vector4d(1.0, 1.0, 4.0, 5.0), Eigen::Vector4d(0.0, -1.0, 1.0, 1.0)};
   const Vec<2> on_a = 2.0 * 11.0 / 5.0 * Vec<2>(0.6, 0.8);
-  EXPECT_TRUE(force_at(s).isApprox(Eigen::Vector4d(on_a.x(), on_a.y(), -on_a.x(), -on_a.y()), 1e-15));
+  EXPECT_TRUE(force_at(s).isApprox((Eigen::Vector4d() << on_a, -on_a).finished(), 1e-15));
   EXPECT_EQ(scene.system().potential_energy(s.instant()), 0.0);
 }
 

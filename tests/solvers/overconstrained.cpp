@@ -28,10 +28,9 @@ struct Bennett {
   std::vector<Vec<3>> places;
 
   static Frame link(const Frame& hinge, double angle, double length, double twist, Frame& bar) {
-    bar = hinge * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()) *
-          Eigen::Translation3d(length / 2.0, 0.0, 0.0);
+    bar = hinge * Eigen::AngleAxisd(angle, Vec<3>::UnitZ()) * Eigen::Translation3d(length / 2.0, 0.0, 0.0);
     return bar * Eigen::Translation3d(length / 2.0, 0.0, 0.0) *
-           Frame(Eigen::AngleAxisd(twist, Eigen::Vector3d::UnitX()));
+           Frame(Eigen::AngleAxisd(twist, Vec<3>::UnitX()));
   }
 
   explicit Bennett(double first) {
@@ -130,7 +129,7 @@ struct Bars {
     for (const double angle : angles) {
       const Vec<3> x(std::cos(angle), std::sin(angle), 0.0), q = p + x, vq = v + z.cross(x);
       Eigen::Matrix3d axes;
-      axes << Eigen::Vector3d(x), Eigen::Vector3d(z.cross(x)), Eigen::Vector3d(z);
+      axes << x, z.cross(x), z;
       bars.push_back(add_body(scene,
                               BodyState<3>{.mass = 1.0,
                                            .inertia = {0.01 / 12.0, 1.0 / 12.0, 1.0 / 12.0},
