@@ -64,18 +64,18 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
   template <class E>
   VecOf(const Eigen::MatrixBase<E>& of_eigen) : Base(of_eigen) {}  // NOLINT(google-explicit-constructor)
 
-  DALEMBERT_INLINE S& operator[](int i) { return at(i); }
-  DALEMBERT_INLINE const S& operator[](int i) const { return at(i); }
-  DALEMBERT_INLINE S& operator()(int i) { return at(i); }
-  DALEMBERT_INLINE const S& operator()(int i) const { return at(i); }
+  DALEMBERT_INLINE S& operator[](Eigen::Index i) { return at(i); }
+  DALEMBERT_INLINE const S& operator[](Eigen::Index i) const { return at(i); }
+  DALEMBERT_INLINE S& operator()(Eigen::Index i) { return at(i); }
+  DALEMBERT_INLINE const S& operator()(Eigen::Index i) const { return at(i); }
   DALEMBERT_INLINE S& x() { return at(0); }
   DALEMBERT_INLINE const S& x() const { return at(0); }
   DALEMBERT_INLINE S& y() requires(N > 1) { return at(1); }
   DALEMBERT_INLINE const S& y() const requires(N > 1) { return at(1); }
   DALEMBERT_INLINE S& z() requires(N > 2) { return at(2); }
   DALEMBERT_INLINE const S& z() const requires(N > 2) { return at(2); }
-  /// Itself: equations may be written for Eigen's vectors, too.
-  const VecOf& eval() const { return *this; }
+  /// Itself: equations may be written for Eigen's expressions, too.
+  [[nodiscard]] DALEMBERT_INLINE VecOf eval() const { return *this; }
 
   /// The N numbers from a place in memory on.
   [[nodiscard]] DALEMBERT_INLINE static VecOf from(const S* x) {
@@ -90,7 +90,7 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
   }
   [[nodiscard]] static VecOf Zero() { return Constant(S(0.0)); }
   [[nodiscard]] static VecOf Ones() { return Constant(S(1.0)); }
-  [[nodiscard]] static VecOf Unit(int k) {
+  [[nodiscard]] static VecOf Unit(Eigen::Index k) {
     VecOf r = Zero();
     r.at(k) = S(1.0);
     return r;
@@ -110,34 +110,6 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
       return r;
     }
   }
-  /// M components from number `first` on; of what is no constant, Eigen's, to be written to.
-  template <int M>
-  [[nodiscard]] DALEMBERT_INLINE VecOf<S, M> segment(int first) const {
-    VecOf<S, M> r;
-    DALEMBERT_UNROLL for (int i = 0; i < M; ++i) r.at(i) = at(first + i);
-    return r;
-  }
-  template <int M>
-  [[nodiscard]] VecOf<S, M> head() const {
-    return segment<M>(0);
-  }
-  template <int M>
-  [[nodiscard]] VecOf<S, M> tail() const {
-    return segment<M>(N - M);
-  }
-  template <int M>
-  [[nodiscard]] auto segment(int first) {
-    return Base::template segment<M>(first);
-  }
-  template <int M>
-  [[nodiscard]] auto head() {
-    return Base::template head<M>();
-  }
-  template <int M>
-  [[nodiscard]] auto tail() {
-    return Base::template tail<M>();
-  }
-
   DALEMBERT_INLINE VecOf& operator+=(const VecOf& b) {
     DALEMBERT_UNROLL for (int i = 0; i < N; ++i) at(i) += b.at(i);
     return *this;
@@ -184,24 +156,25 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
     using std::sqrt;
     return sqrt(squaredNorm());
   }
-  [[nodiscard]] DALEMBERT_INLINE VecOf normalized() const { return *this / norm(); }
+  /// Of 0 itself, as in Eigen.
+  [[nodiscard]] DALEMBERT_INLINE VecOf normalized() const {
+    using std::sqrt;
+    const S square = squaredNorm();
+    if (square > 0.0) return *this / sqrt(square);
+    return *this;
+  }
   void normalize() { *this = normalized(); }
   [[nodiscard]] S sum() const {
     S s = at(0);
     DALEMBERT_UNROLL for (int i = 1; i < N; ++i) s += at(i);
     return s;
   }
-  friend bool operator==(const VecOf& a, const VecOf& b) {
-    for (int i = 0; i < N; ++i)
-      if (!(a.at(i) == b.at(i))) return false;
-    return true;
-  }
 
  private:
   template <class T, int M>
   friend struct VecOf;
-  DALEMBERT_INLINE S& at(int i) { return this->data()[i]; }
-  DALEMBERT_INLINE const S& at(int i) const { return this->data()[i]; }
+  DALEMBERT_INLINE S& at(Eigen::Index i) { return this->data()[i]; }
+  DALEMBERT_INLINE const S& at(Eigen::Index i) const { return this->data()[i]; }
 };
 
 template <class A, class B, int N>
@@ -252,9 +225,9 @@ template <class A, int N, detail::ColumnOfEigen<N> E>
 auto operator-(const E& a, const VecOf<A, N>& b) {
   return VecOf<typename E::Scalar, N>(a) - b;
 }
-/// A matrix of Eigen, with a fixed number of rows, times a vector.
+/// A matrix of Eigen, with a fixed number of rows, times a vector. (One row gives a number, by Eigen.)
 template <detail::OfEigen M, class S, int N>
-  requires(M::ColsAtCompileTime == N && M::RowsAtCompileTime > 0)
+  requires(M::ColsAtCompileTime == N && M::RowsAtCompileTime > 1)
 auto operator*(const M& matrix, const VecOf<S, N>& x) {
   const auto& m = matrix.eval();
   using R = std::remove_cvref_t<decltype(m.coeff(0, 0) * x[0])>;
