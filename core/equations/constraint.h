@@ -197,7 +197,7 @@ template <AnyConstraint C>
 constexpr void require_equations() {
   static_assert(Equations<Residual<C>>,
                 "a constraint's equation returns a number or a plain column of fixed size, vec(g_1, g_2): no "
-                "row, matrix or vector of dynamic size");
+                "row, matrix or vector of dynamic size, and of an Eigen expression its .eval()");
 }
 
 }  // namespace detail

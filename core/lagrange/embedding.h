@@ -42,7 +42,8 @@ class Embedding {
   template <class Position>
   void add(Particle<D> particle, Position position) {
     static_assert(Places<Position>,
-                  "the place of a particle is a plain column of the scene's dimension, vec(x, y)");
+                  "the place of a particle is a plain column of the scene's dimension, vec(x, y); "
+                  "of an Eigen expression its .eval()");
     put<D>(particle, std::move(position), [](const auto& r, int k) { return r[k]; });
   }
   /// An angle, a number.
