@@ -66,7 +66,8 @@ constexpr void require_forces() {
   static_assert(HasOwnBatch<E> || PotentialForce<E> + LawForce<E> + FrictionForce<E> == 1,
                 "a force states one of energy(r), force(r, v) and friction(lambda, r, v)");
   if constexpr (PotentialForce<E>) {
-    static_assert(Number<EnergyResult<E>>, "a potential returns its energy, one number; of an Eigen expression its .value()");
+    static_assert(Number<EnergyResult<E>>,
+                  "a potential returns its energy, one number; of an Eigen expression its .value()");
   } else if constexpr (LawForce<E>) {
     static_assert(are_forces<LawResult<E>, PointTuple<E>>,
                   "a force law returns one column of its point's dimension, or one for each point, "
