@@ -64,9 +64,8 @@ void ConstraintBatch::linearise(const Instant& at, std::span<const double> lambd
   const auto rows = static_cast<std::size_t>(type_->equation.rows),
              width = static_cast<std::size_t>(type_->equation.elements.coordinates);
   for_those_in_force(size(), left_out_, [&](std::size_t first, std::size_t end) {
-    for (std::size_t i = first; i < end; ++i)
-      equations_.linearise(at, i, lambda.data() + i * rows, psi_q.data() + i * rows * width,
-                           stiffness.data() + i * width * width);
+    equations_.linearise(at, first, end, lambda.data() + first * rows, psi_q.data() + first * rows * width,
+                         stiffness.data() + first * width * width);
   });
 }
 

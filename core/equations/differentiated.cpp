@@ -13,7 +13,7 @@ namespace dalembert::detail {
 
 namespace {
 
-constexpr std::size_t elements_at_once = 8;
+constexpr std::size_t elements_at_once = 16;
 
 [[nodiscard]] std::size_t size(int n) { return static_cast<std::size_t>(n); }
 
@@ -152,8 +152,9 @@ struct DifferentiatedEquations::Evaluation {
   DALEMBERT_INLINE void write(const S& g, const double* gradient, Count variables, std::size_t i,
                               std::size_t r, const double* rates, const int* places) const {
     const std::size_t row = (i - from) * rows + r;
+    double zero = 0.0;  // or NaN where a number is not finite: one comparison instead of many
     if (!out.psi.empty()) {
-      if (!std::isfinite(g.value)) throw ElementFault{i, "is not a finite number"};
+      zero = 0.0 * g.value;
       if (its.on_velocities) {
         out.psi[row] = g.value;
       } else {
@@ -166,25 +167,21 @@ struct DifferentiatedEquations::Evaluation {
       }
     }
     if (!out.w.empty()) {
-      double zero = 0.0;
-      for (int j = 0; j < variables; ++j) zero += 0.0 * gradient[j];
-      if (zero != 0.0) refuse_gradient(i);
       double* const w = out.w.data() + row * width;
+      for (int j = 0; j < variables; ++j) zero += 0.0 * gradient[j];
       if (!of.direct) {
         own.elements_.pull_back(i, gradient, w);
-      } else if (its.timed()) {
-        for (int j = 0; j < variables - 1; ++j) w[j] = gradient[j];
       } else {
-        for (int j = 0; j < variables; ++j) w[j] = gradient[j];
+        const int last = variables - 1;
+        for (int j = 0; j < last; ++j) w[j] = gradient[j];
+        if (!its.timed()) w[last] = gradient[last];
       }
     }
     if constexpr (biased) {
-      const double gamma = its.on_velocities ? g.s : g.ss;
-      if (!std::isfinite(gamma))
-        throw ElementFault{
-            i, its.on_velocities ? "has no finite derivative" : "has no finite second derivative"};
-      out.gamma[row] = gamma;
+      out.gamma[row] = its.on_velocities ? g.s : g.ss;
+      zero += 0.0 * out.gamma[row];
     }
+    if (zero != 0.0) refuse(g, gradient, variables, i);
   }
   /// g_r v + g_t.
   template <class Count>
@@ -195,10 +192,17 @@ struct DifferentiatedEquations::Evaluation {
     for (int j = 0; j < last; ++j) sum += gradient[j] * rates[places[j]];
     return sum;
   }
-  [[noreturn]] void refuse_gradient(std::size_t i) const {
-    throw ElementFault{i, its.singular.empty() || its.on_velocities
-                              ? "has no finite gradient"
-                              : "has no gradient: " + std::string(its.singular)};
+  /// Says which of its numbers is not finite.
+  [[noreturn, gnu::noinline]] void refuse(const S& g, const double* gradient, int variables,
+                                          std::size_t i) const {
+    if (!out.psi.empty()) require_finite(std::isfinite(g.value), i, "is not a finite number");
+    const auto finite = [](double x) { return std::isfinite(x); };
+    if (!out.w.empty() && !std::all_of(gradient, gradient + variables, finite)) {
+      throw ElementFault{i, its.singular.empty() || its.on_velocities
+                                ? "has no finite gradient"
+                                : "has no gradient: " + std::string(its.singular)};
+    }
+    throw ElementFault{i, its.on_velocities ? "has no finite derivative" : "has no finite second derivative"};
   }
 };
 
@@ -213,28 +217,33 @@ void DifferentiatedEquations::evaluate(const Instant& at, std::size_t from, std:
   });
 }
 
-/// d(W^T lambda)/dq and psi_q of one element, by pairs of directions.
+/// d(W^T lambda)/dq and psi_q, by pairs of directions.
 template <int K>
 struct DifferentiatedEquations::Linearisation {
   using S = HyperDual<K>;
   const DifferentiatedEquations& own;
+  const Instant& at;
   const EquationType& its = *own.type_;
   const ElementType& of = its.elements;
-  const Instant& at;
-  std::size_t i;
-  const double* lambda;
   int rows = its.rows, inputs = of.inputs, pairs = (inputs + 1) / 2;
-  bool at_once = its.variables <= K;
-  std::size_t mark = Branches::next();
-  int together = Branches::heard() ? 1 : pairs;  ///< pairs of directions in one pass
+  std::size_t n = size(inputs), numbers = size(rows), all = size(pairs) * 2 * n;
+  bool heard = Branches::heard();
+  Scratch room{Scratch::size_of<S>(numbers * size(pairs)) + 2 * Scratch::size_of<double>(n) +
+               Scratch::size_of<double>(numbers * n) + Scratch::size_of<double>(n * n) +
+               2 * Scratch::size_of<double>(all) + 2 * Scratch::size_of<double>(numbers)};
   // Of the rows along directions; inputs and rates; per row psi_r; of lambda times all rows the second
   // derivatives.
-  S* values = nullptr;
-  double *x = nullptr, *v = nullptr, *zeros = nullptr, *psi_r = nullptr, *sums = nullptr;
-  double *slopes = nullptr, *curvatures = nullptr;
+  S* values = room.template take<S>(numbers * size(pairs));
+  double *x = room.template take<double>(n), *v = room.template take<double>(n),
+         *psi_r = room.template take<double>(numbers * n), *sums = room.template take<double>(n * n),
+         *zeros = room.template take<double>(all), *motion = room.template take<double>(all),
+         *slopes = room.template take<double>(numbers), *curvatures = room.template take<double>(numbers);
+  // The element at work.
+  std::size_t i = 0, mark = 0;
+  const double* lambda = nullptr;
 
-  void pass(const double* x_s, const double* v_s, int count, double t_s, int first) const {
-    Branches::again(mark);
+  void pass(const double* x_s, const double* v_s, int count, double t_s, int first, S* out) const {
+    if (heard) Branches::again(mark);
     Pass one{.elements = own.elements_.data(),
              .i = i,
              .count = count,
@@ -246,49 +255,84 @@ struct DifferentiatedEquations::Linearisation {
              .v_s = v_s,
              .at = own.in_order_.data(),
              .first = first,
-             .out = values};
+             .out = out};
     run(its.hyper_duals, one);
   }
   [[nodiscard]] const double* directions(int pair) const {
     return own.directions_.data() + pair * 2 * inputs;
   }
+  /// The rows along pairs of positions from number `from` on; in one pass, but where comparisons are heard.
+  void along_positions(int from, int first) const {
+    const int together = heard ? 1 : pairs - from;
+    for (int p = from; p < pairs; p += together)
+      pass(directions(p), zeros, together, 0.0, first, values + (p - from) * rows);
+  }
+  void along_velocities(int first) const {
+    const int together = heard ? 1 : pairs;
+    for (int p = 0; p < pairs; p += together)
+      pass(zeros, directions(p), together, 0.0, first, values + p * rows);
+  }
 
-  void run_through(double* psi_q, double* block) {
-    const std::size_t n = size(inputs), numbers = size(rows), all = size(pairs) * 2 * n;
-    Scratch room(Scratch::size_of<S>(numbers * size(pairs)) + 2 * Scratch::size_of<double>(n) +
-                 Scratch::size_of<double>(numbers * n) + Scratch::size_of<double>(n * n) +
-                 Scratch::size_of<double>(all) + 2 * Scratch::size_of<double>(numbers));
-    values = room.template take<S>(numbers * size(pairs));
-    x = room.template take<double>(n);
-    v = room.template take<double>(n);
-    psi_r = room.template take<double>(numbers * n);
-    sums = room.template take<double>(n * n);
-    own.elements_.gather(i, at, x, v);
-    std::fill_n(sums, n * n, 0.0);
-    if (its.on_velocities || !at_once) {
-      zeros = room.template take<double>(all);
-      std::fill_n(zeros, all, 0.0);
+  void run_through(std::size_t from, std::size_t end, const double* lambdas, double* psi_q, double* blocks) {
+    std::fill_n(zeros, all, 0.0);
+    const std::size_t width = size(of.coordinates);
+    for (i = from; i < end; ++i, lambdas += rows, blocks += width * width) {
+      lambda = lambdas;
+      mark = Branches::next();
+      own.elements_.gather(i, at, x, v);
+      if (its.variables <= K) {
+        at_once();
+      } else {
+        in_passes(psi_q != nullptr);
+      }
+      if (its.on_velocities) require_linear();
+      own.elements_.pull_back_block(i, sums, blocks);
+      if (psi_q == nullptr) continue;
+      for (int r = 0; r < rows; ++r, psi_q += width) own.elements_.pull_back(i, psi_r + r * inputs, psi_q);
     }
+  }
+
+  /// Sums of numbers that stand in pairs: all K at a time.
+  void at_once() const {
+    Lanes<K> motion = Lanes<K>::zero(), sum[2];
+    for (int j = 0; j < inputs; ++j) motion.p[j / 2][j % 2] = v[j];
+    if (its.timed()) motion.p[(K - 1) / 2][(K - 1) % 2] = 1.0;
+    Pair zero{0.0, 0.0};
+    along_positions(0, 0);
+    const S* g = values;
+    for (int k = 0; k < inputs; k += 2) {
+      sum[0] = sum[1] = Lanes<K>::zero();
+      const int here = std::min(2, inputs - k);
+      for (int r = 0; r < rows; ++r, ++g) {
+        for (int d = 0; d < here; ++d) {
+          sum[d] = sum[d] + lambda[r] * g->zs[d];
+          Pair along_motion{0.0, 0.0};
+          DALEMBERT_UNROLL for (int p = 0; p < Lanes<K>::pairs; ++p) {
+            along_motion += g->zs[d].p[p] * motion.p[p];
+            zero += 0.0 * g->zs[d].p[p];
+          }
+          psi_r[r * inputs + k + d] = its.on_velocities ? g->s[d] : along_motion[0] + along_motion[1];
+        }
+        if (its.on_velocities) zero[0] += 0.0 * g->s[0] + 0.0 * g->s[1] + zero_of(g->z);
+      }
+      for (int d = 0; d < here; ++d)
+        for (int j = 0; j < inputs; ++j) sums[(k + d) * inputs + j] = sum[d][j];
+    }
+    require_finite(zero[0] + zero[1] == 0.0, i, "has no finite second derivative");
+  }
+
+  void in_passes(bool with_psi_q) const {
+    std::fill_n(sums, n * n, 0.0);
     for (int first = 0; first < inputs; first += K) {
       // Second derivatives of a holonomic equation are symmetric: those before `first` are known.
-      for (int p = its.on_velocities ? 0 : first / 2; p < pairs; p += together) {
-        const int count = std::min(together, pairs - p);
-        pass(directions(p), zeros, count, 0.0, first);
-        for (int c = 0; c < count; ++c) add_second(values + c * rows, 2 * (p + c), first);
-      }
+      const int from = its.on_velocities ? 0 : first / 2;
+      along_positions(from, first);
+      for (int p = from; p < pairs; ++p) add_second(values + (p - from) * rows, 2 * p, first);
     }
-    if (its.on_velocities) {
-      slopes = room.template take<double>(numbers);
-      curvatures = room.template take<double>(numbers);
-      require_linear();
-    } else {
-      for (int a = 0; a < inputs; ++a)
-        for (int b = (a / K + 1) * K; b < inputs; ++b) sums[a * inputs + b] = sums[b * inputs + a];
-      if (psi_q != nullptr && !at_once) find_psi_r();
-    }
-    own.elements_.pull_back_block(i, sums, block);
-    if (psi_q == nullptr) return;
-    for (int r = 0; r < rows; ++r) own.elements_.pull_back(i, psi_r + r * inputs, psi_q + r * of.coordinates);
+    if (its.on_velocities) return;
+    for (int a = 0; a < inputs; ++a)
+      for (int b = (a / K + 1) * K; b < inputs; ++b) sums[a * inputs + b] = sums[b * inputs + a];
+    if (with_psi_q) find_psi_r();
   }
 
   /// What the derivatives of the rows along inputs k and k + 1 contribute.
@@ -299,18 +343,10 @@ struct DifferentiatedEquations::Linearisation {
       const S& g = row[r];
       if (its.on_velocities) zero += 0.0 * g.s[0] + 0.0 * g.s[1] + zero_of(g.z);
       for (int d = 0; d < 2 && k + d < inputs; ++d) {
-        const Lanes<K>& g_zs = g.zs[d];
         double* const sum = sums + (k + d) * inputs + first;
-        for (int j = 0; j < here; ++j) sum[j] += lambda[r] * g_zs[j];
-        for (int j = 0; j < here; ++j) zero += 0.0 * g_zs[j];
-        if (its.on_velocities) {
-          psi_r[r * inputs + k + d] = g.s[d];
-        } else if (at_once) {
-          double along_motion = its.timed() ? g_zs[inputs] : 0.0;
-          for (int j = 0; j < here; ++j) along_motion += g_zs[j] * v[j];
-          zero += 0.0 * along_motion;
-          psi_r[r * inputs + k + d] = along_motion;
-        }
+        for (int j = 0; j < here; ++j) sum[j] += lambda[r] * g.zs[d][j];
+        for (int j = 0; j < here; ++j) zero += 0.0 * g.zs[d][j];
+        if (its.on_velocities) psi_r[r * inputs + k + d] = g.s[d];
       }
     }
     require_finite(zero == 0.0, i, "has no finite second derivative");
@@ -318,10 +354,12 @@ struct DifferentiatedEquations::Linearisation {
 
   /// By passes along the motion, as no pass of the others has all second derivatives of a row.
   void find_psi_r() const {
-    double* const motion = zeros;
-    for (int k = 0; k < inputs; ++k) motion[2 * k] = v[k];
+    for (int k = 0; k < inputs; ++k) {
+      motion[2 * k] = v[k];
+      motion[2 * k + 1] = 0.0;
+    }
     for (int first = 0; first < inputs; first += K) {
-      pass(motion, nullptr, 1, 1.0, first);
+      pass(motion, zeros, 1, 1.0, first, values);
       for (int r = 0; r < rows; ++r) {
         for (int j = 0; j < std::min(K, inputs - first); ++j) {
           const double along_motion = values[r].zs[0][j];
@@ -342,18 +380,15 @@ struct DifferentiatedEquations::Linearisation {
     std::fill_n(curvatures, rows, 0.0);
     double zero = 0.0;
     for (int first = 0; first < inputs; first += K) {
-      for (int p = 0; p < pairs; p += together) {
-        const int count = std::min(together, pairs - p);
-        pass(zeros, directions(p), count, 0.0, first);
-        const S* g = values;
-        for (int c = 0; c < count; ++c) {
-          for (int r = 0; r < rows; ++r, ++g) {
-            for (int j = 0; j < std::min(K, inputs - first); ++j) {
-              const double second = std::max(std::abs(g->zs[0][j]), std::abs(g->zs[1][j]));
-              zero += 0.0 * g->zs[0][j] + 0.0 * g->zs[1][j];
-              slopes[r] = std::max(slopes[r], std::abs(g->z[j]));
-              curvatures[r] = std::max(curvatures[r], second);
-            }
+      along_velocities(first);
+      const S* g = values;
+      for (int p = 0; p < pairs; ++p) {
+        for (int r = 0; r < rows; ++r, ++g) {
+          for (int j = 0; j < std::min(K, inputs - first); ++j) {
+            const double second = std::max(std::abs(g->zs[0][j]), std::abs(g->zs[1][j]));
+            zero += 0.0 * g->zs[0][j] + 0.0 * g->zs[1][j];
+            slopes[r] = std::max(slopes[r], std::abs(g->z[j]));
+            curvatures[r] = std::max(curvatures[r], second);
           }
         }
       }
@@ -365,10 +400,10 @@ struct DifferentiatedEquations::Linearisation {
   }
 };
 
-void DifferentiatedEquations::linearise(const Instant& at, std::size_t i, const double* lambda, double* psi_q,
-                                        double* block) const {
+void DifferentiatedEquations::linearise(const Instant& at, std::size_t from, std::size_t end,
+                                        const double* lambda, double* psi_q, double* blocks) const {
   with_directions(type_->directions, [&](auto K) {
-    Linearisation<K.value>{.own = *this, .at = at, .i = i, .lambda = lambda}.run_through(psi_q, block);
+    Linearisation<K.value>{.own = *this, .at = at}.run_through(from, end, lambda, psi_q, blocks);
   });
 }
 

@@ -55,8 +55,9 @@ class DifferentiatedEquations {
 
   /// Values of elements from number `from` to before `end`; the first row is that of number `from`.
   void evaluate(const Instant& at, std::size_t from, std::size_t end, const ConstraintValues& out) const;
-  /// Of one element psi_q, unless it is null, and d(W^T lambda)/dq as a block by rows.
-  void linearise(const Instant& at, std::size_t i, const double* lambda, double* psi_q, double* block) const;
+  /// Of the same psi_q, unless it is null, and d(W^T lambda)/dq as blocks by rows; `lambda` of each row.
+  void linearise(const Instant& at, std::size_t from, std::size_t end, const double* lambda, double* psi_q,
+                 double* blocks) const;
 
  private:
   template <class S>

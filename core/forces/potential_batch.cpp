@@ -2,6 +2,8 @@
 
 #include <dalembert/core/equations/scratch.h>
 
+#include <algorithm>
+
 namespace dalembert {
 
 std::unique_ptr<ForceBatch> PotentialBatch::clone() const { return std::make_unique<PotentialBatch>(*this); }
@@ -34,10 +36,10 @@ void PotentialBatch::power(const Instant& at, const Multipliers& /*lambda*/, std
 
 void PotentialBatch::linearise(const Instant& at, const Multipliers& /*lambda*/, std::span<double> stiffness,
                                std::span<double> /*damping*/) const {
-  const auto width = static_cast<std::size_t>(type_->shape.width);
-  constexpr double against = -1.0;
-  for (std::size_t i = 0; i < size(); ++i)
-    energies_.linearise(at, i, &against, nullptr, stiffness.data() + i * width * width);
+  detail::Scratch room(detail::Scratch::size_of<double>(size()));
+  double* const against = room.take<double>(size());
+  std::fill_n(against, size(), -1.0);
+  energies_.linearise(at, 0, size(), against, nullptr, stiffness.data());
 }
 
 void PotentialBatch::force(std::size_t element, const Instant& at, std::span<const double> /*lambda*/,
