@@ -110,14 +110,20 @@ struct DifferentiatedEquations::Evaluation {
     for (std::size_t i = from; i < end;) {
       const std::size_t count = std::min(elements_at_once, end - i);
       Pass pass = pass_of(i, count, x, x_s, values);
+      const double* const rates = pass.x_s;
       const int* places = pass.at;
       run(biased ? its.jets : its.duals, pass);
+      const auto gradient = [](const S& value) { return reinterpret_cast<const double*>(value.z.p); };
       const S* value = values;
-      for (const std::size_t last = i + count; i < last; ++i, places += inputs) {
+      for (std::size_t e = 0; e < count; ++e, places += inputs) {
         for (std::size_t r = 0; r < rows; ++r, ++value)
-          write(*value, reinterpret_cast<const double*>(value->z.p), std::integral_constant<int, K>{}, i, r,
-                pass.x_s, places);
+          write(*value, gradient(*value), std::integral_constant<int, K>{}, i + e, r, rates, places);
       }
+      if (!of.direct && !out.w.empty()) {
+        for (std::size_t row = 0; row < count * rows; ++row)
+          own.elements_.pull_back(i + row / rows, gradient(values[row]), w_of(i, row));
+      }
+      i += count;
     }
   }
 
@@ -144,10 +150,19 @@ struct DifferentiatedEquations::Evaluation {
       }
       for (std::size_t r = 0; r < rows; ++r)
         write(values[r], gradients + r * several, its.variables, i, r, first.x_s, first.at);
+      if (!of.direct && !out.w.empty()) {
+        for (std::size_t r = 0; r < rows; ++r)
+          own.elements_.pull_back(i, gradients + r * several, w_of(i, r));
+      }
     }
   }
 
-  /// Row r of element i. `variables` is a constant where it is known.
+  [[nodiscard]] double* w_of(std::size_t i, std::size_t row) const {
+    return out.w.data() + ((i - from) * rows + row) * width;
+  }
+
+  /// Row r of element i, its gradient by coordinates only if they are its inputs. `variables` is a constant
+  /// where it is known.
   template <class Count>
   DALEMBERT_INLINE void write(const S& g, const double* gradient, Count variables, std::size_t i,
                               std::size_t r, const double* rates, const int* places) const {
@@ -167,11 +182,9 @@ struct DifferentiatedEquations::Evaluation {
       }
     }
     if (!out.w.empty()) {
-      double* const w = out.w.data() + row * width;
       for (int j = 0; j < variables; ++j) zero += 0.0 * gradient[j];
-      if (!of.direct) {
-        own.elements_.pull_back(i, gradient, w);
-      } else {
+      if (of.direct) {
+        double* const w = w_of(i, r);
         const int last = variables - 1;
         for (int j = 0; j < last; ++j) w[j] = gradient[j];
         if (!its.timed()) w[last] = gradient[last];
@@ -288,7 +301,11 @@ struct DifferentiatedEquations::Linearisation {
       if (its.on_velocities) require_linear();
       own.elements_.pull_back_block(i, sums, blocks);
       if (psi_q == nullptr) continue;
-      for (int r = 0; r < rows; ++r, psi_q += width) own.elements_.pull_back(i, psi_r + r * inputs, psi_q);
+      if (of.direct) {
+        for (int k = 0; k < rows * inputs; ++k) *psi_q++ = psi_r[k];
+      } else {
+        for (int r = 0; r < rows; ++r, psi_q += width) own.elements_.pull_back(i, psi_r + r * inputs, psi_q);
+      }
     }
   }
 
