@@ -174,11 +174,11 @@ Scene<2> sleigh(double speed, double arm, double turning, double direction) {
                               .velocity = speed * e + arm * turning * across,
                               .angular_velocity = turning},
                              "sleigh");
-  scene.add(Nonholonomic{points(body.point({-arm, 0.0}), body.point({1.0 - arm, 0.0})),
+  scene.add(nonholonomic(points(body.point({-arm, 0.0}), body.point({1.0 - arm, 0.0})),
                          [](auto r, auto ahead, auto v, auto) {
                            const auto along = (ahead - r).eval();
                            return along.x() * v.y() - along.y() * v.x();
-                         }},
+                         }),
             "edge");
   return scene;
 }
