@@ -249,7 +249,8 @@ void Stepping::watch_sliding() {
 void Stepping::begin_changed(double t, std::shared_ptr<const System> system, std::span<const double> q,
                              std::span<const double> v) {
   const Problem problem(std::move(system));
-  Start next = dalembert::begin_changed(problem, start_of_rest(t), t, q, v, options_.tolerance);
+  // A path begins anew: the shorter flights behind impacts are held to the tolerance as the first ones are.
+  Start next = dalembert::begin_changed(problem, start(), t, q, v, options_.tolerance);
   if (next.scales.of_path) {  // a first step, see IdaStepper, must advance the time
     const double rounding = constants.roundings_of_path * epsilon * std::abs(t);
     Way way = next.scales.way;
