@@ -101,7 +101,15 @@ export class Browser {
     this.fail(new Error("stopped"));
     this.child.kill();
     await ended;
-    rmSync(this.profile, { recursive: true, force: true, maxRetries: 20, retryDelay: 200 });
+    // Its children write on for a moment; what they add while a folder is emptied, rmSync does not see again.
+    for (let left = 50; ; --left) {
+      try {
+        return rmSync(this.profile, { recursive: true, force: true });
+      } catch (error) {
+        if (left === 0) throw error;
+        await pause(100);
+      }
+    }
   }
 }
 export const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
