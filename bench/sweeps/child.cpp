@@ -32,7 +32,7 @@ constexpr const char* mpirun = "";
 
 bool has_mpirun() { return access(mpirun, X_OK) == 0; }
 
-Child::Child(const std::vector<std::string>& arguments, int ranks, Errors errors) {
+Child::Child(const std::vector<std::string>& arguments, int ranks, Errors errors, Caches caches) {
   std::vector<std::string> words;
   if (ranks > 0)
     for (const std::string& word :
@@ -52,6 +52,7 @@ Child::Child(const std::vector<std::string>& arguments, int ranks, Errors errors
   setpgid(0, 0);
   setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);  // in a container there is nobody else
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  if (caches == Caches::large) setenv("GLIBC_TUNABLES", "glibc.malloc.tcache_count=127", 1);
   dup2(ends[1], STDOUT_FILENO);
   if (errors == Errors::hidden) dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
   become(std::move(words));

@@ -10,12 +10,17 @@ namespace dalembert::bench {
 /// Whether what a process says on stderr is seen: mpirun tells of kills at length.
 enum class Errors { shown, hidden };
 
+/// How many free blocks of each size a thread of glibc's allocator keeps for itself: 7, or 127. Beyond these
+/// it takes a lock.
+enum class Caches { small, large };
+
 /// This program once more, as a process of its own, perhaps by mpirun; in a group of its own, so that it can
 /// be killed with all that belongs to it.
 class Child {
  public:
   /// `ranks` 0: without mpirun.
-  Child(const std::vector<std::string>& arguments, int ranks, Errors errors = Errors::shown);
+  Child(const std::vector<std::string>& arguments, int ranks, Errors errors = Errors::shown,
+        Caches caches = Caches::small);
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
   ~Child();

@@ -53,6 +53,7 @@ struct Case {
   std::size_t rows;
   int threads, ranks;  ///< 0 threads: the bare loop, -1: beside an idle thread; 0 ranks: without mpirun
   std::size_t bad = 0;
+  Caches caches = Caches::small;
 
   [[nodiscard]] std::vector<std::string> arguments(const std::string& file) const {
     return {"case",      example,
@@ -71,7 +72,7 @@ struct Measured {
 };
 
 Measured run(const Case& one, const std::string& file) {
-  Child child(one.arguments(file), one.ranks);
+  Child child(one.arguments(file), one.ranks, Errors::shown, one.caches);
   if (!child.wait()) throw Error("sweep: the case " + one.name + " failed");
   Measured measured;
   std::istringstream(child.output()) >> measured.seconds >> measured.failed >> measured.memory;
@@ -147,10 +148,13 @@ bool same_numbers(const std::string& dataset, const std::string& bare) {
 /// The timed cases in turn, round after round; each is compared with the bare loop of its own round.
 void timed(const SweepTable& options, const Folder& folder, Report& report) {
   std::vector<Case> cases{{"bare-loop", "pendulums", options.rows, 0, 0},
-                          {"beside-an-idle-thread", "pendulums", options.rows, -1, 0},
-                          {"1-thread", "pendulums", options.rows, 1, 0},
-                          {"2-threads", "pendulums", options.rows, 2, 0}};
-  if (has_mpirun()) cases.push_back({"2-ranks", "pendulums", options.rows, 1, 2});
+                          {"beside-an-idle-thread", "pendulums", options.rows, -1, 0}};
+  for (const Caches caches : {Caches::small, Caches::large}) {
+    const std::string with = caches == Caches::large ? "-large-caches" : "";
+    cases.push_back({"1-thread" + with, "pendulums", options.rows, 1, 0, 0, caches});
+    cases.push_back({"2-threads" + with, "pendulums", options.rows, 2, 0, 0, caches});
+    if (has_mpirun()) cases.push_back({"2-ranks" + with, "pendulums", options.rows, 1, 2, 0, caches});
+  }
   constexpr std::size_t first_sweep = 2;
   std::vector<std::vector<double>> seconds(cases.size()), efficiency(cases.size());
   std::vector<Measured> last(cases.size());
