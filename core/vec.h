@@ -34,9 +34,12 @@ inline constexpr bool is_vector = false;
 template <class S, int N>
 inline constexpr bool is_vector<VecOf<S, N>> = true;
 
-/// A matrix or an expression of Eigen, no vector of the library.
 template <class E>
-concept OfEigen = std::is_base_of_v<Eigen::MatrixBase<E>, E> && !is_vector<E>;
+void take_matrix(const Eigen::MatrixBase<E>&);
+/// A matrix or an expression of Eigen, no vector of the library. (A VectorBlock is one whose MatrixBase is that
+/// of a Block.)
+template <class E>
+concept OfEigen = !is_vector<E> && requires(const E& e) { take_matrix(e); };
 /// One that is a column of N numbers.
 template <class E, int N>
 concept ColumnOfEigen = OfEigen<E> &&(E::RowsAtCompileTime == N && E::ColsAtCompileTime == 1);

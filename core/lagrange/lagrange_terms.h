@@ -102,7 +102,7 @@ class LagrangianOf final : public Lagrangian<N> {
     VecOf<S, N> x, x_rate;
     for (int i = 0; i < N; ++i) {
       x[i] = S::input(q[i], i - first);
-      x_rate[i] = S::input(v[i], N + i - first, {i == k ? 1.0 : 0.0, i == k + 1 ? 1.0 : 0.0});
+      x_rate[i] = S::input(v[i], N + i - first, typename S::Both{i == k ? 1.0 : 0.0, i == k + 1 ? 1.0 : 0.0});
     }
     return S(detail::call_in_time(function_, S::input(t, 2 * N - first), x, x_rate));
   }

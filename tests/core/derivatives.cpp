@@ -42,7 +42,7 @@ VecOf<S, k> inputs(const VecOf<double, k>& x, const VecOf<double, k>& rates) {
   for (int i = 0; i < k; ++i) {
     if constexpr (S::along == 0) r[i] = S::input(x[i], i);
     if constexpr (S::along == 1) r[i] = S::input(x[i], i, rates[i]);
-    if constexpr (S::along == 2) r[i] = S::input(x[i], i, {rates[i], -0.5 * rates[i]});
+    if constexpr (S::along == 2) r[i] = S::input(x[i], i, typename S::Both{rates[i], -0.5 * rates[i]});
   }
   return r;
 }
@@ -215,7 +215,7 @@ TEST(Derivatives, OfVectorAlgebraAreThoseOfItsFormulas) {
 
 TEST(Derivatives, AutoTypedPartsOfAFormulaOutliveTheirExpression) {
   using S = HyperDual<2>;
-  const S x = S::input(3.0, 0, {1.0, 0.0});
+  const S x = S::input(3.0, 0, S::Both{1.0, 0.0});
   const S y = S::input(4.0, 1);
   auto s = x * y + 1.0;  // with expression templates: a reference to the dead x * y
   auto r = s * s - 2.0 * (x + y);
