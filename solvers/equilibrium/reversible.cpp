@@ -45,13 +45,14 @@ Reduced reduced(const Disturbances& all, const MatrixXd& frame, const MatrixXd& 
   return {Q.transpose() * rate * Q, Q.transpose() * (B.transpose() * mirror * B) * Q};
 }
 
-/// Columns of length 1, or 0, and those of all that is outside of a part.
+/// A basis of the displacements, and all that is outside of a part. (A symmetry that leaves the state as it is
+/// displaces it by round-off, in no direction.)
 MatrixXd with_others(const MatrixXd& Y, const Islands& parts, std::size_t part) {
-  const Index n = Y.rows() / 2;
-  MatrixXd all = MatrixXd::Zero(2 * n, Y.cols() + 2 * n);
-  all.leftCols(Y.cols()) = Y.colwise().normalized();
+  const Index n = Y.rows() / 2, rank = Y.cols() - dense::kernel(Y, rank_threshold).cols();
+  MatrixXd all = MatrixXd::Zero(2 * n, rank + 2 * n);
+  all.leftCols(rank) = dense::orthonormal(Y, rank);
   for (Index i = 0; i < 2 * n; ++i)
-    all(i, Y.cols() + i) = parts.of_coordinate[static_cast<std::size_t>(i % n)] != part ? 1.0 : 0.0;
+    all(i, rank + i) = parts.of_coordinate[static_cast<std::size_t>(i % n)] != part ? 1.0 : 0.0;
   return all;
 }
 

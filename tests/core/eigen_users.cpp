@@ -26,7 +26,7 @@ TEST(EigenUsers, StateScenesAndReadResultsInTheirOwnVectors) {
   const Matrix3d R = turned.toRotationMatrix();
   const auto slope =
       scene.add(dalembert::holonomic(dalembert::points(corner),
-                                     [n, d = n.dot(n)](const auto& r) { return n.dot(r) - d; }),
+                                     [n, d = 1.1 * n.dot(n)](const auto& r) { return n.dot(r) - d; }),
                 "slope");
   scene.add(dalembert::potential(dalembert::points(corner, bob), [R, hook](const auto& r, const auto& s) {
     const auto e = (R * (r - hook)).eval();
