@@ -56,12 +56,32 @@ std::vector<std::size_t> rows_in_force(const System& system) {
   return rows;
 }
 
+/// The rows' Gram matrix G = U^T U as L D L^T: the least pivot is the square of the sine of the least angle
+/// that a row makes with those before it. Of few rows, as most scenes have, without memory of its own.
+constexpr Eigen::Index few = 8;
+double least_pivot_of_few(const Columns& rows) {
+  const Eigen::Index n = rows.cols();
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, few, few> G(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j) G(i, j) = rows.col(i).dot(rows.col(j));
+    if (G(i, i) == 0.0) G(i, i) = 1.0;  // a row that is not in force
+  }
+  double least = 1.0;
+  for (Eigen::Index k = 0; k < n && least > 0.0; ++k) {
+    least = std::min(least, G(k, k));
+    for (Eigen::Index i = k + 1; i < n; ++i)
+      for (Eigen::Index j = k + 1; j <= i; ++j) G(i, j) -= G(i, k) * G(j, k) / G(k, k);
+  }
+  return least;
+}
+
 /// Whether no row makes a smaller angle than a thousandth with those before it, by the pivots of
 /// the rows' Gram matrix, which take a time proportional to the size of a chain; QR of 10,000 rows takes
 /// minutes. Where many constraints share a particle the matrix is full, and QR cheaper.
 bool clearly_independent(const Columns& rows) {
   constexpr double square_of_angle = 1e-6;
   constexpr Eigen::Index most_fill = 16;
+  if (rows.cols() <= few) return least_pivot_of_few(rows) > square_of_angle;
   Columns gram = (rows.transpose() * rows).pruned();
   if (gram.nonZeros() > most_fill * rows.nonZeros()) return false;
   for (Eigen::Index r = 0; r < rows.cols(); ++r)
