@@ -37,7 +37,7 @@ struct InPlane {
     const Vec<3> ahead = e.cross(axis.zero).normalized();
     const Vec<3> zero = ahead.cross(e);
     const auto phi = angle(t);
-    const auto d = (r - axis.point).eval();
+    const auto d = r - axis.point;
     return cos(phi) * ahead.dot(d) - sin(phi) * zero.dot(d);
   }
   [[nodiscard]] std::string fault() const {

@@ -35,7 +35,7 @@ struct Translating {
   Surface surface;  ///< at rest
   Path path;        ///< its translation, a function of time [length]
 
-  auto operator()(const auto& t, const auto& r) const { return surface((r - path(t)).eval()); }
+  auto operator()(const auto& t, const auto& r) const { return surface(r - path(t)); }
   [[nodiscard]] Sketch sketch() const {
     constexpr int D = std::remove_cvref_t<decltype(path(0.0))>::RowsAtCompileTime;
     return detail::carried(detail::figure_of<D>(surface), [path = path](double t) {
@@ -62,8 +62,8 @@ struct Rotating {
     const auto phi = angle(t);
     const auto c = cos(phi);
     const auto s = sin(phi);
-    const auto d = (r - centre).eval();
-    return curve((centre + vec(c * d.x() + s * d.y(), c * d.y() - s * d.x())).eval());
+    const auto d = r - centre;
+    return curve(centre + vec(c * d.x() + s * d.y(), c * d.y() - s * d.x()));
   }
   [[nodiscard]] Sketch sketch() const {
     return detail::carried(detail::figure_of<2>(curve), [centre = centre, angle = angle](double t) {
@@ -89,10 +89,10 @@ struct RotatingAbout {
     using std::sin;
     const Vec<3> e = axis.direction.normalized();
     const auto phi = angle(t);
-    const auto d = (r - axis.point).eval();
+    const auto d = r - axis.point;
     // Rodrigues' rotation by -phi.
-    const auto turned = (cos(phi) * d - sin(phi) * e.cross(d) + (1.0 - cos(phi)) * e.dot(d) * e).eval();
-    return surface((axis.point + turned).eval());
+    const auto turned = cos(phi) * d - sin(phi) * e.cross(d) + (1.0 - cos(phi)) * e.dot(d) * e;
+    return surface(axis.point + turned);
   }
   [[nodiscard]] Sketch sketch() const {
     return detail::carried(detail::figure_of<3>(surface), [axis = axis, angle = angle](double t) {
