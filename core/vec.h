@@ -36,10 +36,12 @@ inline constexpr bool is_vector<VecOf<S, N>> = true;
 
 template <class E>
 void take_matrix(const Eigen::MatrixBase<E>&);
-/// A matrix or an expression of Eigen, no vector of the library. (A VectorBlock is one whose MatrixBase is that
-/// of a Block.)
+/// A matrix or an expression of Eigen, no vector of the library. (A VectorBlock is one whose MatrixBase is
+/// that of a Block.)
 template <class E>
-concept OfEigen = !is_vector<E> && requires(const E& e) { take_matrix(e); };
+concept OfEigen = !is_vector<E> && requires(const E& e) {
+  take_matrix(e);
+};
 /// One that is a column of N numbers.
 template <class E, int N>
 concept ColumnOfEigen = OfEigen<E> &&(E::RowsAtCompileTime == N && E::ColsAtCompileTime == 1);

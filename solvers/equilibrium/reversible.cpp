@@ -45,8 +45,8 @@ Reduced reduced(const Disturbances& all, const MatrixXd& frame, const MatrixXd& 
   return {Q.transpose() * rate * Q, Q.transpose() * (B.transpose() * mirror * B) * Q};
 }
 
-/// A basis of the displacements, and all that is outside of a part. (A symmetry that leaves the state as it is
-/// displaces it by round-off, in no direction.)
+/// A basis of the displacements, and all that is outside of a part. (A symmetry that leaves the state as it
+/// is displaces it by round-off, in no direction.)
 MatrixXd with_others(const MatrixXd& Y, const Islands& parts, std::size_t part) {
   const Index n = Y.rows() / 2, rank = Y.cols() - dense::kernel(Y, rank_threshold).cols();
   MatrixXd all = MatrixXd::Zero(2 * n, rank + 2 * n);
