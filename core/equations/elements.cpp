@@ -33,10 +33,10 @@ class MapsOf {
 
 Elements::Elements(const Elements& other)
     : type_(other.type_),
+      coordinates_(other.coordinates_),
       data_(other.copies(other.size_, other.size_, nullptr)),
       size_(other.size_),
-      capacity_(other.size_),
-      coordinates_(other.coordinates_) {}
+      capacity_(other.size_) {}
 
 Elements::~Elements() { release(data_, size_); }
 

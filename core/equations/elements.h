@@ -120,9 +120,9 @@ class Elements {
   void release(std::byte* data, std::size_t size) const noexcept;
 
   const ElementType* type_;
+  std::vector<int> coordinates_;  // before what a destructor of ours would have to free: its copy may fail
   std::byte* data_ = nullptr;
   std::size_t size_ = 0, capacity_ = 0;
-  std::vector<int> coordinates_;
 };
 
 }  // namespace dalembert
