@@ -55,9 +55,11 @@ concept ColumnOfEigen = OfEigen<E> &&(E::RowsAtCompileTime == N && E::ColsAtComp
 template <class S, int N>
 struct VecOf : Eigen::Matrix<S, N, 1> {
   static_assert(N > 0);
-  using Base = Eigen::Matrix<S, N, 1>;
+  using Base = Eigen::Matrix<S, N, 1>;  ///< what Eigen takes it for
 
   VecOf() = default;
+  /// @{
+  /// Of its components, or of a column of Eigen's.
   DALEMBERT_INLINE explicit VecOf(const S& x) requires(N == 1) { at(0) = x; }
   template <class... T>
     requires(N > 1 && sizeof...(T) == N && (std::convertible_to<T, S> && ...))
@@ -68,7 +70,10 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
   VecOf(const Base& of_eigen) : Base(of_eigen) {}  // NOLINT(google-explicit-constructor)
   template <class E>
   VecOf(const Eigen::MatrixBase<E>& of_eigen) : Base(of_eigen) {}  // NOLINT(google-explicit-constructor)
+  /// @}
 
+  /// @{
+  /// A component, not checked.
   DALEMBERT_INLINE S& operator[](Eigen::Index i) { return at(i); }
   DALEMBERT_INLINE const S& operator[](Eigen::Index i) const { return at(i); }
   DALEMBERT_INLINE S& operator()(Eigen::Index i) { return at(i); }
@@ -79,6 +84,7 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
   DALEMBERT_INLINE const S& y() const requires(N > 1) { return at(1); }
   DALEMBERT_INLINE S& z() requires(N > 2) { return at(2); }
   DALEMBERT_INLINE const S& z() const requires(N > 2) { return at(2); }
+  /// @}
   /// Itself: equations may be written for Eigen's expressions, too.
   [[nodiscard]] DALEMBERT_INLINE VecOf eval() const { return *this; }
 
@@ -88,6 +94,8 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
     DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.at(i) = x[i];
     return r;
   }
+  /// @{
+  /// As those of Eigen.
   [[nodiscard]] static VecOf Constant(const S& s) {
     VecOf r;
     DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.at(i) = s;
@@ -103,6 +111,7 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
   [[nodiscard]] static VecOf UnitX() { return Unit(0); }
   [[nodiscard]] static VecOf UnitY() requires(N > 1) { return Unit(1); }
   [[nodiscard]] static VecOf UnitZ() requires(N > 2) { return Unit(2); }
+  /// @}
 
   /// With every component as a T.
   template <class T>
@@ -115,6 +124,8 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
       return r;
     }
   }
+  /// @{
+  /// As those of Eigen, but by value.
   DALEMBERT_INLINE VecOf& operator+=(const VecOf& b) {
     DALEMBERT_UNROLL for (int i = 0; i < N; ++i) at(i) += b.at(i);
     return *this;
@@ -161,6 +172,7 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
     using std::sqrt;
     return sqrt(squaredNorm());
   }
+  /// @}
   /// Of 0 itself, as in Eigen.
   [[nodiscard]] DALEMBERT_INLINE VecOf normalized() const {
     using std::sqrt;
@@ -168,7 +180,9 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
     if (square > 0.0) return *this / sqrt(square);
     return *this;
   }
+  /// Of 0 likewise.
   void normalize() { *this = normalized(); }
+  /// Of the components.
   [[nodiscard]] S sum() const {
     S s = at(0);
     DALEMBERT_UNROLL for (int i = 1; i < N; ++i) s += at(i);
@@ -182,6 +196,8 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
   DALEMBERT_INLINE const S& at(Eigen::Index i) const { return this->data()[i]; }
 };
 
+/// @{
+/// Vectors by value, of the type of numbers that holds both.
 template <class A, class B, int N>
 DALEMBERT_INLINE auto operator+(const VecOf<A, N>& a, const VecOf<B, N>& b) {
   VecOf<decltype(a[0] + b[0]), N> r;
@@ -213,7 +229,10 @@ requires detail::is_scalar<B> DALEMBERT_INLINE auto operator/(const VecOf<A, N>&
   return r;
 }
 
-// With vectors of Eigen on one side: the result is one of ours.
+/// @}
+
+/// @{
+/// With a vector of Eigen on one side: the result is one of ours.
 template <class A, int N, detail::ColumnOfEigen<N> E>
 auto operator+(const VecOf<A, N>& a, const E& b) {
   return a + VecOf<typename E::Scalar, N>(b);
@@ -230,6 +249,7 @@ template <class A, int N, detail::ColumnOfEigen<N> E>
 auto operator-(const E& a, const VecOf<A, N>& b) {
   return VecOf<typename E::Scalar, N>(a) - b;
 }
+/// @}
 /// A matrix of Eigen, with a fixed number of rows, times a vector. (One row gives a number, by Eigen.)
 template <detail::OfEigen M, class S, int N>
   requires(M::ColsAtCompileTime == N && M::RowsAtCompileTime > 1)
