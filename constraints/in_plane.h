@@ -3,8 +3,6 @@
 #include <dalembert/constraints/geometry/axis.h>
 #include <dalembert/core/equations/constraint.h>
 
-#include <Eigen/Geometry>
-
 namespace dalembert {
 
 /// Keeps a point in a plane that contains an axis and turns about it by a prescribed angle: a hoop

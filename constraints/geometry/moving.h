@@ -4,8 +4,6 @@
 #include <dalembert/core/equations/sketch.h>
 #include <dalembert/core/vec.h>
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 #include <string>
 #include <type_traits>
@@ -21,11 +19,6 @@ template <class Surface>
   if constexpr (requires { surface.fault(); }) return surface.fault();
   return {};
 }
-
-/// A turn about an axis through a point.
-[[nodiscard]] inline Eigen::Isometry3d turned_about(const Vec<3>& point, const Vec<3>& axis, double angle) {
-  return Eigen::Translation3d(point) * Eigen::AngleAxisd(angle, axis) * Eigen::Translation3d(-point);
-}
 }  // namespace detail
 
 /// Shifted by path(t): `Translating{Sphere<2>{}, [](auto t) { return vec(0.1 * sin(t), 0.0); }}`.
@@ -40,7 +33,7 @@ struct Translating {
     constexpr int D = std::remove_cvref_t<decltype(path(0.0))>::RowsAtCompileTime;
     return detail::carried(detail::figure_of<D>(surface), [path = path](double t) {
       const auto shift = detail::place_of<D>(path(t).template cast<double>());
-      return Eigen::Isometry3d(Eigen::Translation3d(shift[0], shift[1], shift[2]));
+      return Pose{.shift = {shift[0], shift[1], shift[2]}};
     });
   }
   [[nodiscard]] std::string fault() const { return detail::fault_of(surface); }

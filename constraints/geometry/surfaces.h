@@ -2,8 +2,6 @@
 
 #include <dalembert/core/equations/constraint.h>
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 #include <initializer_list>
 #include <string>

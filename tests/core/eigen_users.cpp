@@ -1,5 +1,6 @@
 #include <dalembert/dalembert.h>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 /// What somebody writes who has Eigen in all of his code: that it compiles is the test.
