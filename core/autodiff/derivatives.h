@@ -78,7 +78,7 @@ struct Dual : detail::Arithmetic<Dual<K>> {
   double value;
   detail::Lanes<K> z;
 
-  Dual() = default;
+  DALEMBERT_INLINE Dual() : Dual(0.0) {}
   /// A constant. Implicit, so that numbers with and without derivatives mix in a formula.
   DALEMBERT_INLINE Dual(double constant)  // NOLINT(google-explicit-constructor)
       : Dual(constant, detail::Lanes<K>::zero()) {}
@@ -129,7 +129,7 @@ struct Jet : detail::Arithmetic<Jet<K>> {
   double value, s, ss;
   detail::Lanes<K> z;
 
-  Jet() = default;
+  DALEMBERT_INLINE Jet() : Jet(0.0) {}
   /// A constant.
   DALEMBERT_INLINE Jet(double constant)  // NOLINT(google-explicit-constructor)
       : Jet(constant, 0.0, 0.0, detail::Lanes<K>::zero()) {}
@@ -185,7 +185,7 @@ struct HyperDual : detail::Arithmetic<HyperDual<K>> {
   Both s;
   detail::Lanes<K> z, zs[2];
 
-  HyperDual() = default;
+  DALEMBERT_INLINE HyperDual() : HyperDual(0.0) {}
   /// A constant.
   DALEMBERT_INLINE HyperDual(double constant)  // NOLINT(google-explicit-constructor)
       : HyperDual(constant, Both{0.0, 0.0}, detail::Lanes<K>::zero(), detail::Lanes<K>::zero(),
@@ -277,7 +277,7 @@ struct NumTraits<S> : NumTraits<double> {
     IsComplex = 0,
     IsInteger = 0,
     IsSigned = 1,
-    RequireInitialization = 0,
+    RequireInitialization = 1,
     ReadCost = 8,
     AddCost = 16,
     MulCost = 32

@@ -22,7 +22,7 @@ class Scratch {
     next_ = many_.data();
   }
   ~Scratch() {
-    if (!many_.empty()) kept().push_back(std::move(many_));
+    if (!many_.empty() && kept().size() < kept().capacity()) kept().push_back(std::move(many_));
   }
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
@@ -39,7 +39,12 @@ class Scratch {
 
  private:
   [[nodiscard]] static std::vector<std::vector<std::byte>>& kept() {
-    thread_local std::vector<std::vector<std::byte>> memory;
+    constexpr std::size_t most = 8;  // what equations within equations use beyond these is not kept
+    thread_local std::vector<std::vector<std::byte>> memory = [] {
+      std::vector<std::vector<std::byte>> none;
+      none.reserve(most);
+      return none;
+    }();
     return memory;
   }
 

@@ -21,7 +21,7 @@ void LawBatch::add(const void* force) {
   try {
     elements_.add(force);
   } catch (...) {
-    constraints_.resize(elements_.size());
+    if (type_->constraint != nullptr) constraints_.pop_back();
     throw;
   }
 }

@@ -66,4 +66,60 @@ TEST(EigenUsers, StateScenesAndReadResultsInTheirOwnVectors) {
   (void)slope;
 }
 
+/// One particle that a constraint holds where `distance` is 0, as far as it says.
+template <class F>
+double residual(const F& distance) {
+  dalembert::Scene<3> scene;
+  const auto r = scene.add_particle({.mass = 1.0, .position = {1.0, 2.0, 3.0}});
+  scene.add(dalembert::holonomic(dalembert::points(r), distance), "rule");
+  const dalembert::System system = scene.system();
+  auto e = system.evaluation();
+  system.evaluate({0.0, scene.initial_positions(), scene.initial_velocities()}, e);
+  return e.g[0];
+}
+
+TEST(EigenUsers, KeepWhatTheyTakeOfASum) {
+  const Vector3d n(0.0, 0.6, 0.8), p(1.0, 1.0, 1.0);
+  EXPECT_DOUBLE_EQ(residual([n, p](auto r) {
+                     const auto g = n.transpose() * (r - p);
+                     return g - 1.0;
+                   }),
+                   0.6 + 1.6 - 1.0);
+  EXPECT_DOUBLE_EQ(residual([p](auto r) {
+                     auto h = (r - p).template head<2>();
+                     const auto& z = (r - p).z();
+                     return h.squaredNorm() + z;
+                   }),
+                   3.0);
+  EXPECT_DOUBLE_EQ(residual([p](auto r) {
+                     const auto row = (r - p).transpose();
+                     const auto P = (r - p) * (r - p).transpose();
+                     return P(2, 1) + row.sum();
+                   }),
+                   5.0);
+  EXPECT_DOUBLE_EQ(residual([p](auto r) {
+                     const auto w = (r - p).cwiseProduct(r);
+                     return sqrt(w.sum() + 1.0) + (0.5 * (r.transpose() * r)).value();
+                   }),
+                   3.0 + 7.0);
+}
+
+TEST(EigenUsers, MultiplyAVectorByItsOwnComponent) {
+  EXPECT_DOUBLE_EQ(residual([](auto r) {
+                     r *= r.y();
+                     auto s = r;
+                     s /= s.x();
+                     return r.sum() + s.sum();
+                   }),
+                   12.0 + 6.0);
+}
+
+TEST(EigenUsers, ChooseBetweenVectors) {
+  EXPECT_DOUBLE_EQ(residual([hook = dalembert::Vec<3>(1.0, 0.0, 0.0)](auto r) {
+                     const auto s = r.x() > 5.0 ? r : hook;
+                     return s.sum();
+                   }),
+                   1.0);
+}
+
 }  // namespace someone_with_eigen
