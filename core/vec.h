@@ -316,6 +316,7 @@ auto operator-(const E& a, const VecOf<A, N>& b) {
 template <class S>
 struct InnerProduct : VecOf<S, 1> {
   using VecOf<S, 1>::VecOf;
+  /// The number.
   operator const S&() const { return this->data()[0]; }  // NOLINT(google-explicit-constructor)
 };
 namespace detail {
