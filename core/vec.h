@@ -312,17 +312,16 @@ auto operator-(const E& a, const VecOf<A, N>& b) {
 }
 /// @}
 
+namespace detail {
 /// A row times a column: a number, and as in Eigen a matrix of one.
 template <class S>
 struct InnerProduct : VecOf<S, 1> {
   using VecOf<S, 1>::VecOf;
-  /// The number.
   operator const S&() const { return this->data()[0]; }  // NOLINT(google-explicit-constructor)
 };
-namespace detail {
 template <class S>
 inline constexpr bool is_vector<InnerProduct<S>> = true;
-}
+}  // namespace detail
 
 /// A matrix of Eigen, with a fixed number of rows, times a vector.
 template <detail::OfEigen M, class S, int N>
@@ -331,7 +330,7 @@ auto operator*(const M& matrix, const VecOf<S, N>& x) {
   constexpr int rows = M::RowsAtCompileTime;
   const auto& m = matrix.eval();
   using R = std::remove_cvref_t<decltype(m.coeff(0, 0) * x[0])>;
-  std::conditional_t<rows == 1, InnerProduct<R>, VecOf<R, rows>> r;
+  std::conditional_t<rows == 1, detail::InnerProduct<R>, VecOf<R, rows>> r;
   for (int i = 0; i < rows; ++i) {
     r[i] = m.coeff(i, 0) * x[0];
     for (int k = 1; k < N; ++k) r[i] += m.coeff(i, k) * x[k];
