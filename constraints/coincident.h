@@ -19,7 +19,7 @@ struct Coincident {
 
   auto points() const { return std::tie(a, b); }
   [[nodiscard]] Sketch sketch() const { return {"ball"}; }
-  auto operator()(const auto& r_a, const auto& r_b) const { return (r_b - r_a).eval(); }
+  auto operator()(const auto& r_a, const auto& r_b) const { return r_b - r_a; }
 };
 template <class A, class B>
 Coincident(A, B) -> Coincident<A, B>;

@@ -3,8 +3,6 @@
 #include <dalembert/constraints/geometry/surfaces.h>
 #include <dalembert/core/equations/constraint.h>
 
-#include <Eigen/Geometry>
-
 #include <string>
 
 /// A thin disk whose rim touches a plane and rolls on it, leaning as it likes (notes, mln37 beyond

@@ -26,7 +26,7 @@ struct Heading {
   auto points() const { return std::tie(point, from, to); }
   auto operator()(const auto& /*r*/, const auto& r_from, const auto& r_to, const auto& v,
                   const auto& /*v_from*/, const auto& /*v_to*/) const {
-    const auto e = (r_to - r_from).normalized().eval();
+    const auto e = (r_to - r_from).normalized();
     return e.x() * v.y() - e.y() * v.x();
   }
 };

@@ -3,8 +3,6 @@
 #include <dalembert/constraints/geometry/axis.h>
 #include <dalembert/core/equations/constraint.h>
 
-#include <Eigen/Geometry>
-
 namespace dalembert {
 
 /// Keeps a point in a plane that contains an axis and turns about it by a prescribed angle: a hoop
@@ -37,7 +35,7 @@ struct InPlane {
     const Vec<3> ahead = e.cross(axis.zero).normalized();
     const Vec<3> zero = ahead.cross(e);
     const auto phi = angle(t);
-    const auto d = (r - axis.point).eval();
+    const auto d = r - axis.point;
     return cos(phi) * ahead.dot(d) - sin(phi) * zero.dot(d);
   }
   [[nodiscard]] std::string fault() const {

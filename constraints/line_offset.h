@@ -27,8 +27,8 @@ struct LineOffset {
   auto points() const { return std::tie(point, a, b); }
   [[nodiscard]] Sketch sketch() const { return {"track"}; }
   auto operator()(const auto& r, const auto& r_a, const auto& r_b) const {
-    const auto e = (r_b - r_a).normalized().eval();
-    const auto d = (r - r_a).eval();
+    const auto e = (r_b - r_a).normalized();
+    const auto d = r - r_a;
     return e.x() * d.y() - e.y() * d.x() - offset;
   }
   [[nodiscard]] std::string fault() const {

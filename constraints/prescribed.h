@@ -21,7 +21,7 @@ struct Prescribed {
 
   auto points() const { return std::tie(point); }
   [[nodiscard]] Sketch sketch() const { return {"none"}; }
-  auto operator()(const auto& t, const auto& r) const { return (r - motion(t)).eval(); }
+  auto operator()(const auto& t, const auto& r) const { return r - motion(t); }
 };
 template <class P, class Motion>
 Prescribed(P, Motion) -> Prescribed<P, Motion>;

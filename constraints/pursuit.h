@@ -27,7 +27,7 @@ struct Pursuit {
 
   auto points() const { return std::tie(pursuer, prey); }
   auto operator()(const auto& r, const auto& r_prey, const auto& v, const auto& /*v_prey*/) const {
-    const auto e = (r_prey - r).normalized().eval();
+    const auto e = (r_prey - r).normalized();
     if (e.dot(v) < 0.0) throw std::domain_error(std::string(singular));
     return e.x() * v.y() - e.y() * v.x();
   }

@@ -32,14 +32,14 @@ struct Rolling {
   [[nodiscard]] Sketch sketch() const { return {"wheel", {radius}}; }
   auto operator()(const auto& r, const auto& /*phi*/, const auto& r_a, const auto& r_b, const auto& v,
                   const auto& spin, const auto& v_a, const auto& v_b) const {
-    const auto track = (r_b - r_a).eval();
-    const auto e = track.normalized().eval();
-    const auto d = (r - r_a).eval();
+    const auto track = r_b - r_a;
+    const auto e = track.normalized();
+    const auto d = r - r_a;
     // The contact is r_a + s track + h (track turned left), and moves with the track at fixed s, h.
     const auto s = e.dot(d) / track.norm();
     const auto h = (e.x() * d.y() - e.y() * d.x() - radius) / track.norm();
-    const auto turning = (v_b - v_a).eval();
-    const auto v_track = (v_a + s * turning + h * vec(-turning.y(), turning.x())).eval();
+    const auto turning = v_b - v_a;
+    const auto v_track = v_a + s * turning + h * vec(-turning.y(), turning.x());
     return e.dot(v - v_track) + radius * spin[0];
   }
   [[nodiscard]] std::string fault() const {

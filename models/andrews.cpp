@@ -3,6 +3,7 @@
 #include <dalembert/models/minimal_ode.h>
 #include <dalembert/models/numbered.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <cmath>

@@ -57,8 +57,9 @@ Pictures::Drawn Pictures::drawn(const Drawing& drawing) {
   }
   if (drawing.sketch.pose) {
     its.pose = all_->add(12, [&](const FlatSample& at, std::span<double> out) {
-      const Eigen::Matrix<double, 3, 4, Eigen::RowMajor> rows =
-          drawing.sketch.pose(at.time).matrix().topRows<3>();
+      const Pose pose = drawing.sketch.pose(at.time);
+      Eigen::Matrix<double, 3, 4, Eigen::RowMajor> rows;
+      rows << pose.rotation, pose.shift;
       std::ranges::copy_n(rows.data(), 12, out.begin());
     });
   }

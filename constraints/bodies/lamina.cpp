@@ -18,7 +18,7 @@ void check(const LaminaState& s, const std::string& name) {
   require(std::isfinite(s.mass) && s.mass > 0.0, "mass must be finite and > 0");
   require(s.inertia.allFinite() && s.inertia.minCoeff() > 0.0,
           "each moment of inertia in the plane must be finite and > 0; a thin rod is a ThinRod");
-  require(detail::orthonormal<3>(s.axes), "axes must be right-handed and of unit length");
+  require(detail::orthonormal(s.axes), "axes must be right-handed and of unit length");
 }
 
 }  // namespace

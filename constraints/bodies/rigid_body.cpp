@@ -119,7 +119,7 @@ template <int D>
 RigidBody<D> add_body(Scene<D>& scene, const BodyState<D>& state, const std::string& name) {
   require(std::isfinite(state.mass) && state.mass > 0.0, name, "mass must be finite and > 0");
   const Eigen::Matrix<double, D, D> axes = axes_of(state);
-  require(detail::orthonormal<D>(axes), name, "axes must be right-handed and of unit length");
+  require(detail::orthonormal(axes), name, "axes must be right-handed and of unit length");
   RigidBody<D> body;
   body.arms = arms_of(state, name);
   body.stated_centre = state.centre;

@@ -4,8 +4,6 @@
 #include <dalembert/core/equations/sketch.h>
 #include <dalembert/core/vec.h>
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 #include <string>
 #include <type_traits>
@@ -21,11 +19,6 @@ template <class Surface>
   if constexpr (requires { surface.fault(); }) return surface.fault();
   return {};
 }
-
-/// A turn about an axis through a point.
-[[nodiscard]] inline Eigen::Isometry3d turned_about(const Vec<3>& point, const Vec<3>& axis, double angle) {
-  return Eigen::Translation3d(point) * Eigen::AngleAxisd(angle, axis) * Eigen::Translation3d(-point);
-}
 }  // namespace detail
 
 /// Shifted by path(t): `Translating{Sphere<2>{}, [](auto t) { return vec(0.1 * sin(t), 0.0); }}`.
@@ -35,12 +28,12 @@ struct Translating {
   Surface surface;  ///< at rest
   Path path;        ///< its translation, a function of time [length]
 
-  auto operator()(const auto& t, const auto& r) const { return surface((r - path(t)).eval()); }
+  auto operator()(const auto& t, const auto& r) const { return surface(r - path(t)); }
   [[nodiscard]] Sketch sketch() const {
     constexpr int D = std::remove_cvref_t<decltype(path(0.0))>::RowsAtCompileTime;
     return detail::carried(detail::figure_of<D>(surface), [path = path](double t) {
       const auto shift = detail::place_of<D>(path(t).template cast<double>());
-      return Eigen::Isometry3d(Eigen::Translation3d(shift[0], shift[1], shift[2]));
+      return Pose{.shift = {shift[0], shift[1], shift[2]}};
     });
   }
   [[nodiscard]] std::string fault() const { return detail::fault_of(surface); }
@@ -62,8 +55,8 @@ struct Rotating {
     const auto phi = angle(t);
     const auto c = cos(phi);
     const auto s = sin(phi);
-    const auto d = (r - centre).eval();
-    return curve((centre + vec(c * d.x() + s * d.y(), c * d.y() - s * d.x())).eval());
+    const auto d = r - centre;
+    return curve(centre + vec(c * d.x() + s * d.y(), c * d.y() - s * d.x()));
   }
   [[nodiscard]] Sketch sketch() const {
     return detail::carried(detail::figure_of<2>(curve), [centre = centre, angle = angle](double t) {
@@ -89,10 +82,10 @@ struct RotatingAbout {
     using std::sin;
     const Vec<3> e = axis.direction.normalized();
     const auto phi = angle(t);
-    const auto d = (r - axis.point).eval();
+    const auto d = r - axis.point;
     // Rodrigues' rotation by -phi.
-    const auto turned = (cos(phi) * d - sin(phi) * e.cross(d) + (1.0 - cos(phi)) * e.dot(d) * e).eval();
-    return surface((axis.point + turned).eval());
+    const auto turned = cos(phi) * d - sin(phi) * e.cross(d) + (1.0 - cos(phi)) * e.dot(d) * e;
+    return surface(axis.point + turned);
   }
   [[nodiscard]] Sketch sketch() const {
     return detail::carried(detail::figure_of<3>(surface), [axis = axis, angle = angle](double t) {

@@ -2,8 +2,6 @@
 
 #include <dalembert/core/equations/constraint.h>
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 #include <initializer_list>
 #include <string>
@@ -72,7 +70,7 @@ struct Sphere {
     drawn.sizes.push_back(radius);
     return drawn;
   }
-  [[nodiscard]] auto normal_at(const auto& r) const { return (r - centre).normalized().eval(); }
+  [[nodiscard]] auto normal_at(const auto& r) const { return (r - centre).normalized(); }
   [[nodiscard]] std::string fault() const {
     return detail::first_fault(
         {detail::place_fault(centre, "centre"), detail::positive_fault(radius, "radius")});
@@ -101,8 +99,8 @@ struct Cylinder {
   }
   [[nodiscard]] auto normal_at(const auto& r) const {
     const Vec<3> e = detail::unit_vector(axis);
-    const auto d = (r - point).eval();
-    return (d - e * e.dot(d)).normalized().eval();
+    const auto d = r - point;
+    return (d - e * e.dot(d)).normalized();
   }
   [[nodiscard]] std::string fault() const {
     return detail::first_fault({detail::place_fault(point, "point"), detail::direction_fault(axis, "axis"),
@@ -126,7 +124,7 @@ struct Cone {
   [[nodiscard]] auto prepared() const {
     return [apex = apex, e = detail::unit_vector(axis), sine = std::sin(half_angle),
             cosine = std::cos(half_angle)](const auto& r) {
-      const auto d = (r - apex).eval();
+      const auto d = r - apex;
       return e.dot(d) * sine - e.cross(d).norm() * cosine;
     };
   }
@@ -140,9 +138,9 @@ struct Cone {
   }
   [[nodiscard]] auto normal_at(const auto& r) const {
     const Vec<3> e = detail::unit_vector(axis);
-    const auto d = (r - apex).eval();
-    const auto out = (d - e * e.dot(d)).normalized().eval();
-    return (e * std::sin(half_angle) - out * std::cos(half_angle)).eval();
+    const auto d = r - apex;
+    const auto out = (d - e * e.dot(d)).normalized();
+    return e * std::sin(half_angle) - out * std::cos(half_angle);
   }
   [[nodiscard]] std::string fault() const {
     if (!(half_angle > 0.0 && half_angle < 1.5707963267948966)) {

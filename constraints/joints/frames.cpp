@@ -1,5 +1,7 @@
 #include "dalembert/constraints/joints/frames.h"
 
+#include <Eigen/Geometry>
+
 namespace dalembert::detail {
 
 Eigen::Matrix3d joint_axes(const Vec<3>& direction) {

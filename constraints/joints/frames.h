@@ -4,8 +4,6 @@
 #include <dalembert/constraints/bodies/rigid_body.h>
 #include <dalembert/core/equations/constraint.h>
 
-#include <Eigen/Geometry>
-
 #include <array>
 #include <string>
 #include <tuple>
@@ -142,7 +140,7 @@ struct JointFrames {
   /// What is wrong with it, if anything is; `axes` names what its user stated them by.
   [[nodiscard]] std::string fault(const char* axes) const {
     if (!place.allFinite()) return "its point must be finite";
-    if (!detail::orthonormal<dimension>(stated)) return axes;
+    if (!detail::orthonormal(stated)) return axes;
     if constexpr (detail::moves<A> && detail::moves<B>) {
       if (a.origin.particles == b.origin.particles) return "joins a body with itself";
     }

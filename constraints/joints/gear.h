@@ -54,7 +54,7 @@ struct Gear {
   }
   auto operator()(const auto& c_a, const auto& x_a, const auto& y_a, const auto& c_b, const auto& x_b,
                   const auto& y_b) const {
-    const auto line = (c_b - c_a).eval();
+    const auto line = c_b - c_a;
     const int common = std::gcd(teeth_a, teeth_b);
     const auto phase = (teeth_a / common) * detail::angle_between(x_a, y_a, line) +
                        (teeth_b / common) * detail::angle_between(x_b, y_b, line);

@@ -32,7 +32,7 @@ struct Prismatic {
   }
   auto operator()(const auto& c_a, const auto& x_a, const auto& y_a, const auto& c_b, const auto& x_b,
                   const auto& z_b) const {
-    const auto d = (c_b - c_a).eval();
+    const auto d = c_b - c_a;
     const double l = frames.length, l2 = l * l;
     return vec(x_a.dot(d) / l, y_a.dot(d) / l, -y_a.dot(z_b) / l2, x_a.dot(z_b) / l2, y_a.dot(x_b) / l2);
   }

@@ -37,9 +37,9 @@ struct Revolute {
     }
   }
   [[nodiscard]] Sketch sketch() const { return {"hinge"}; }
-  auto operator()(const auto& c_a, const auto& c_b) const { return (c_b - c_a).eval(); }
+  auto operator()(const auto& c_a, const auto& c_b) const { return c_b - c_a; }
   auto operator()(const auto& c_a, const auto& x_a, const auto& y_a, const auto& c_b, const auto& z_b) const {
-    const auto d = (c_b - c_a).eval();
+    const auto d = c_b - c_a;
     const double l2 = frames.length * frames.length;
     return vec(d.x(), d.y(), d.z(), -y_a.dot(z_b) / l2, x_a.dot(z_b) / l2);
   }

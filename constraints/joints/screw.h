@@ -40,7 +40,7 @@ struct Screw {
   [[nodiscard]] Sketch sketch() const { return {"slider"}; }
   auto operator()(const auto& c_a, const auto& x_a, const auto& y_a, const auto& z_a, const auto& c_b,
                   const auto& x_b, const auto& z_b) const {
-    const auto d = (c_b - c_a).eval();
+    const auto d = c_b - c_a;
     const double l = frames.length, l2 = l * l, per_radian = pitch / (2.0 * std::numbers::pi);
     const auto phase = z_a.dot(d) / (l * per_radian) - detail::angle_between(x_a, y_a, x_b);
     return vec(x_a.dot(d) / l, y_a.dot(d) / l, -y_a.dot(z_b) / l2, x_a.dot(z_b) / l2,

@@ -30,7 +30,7 @@ struct Universal {
   }
   [[nodiscard]] Sketch sketch() const { return {"hinge"}; }
   auto operator()(const auto& c_a, const auto& x_a, const auto& c_b, const auto& y_b) const {
-    const auto d = (c_b - c_a).eval();
+    const auto d = c_b - c_a;
     return vec(d.x(), d.y(), d.z(), x_a.dot(y_b) / (frames.length * frames.length));
   }
   [[nodiscard]] std::string fault() const {

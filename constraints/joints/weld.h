@@ -27,12 +27,12 @@ struct Weld {
   auto points() const { return frames.whole(); }
   [[nodiscard]] Sketch sketch() const { return {"weld"}; }
   auto operator()(const auto& c_a, const auto& y_a, const auto& c_b, const auto& x_b) const {
-    const auto d = (c_b - c_a).eval();
+    const auto d = c_b - c_a;
     return vec(d.x(), d.y(), y_a.dot(x_b) / (frames.length * frames.length));
   }
   auto operator()(const auto& c_a, const auto& x_a, const auto& y_a, const auto& c_b, const auto& x_b,
                   const auto& z_b) const {
-    const auto d = (c_b - c_a).eval();
+    const auto d = c_b - c_a;
     const double l2 = frames.length * frames.length;
     return vec(d.x(), d.y(), d.z(), -y_a.dot(z_b) / l2, x_a.dot(z_b) / l2, y_a.dot(x_b) / l2);
   }

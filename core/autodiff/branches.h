@@ -40,6 +40,13 @@ class Branches {
   static void begin_batch(std::size_t number) {
     if (listening != nullptr) listening->begin(number);
   }
+  [[nodiscard]] static bool heard() { return listening != nullptr; }
+  /// Where its next comparison stands among those of its batch.
+  [[nodiscard]] static std::size_t next() { return listening == nullptr ? 0 : listening->next_; }
+  /// Comparisons from that place on are made once more, as an equation is evaluated again at the same state.
+  static void again(std::size_t from) {
+    if (listening != nullptr) listening->go_back(from);
+  }
   /// Whether comparisons of plain numbers, which nobody hears, would make a difference.
   [[nodiscard]] static bool needed() {
     return listening != nullptr && (listening->held_ == nullptr || listening->own() != nullptr);
@@ -102,7 +109,7 @@ class Branches {
     if (held_ == nullptr || batch_ >= held_->size() || next_ >= (*held_)[batch_].size()) return nullptr;
     return &(*held_)[batch_][next_];
   }
-  Comparison note(Comparison natural) {
+  [[gnu::noinline]] Comparison note(Comparison natural) {
     if (const Comparison* const other = own()) {
       natural.side = other->side;
       natural.piece = other->piece;
@@ -111,13 +118,14 @@ class Branches {
     if (heard_ != nullptr && batch_ < heard_->size()) (*heard_)[batch_].push_back(natural);
     return natural;
   }
-  std::partial_ordering add(double a, double b) {
+  // Not inlined: each comparison in an equation would be compiled with a vector that grows.
+  [[gnu::noinline]] std::partial_ordering add(double a, double b) {
     const std::partial_ordering natural = a <=> b;
     const bool held = own() != nullptr;
     const Comparison its = note({a - b, natural < 0 ? -1 : natural == 0 ? 0 : 1, 0.0});
     return held ? std::partial_ordering(its.side <=> 0) : natural;
   }
-  double add_piece(double natural) { return note({1.0, 1, natural}).piece; }
+  [[gnu::noinline]] double add_piece(double natural) { return note({1.0, 1, natural}).piece; }
 
   static inline thread_local constinit Branches* listening = nullptr;
   Sides* heard_;

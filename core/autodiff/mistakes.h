@@ -14,20 +14,20 @@ namespace dalembert {
   __attribute__((                                                                                  \
       unavailable("a number and a vector have no sum: a lambda that takes one argument more than " \
                   "its points (and their velocities) gets time in front of them")))
-template <int N, int Order, class M>
-DALEMBERT_NUMBER_AND_VECTOR M operator-(const Dual<N, Order>&, const Eigen::MatrixBase<M>&);
-template <int N, int Order, class M>
-DALEMBERT_NUMBER_AND_VECTOR M operator-(const Eigen::MatrixBase<M>&, const Dual<N, Order>&);
-template <int N, int Order, class M>
-DALEMBERT_NUMBER_AND_VECTOR M operator+(const Dual<N, Order>&, const Eigen::MatrixBase<M>&);
-template <int N, int Order, class M>
-DALEMBERT_NUMBER_AND_VECTOR M operator+(const Eigen::MatrixBase<M>&, const Dual<N, Order>&);
+template <Differentiated A, class S, int D>
+DALEMBERT_NUMBER_AND_VECTOR VecOf<S, D> operator-(const A&, const VecOf<S, D>&);
+template <Differentiated A, class S, int D>
+DALEMBERT_NUMBER_AND_VECTOR VecOf<S, D> operator-(const VecOf<S, D>&, const A&);
+template <Differentiated A, class S, int D>
+DALEMBERT_NUMBER_AND_VECTOR VecOf<S, D> operator+(const A&, const VecOf<S, D>&);
+template <Differentiated A, class S, int D>
+DALEMBERT_NUMBER_AND_VECTOR VecOf<S, D> operator+(const VecOf<S, D>&, const A&);
 #undef DALEMBERT_NUMBER_AND_VECTOR
 
 }  // namespace dalembert
 
 /// What a user's equation may be and give, as concepts: so that the compiler answers a mistake with one
-/// sentence, before the equation is called where Eigen would answer with a hundred lines.
+/// sentence, before the equation is called.
 namespace dalembert::detail {
 
 /// A function that names the types of its arguments cannot be called with numbers that carry derivatives.
@@ -36,20 +36,16 @@ concept NamesItsArguments = std::is_function_v<std::remove_pointer_t<F>> || requ
   &F::operator();
 };
 
-template <class T>
-inline constexpr bool is_dual = false;
-template <int N, int Order>
-inline constexpr bool is_dual<Dual<N, Order>> = true;
-
 /// One equation, or an energy.
 template <class T>
-concept Number = is_dual<T> ||(std::is_arithmetic_v<T> && !std::same_as<T, bool>);
+concept Number = is_differentiated<T> ||(std::is_arithmetic_v<T> && !std::same_as<T, bool>);
 
-/// Several equations or a force: they outlive their evaluation (an Eigen expression refers to what is
-/// gone), and none can be overlooked (as in a row, or where only the running program knows how many).
+/// Several equations or a force: of Eigen's, too, if they outlive their evaluation (an expression refers to
+/// what is gone) and none can be overlooked (as in a row, or where only the running program knows how many).
 template <class T>
-concept Column = std::is_base_of_v<Eigen::PlainObjectBase<T>, T> && T::ColsAtCompileTime == 1 &&
-                 (T::RowsAtCompileTime > 0);
+concept Column = is_vector<T> ||
+    (std::is_base_of_v<Eigen::PlainObjectBase<T>, T>&& T::ColsAtCompileTime == 1 &&
+     (T::RowsAtCompileTime > 0));
 
 template <class T, int D>
 concept ColumnOf = Column<T> &&(T::RowsAtCompileTime == D);
@@ -63,7 +59,7 @@ template <std::size_t I, class P, class T>
 [[nodiscard]] consteval bool is_force_on() {
   if constexpr (P::inputs == 0) {
     return true;
-  } else if constexpr (std::is_base_of_v<Eigen::EigenBase<T>, T>) {
+  } else if constexpr (Column<T>) {
     return I == 0 && ColumnOf<T, P::inputs>;
   } else if constexpr (requires { requires(I < std::tuple_size<T>::value); }) {
     return ColumnOf<std::remove_cvref_t<std::tuple_element_t<I, T>>, P::inputs>;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/core/autodiff/dual.h>
+#include <dalembert/core/autodiff/functions.h>
 #include <dalembert/core/points/points.h>
 
 #include <algorithm>
@@ -66,42 +66,15 @@ using PointFacts = PointsOf<PointTuple<Element>>;
 
 namespace detail {
 
-/// The ways to look at a coordinate r with velocity v that is input number k:
-/// as a plain number, as a constant, as the k-th variable, or as a function of time along the motion.
-template <class S>
-struct AsConstant {
-  S operator()(double r, double /*v*/, int /*k*/) const { return S(r); }
-};
-using AsNumber = AsConstant<double>;
-template <class S>
-struct AsInput {
-  S operator()(double r, double /*v*/, int k) const { return S::input(r, k); }
-};
-template <class S>
-struct AlongMotion {
-  S operator()(double r, double v, int /*k*/) const {
-    S s = S::input(r, 0);
-    s.gradient[0] = v;
-    return s;
-  }
-};
-
-/// Position of a point as scalars of type S; `lift` says how its own coordinates enter.
-/// (Out of line, as g++ prefers it, the Duals go through memory: a third of a chain's run time.)
-template <class S, Point P, class Lift>
-[[nodiscard, gnu::always_inline]] inline VecOf<S, P::dimension> position(const P& point, const S& t,
-                                                                         const Instant& at, const Lift& lift,
-                                                                         int first) {
+/// Position of a point of which the inputs are scalars z of type S.
+template <class S, Point P>
+[[nodiscard]] DALEMBERT_INLINE VecOf<S, P::dimension> position(const P& point, const S& t, const S* z) {
   if constexpr (P::inputs > 0) {
-    const auto r = point.gather(at.q);
-    const auto v = point.gather(at.v);
-    VecOf<S, P::dimension> lifted;
-    for (int k = 0; k < P::inputs; ++k) lifted[k] = lift(r[k], v[k], first + k);
-    return lifted;
+    return VecOf<S, P::dimension>::from(z);
   } else if constexpr (P::driven) {
-    return point.path(t).template cast<S>();
+    return VecOf<S, P::dimension>(point.path(t).template cast<S>());
   } else {
-    return point.position.template cast<S>();
+    return VecOf<double, P::dimension>(point.position).template cast<S>();
   }
 }
 
@@ -109,25 +82,26 @@ template <class S, Point P, class Lift>
 /// (Second order in t would need r'''; velocities are never asked for that.)
 template <class S, Point P>
 [[nodiscard]] VecOf<S, P::dimension> driven_velocity(const P& point, const S& t) {
-  using Time = Dual<1, 2>;
+  using Time = Jet<1>;
+  const auto path = [&point](double at) {
+    return VecOf<Time, P::dimension>(point.path(Time::input(at, 0, 1.0)).template cast<Time>());
+  };
+  VecOf<S, P::dimension> rate;
   if constexpr (std::is_same_v<S, double>) {
-    const VecOf<Time, P::dimension> path = point.path(Time::input(t, 0)).template cast<Time>();
-    return path.unaryExpr([](const Time& x) { return x.gradient[0]; });
+    const auto r = path(t);
+    for (int k = 0; k < P::dimension; ++k) rate[k] = r[k].s;
   } else {
-    const VecOf<Time, P::dimension> path = point.path(Time::input(t.value, 0)).template cast<Time>();
-    return path.unaryExpr([&t](const Time& x) { return S::chain(t, x.gradient[0], x.hessian(0, 0), 0.0); });
+    const auto r = path(t.value);
+    for (int k = 0; k < P::dimension; ++k) rate[k] = S::chain(t, r[k].s, r[k].ss, 0.0);
   }
+  return rate;
 }
 
-/// Velocity of a point as scalars of type S; `lift` gets a velocity as its first argument.
-template <class S, Point P, class Lift>
-[[nodiscard]] VecOf<S, P::dimension> velocity(const P& point, const S& t, const Instant& at, const Lift& lift,
-                                              int first) {
+/// Velocity of a point of which the rates of the inputs are scalars z of type S.
+template <class S, Point P>
+[[nodiscard]] DALEMBERT_INLINE VecOf<S, P::dimension> velocity(const P& point, const S& t, const S* z) {
   if constexpr (P::inputs > 0) {
-    const auto v = point.gather(at.v);
-    VecOf<S, P::dimension> lifted;
-    for (int k = 0; k < P::inputs; ++k) lifted[k] = lift(v[k], 0.0, first + k);
-    return lifted;
+    return VecOf<S, P::dimension>::from(z);
   } else if constexpr (P::driven) {
     return driven_velocity<S>(point, t);
   } else {
@@ -135,39 +109,59 @@ template <class S, Point P, class Lift>
   }
 }
 
-/// Positions of all points of an element, inputs numbered from `first`.
-template <class S, class Element, class Lift>
-[[nodiscard]] auto positions(const Element& element, const S& t, const Instant& at, const Lift& lift,
-                             int first = 0) {
-  const auto& points = element.points();
-  const auto each = [&]<std::size_t... I>(std::index_sequence<I...>) {
-    return std::make_tuple(detail::position<S>(std::get<I>(points), t, at, lift,
-                                               first + PointFacts<Element>::first_input[I])...);
+/// Calls `f` with time in front if it takes time, then `first`, and the positions of all points of an
+/// element.
+template <bool takes_time, class E, class F, class S, class... First>
+[[nodiscard]] DALEMBERT_INLINE auto call_at(const F& f, const E& element, const S& t, const S* r,
+                                            const First&... first) {
+  constexpr auto at = PointFacts<E>::first_input;
+  const auto& on = element.points();
+  const auto each = [&]<std::size_t... I>(std::index_sequence<I...>) DALEMBERT_INLINE_LAMBDA {
+    if constexpr (takes_time) {
+      return f(t, first..., detail::position<S>(std::get<I>(on), t, r + at[I])...);
+    } else {
+      return f(first..., detail::position<S>(std::get<I>(on), t, r + at[I])...);
+    }
   };
-  return each(std::make_index_sequence<PointFacts<Element>::count>{});
+  return each(std::make_index_sequence<PointFacts<E>::count>{});
 }
 
-/// Velocities of all points of an element, inputs numbered from `first`.
-template <class S, class Element, class Lift>
-[[nodiscard]] auto velocities(const Element& element, const S& t, const Instant& at, const Lift& lift,
-                              int first = 0) {
-  const auto& points = element.points();
-  const auto each = [&]<std::size_t... I>(std::index_sequence<I...>) {
-    return std::make_tuple(detail::velocity<S>(std::get<I>(points), t, at, lift,
-                                               first + PointFacts<Element>::first_input[I])...);
+/// The same, with the velocities of all points behind their positions.
+template <bool takes_time, class E, class F, class S, class... First>
+[[nodiscard]] DALEMBERT_INLINE auto call_in_motion(const F& f, const E& element, const S& t, const S* r,
+                                                   const S* v, const First&... first) {
+  constexpr auto at = PointFacts<E>::first_input;
+  const auto& on = element.points();
+  const auto each = [&]<std::size_t... I>(std::index_sequence<I...>) DALEMBERT_INLINE_LAMBDA {
+    if constexpr (takes_time) {
+      return f(t, first..., detail::position<S>(std::get<I>(on), t, r + at[I])...,
+               detail::velocity<S>(std::get<I>(on), t, v + at[I])...);
+    } else {
+      return f(first..., detail::position<S>(std::get<I>(on), t, r + at[I])...,
+               detail::velocity<S>(std::get<I>(on), t, v + at[I])...);
+    }
   };
-  return each(std::make_index_sequence<PointFacts<Element>::count>{});
+  return each(std::make_index_sequence<PointFacts<E>::count>{});
 }
 
-/// Calls `f` with the given arguments, with time in front if it takes time.
-template <bool takes_time, class F, class S, class Arguments>
-[[nodiscard]] decltype(auto) call(const F& f, const S& t, const Arguments& arguments) {
-  if constexpr (takes_time) {
-    return std::apply([&](const auto&... a) { return f(t, a...); }, arguments);
-  } else {
-    return std::apply(f, arguments);
-  }
-}
+/// The types that an equation is called with, time in front of others.
+template <class S, class Tuple>
+struct TimeInFront;
+template <class S, class... A>
+struct TimeInFront<S, std::tuple<A...>> {
+  using type = std::tuple<S, A...>;
+};
+
+/// What `f` returns for arguments of the types in a tuple.
+template <class F, class Tuple>
+struct ResultOf;
+template <class F, class... A>
+struct ResultOf<F, std::tuple<A...>> {
+  using type = std::remove_cvref_t<decltype(std::declval<const F&>()(std::declval<const A&>()...))>;
+};
+template <bool takes_time, class F, class S, class Tuple>
+using Result = typename ResultOf<
+    F, typename std::conditional_t<takes_time, TimeInFront<S, Tuple>, std::type_identity<Tuple>>::type>::type;
 
 /// Whether `f` can be called with the types in a tuple, and whether with time in front.
 template <class F, class Tuple>
@@ -208,7 +202,8 @@ template <class Element>
   Vec<PointFacts<Element>::inputs> inputs;
   int next = 0;
   for_each_moving_point(element, [&]<class P>(const P& point) {
-    inputs.template segment<P::inputs>(next) = point.gather(x);
+    const auto own = point.gather(x);
+    for (int k = 0; k < P::inputs; ++k) inputs[next + k] = own[k];
     next += P::inputs;
   });
   return inputs;

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <dalembert/core/equations/pull_back.h>
+#include <dalembert/core/equations/differentiated.h>
 
 #include <cstddef>
-#include <exception>
 #include <memory>
 #include <span>
 #include <string>
@@ -11,45 +10,6 @@
 #include <vector>
 
 namespace dalembert {
-
-/// Thrown by a batch when one of its elements threw or gave a number that is not finite; System
-/// turns the element's index into its name.
-struct ElementFault {
-  std::size_t element;
-  std::string what;
-};
-
-namespace detail {
-
-/// Calls `f(element, index)` for every element from `i` to before `end`; a failure reports the index.
-template <class Element, class F>
-void for_each_element(const std::vector<Element>& elements, std::size_t i, std::size_t end, const F& f) {
-  try {
-    for (; i < end; ++i) f(elements[i], i);
-  } catch (const ElementFault&) {
-    throw;
-  } catch (const std::exception& e) {
-    throw ElementFault{i, std::string("threw \"") + e.what() + '"'};
-  } catch (...) {
-    throw ElementFault{i, "threw something that is no std::exception"};
-  }
-}
-
-template <class Element, class F>
-void for_each_element(const std::vector<Element>& elements, const F& f) {
-  for_each_element(elements, 0, elements.size(), f);
-}
-
-/// The same without those that are left out; none is if `left_out` is empty.
-template <class Element, class F>
-void for_each_element(const std::vector<Element>& elements, std::span<const char> left_out, const F& f) {
-  if (left_out.empty()) return for_each_element(elements, f);
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    if (!left_out[i]) for_each_element(elements, i, i + 1, f);
-  }
-}
-
-}  // namespace detail
 
 /// Sizes that all constraints of one type have in common.
 struct ConstraintShape {
@@ -77,52 +37,57 @@ struct RowLaw {
   [[nodiscard]] double energy(double lambda) const { return 0.5 * compliance * lambda * lambda; }
 };
 
-/// Where a constraint batch writes its part of the equations. Row r of constraint c is number
-/// `c * rows + r` and owns `width` consecutive entries of w and psi_q.
-struct ConstraintValues {
-  std::span<double> g;    ///< position residual (holonomic batches only)
-  std::span<double> psi;  ///< velocity residual
-  std::span<double> w;    ///< d psi / dv
+/// A type of constraints.
+struct ConstraintType {
+  detail::EquationType equation;
+  std::string_view kind;
+  bool internal;                                 ///< see ConstraintShape
+  bool timed;                                    ///< see ConstraintShape
+  bool conditional;                              ///< one-sided, or of Coulomb's law
+  double (*compliance)(const void* constraint);  ///< null if rigid
 };
 
-/// All constraints of one type, evaluated together: one virtual call per type.
+/// All constraints of one type, evaluated together.
 class ConstraintBatch {
  public:
-  virtual ~ConstraintBatch() = default;
-  [[nodiscard]] virtual std::unique_ptr<ConstraintBatch> clone() const = 0;
-  [[nodiscard]] virtual ConstraintShape shape() const = 0;
-  [[nodiscard]] virtual std::size_t size() const = 0;
+  explicit ConstraintBatch(const ConstraintType& type) : type_(&type), equations_(type.equation) {}
+  [[nodiscard]] std::unique_ptr<ConstraintBatch> clone() const;
+  [[nodiscard]] ConstraintShape shape() const;
+  [[nodiscard]] std::size_t size() const { return equations_.elements().size(); }
   /// The coordinates of each constraint in turn, `width` numbers each.
-  [[nodiscard]] virtual std::span<const int> coordinates() const = 0;
+  [[nodiscard]] std::span<const int> coordinates() const { return equations_.elements().coordinates(); }
 
-  /// What is left out writes nothing, here and below, and its equation is not evaluated.
-  virtual void evaluate(const Instant& at, const ConstraintValues& out) const = 0;
+  /// Whether it holds constraints of this C++ type, which `add` and `replace` take.
+  [[nodiscard]] bool holds(const std::type_info& type) const {
+    return *equations_.elements().type().type == type;
+  }
+  void add(const void* constraint) { equations_.elements().add(constraint); }
+  void replace(std::size_t i, const void* constraint) { equations_.elements().replace(i, constraint); }
+
+  /// Residuals, W, and gamma if it is asked for. What is left out writes nothing, here and below, and its
+  /// equation is not evaluated.
+  void evaluate(const Instant& at, const ConstraintValues& out) const;
   /// Per constraint `rows x inputs` numbers U, one row after the other, out of its part of w: lambda has
   /// the size |U^T lambda|, that of the force at one of its points. See detail::forces_at_points.
-  virtual void forces_at_points(std::span<const double> w, std::span<const double> lengths,
-                                std::span<double> out) const = 0;
+  void forces_at_points(std::span<const double> w, std::span<const double> lengths,
+                        std::span<double> out) const;
   /// The law of each row, as `out` comes if it is rigid.
-  virtual void laws(std::span<RowLaw> /*out*/) const {}
+  void laws(std::span<RowLaw> out) const;
   /// gamma = psi_q v + psi_t, so that W v' + gamma = 0 at acceleration level.
-  virtual void bias(const Instant& at, std::span<double> gamma) const = 0;
+  void bias(const Instant& at, std::span<double> gamma) const;
   /// psi_q, and for each constraint the dense `width x width` block (rows first) of
   /// d(W^T lambda)/dq.
-  virtual void linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
-                         std::span<double> stiffness) const = 0;
-  /// g and dg/dt of one-sided constraints, the slip velocities of Coulomb's, left out or not: no gradient is
-  /// evaluated.
-  virtual void gaps(const Instant& /*at*/, std::span<double> /*g*/, std::span<double> /*rate*/) const {}
+  void linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
+                 std::span<double> stiffness) const;
+  /// g and dg/dt of one-sided constraints, the slip velocities of Coulomb's, left out or not.
+  void gaps(const Instant& at, std::span<double> g, std::span<double> rate) const;
 
   /// Whether an element takes part.
-  void leave_out(std::size_t element, bool out = true) {
-    left_out_.resize(size());
-    left_out_[element] = out;
-  }
-
- protected:
-  [[nodiscard]] std::span<const char> left_out() const { return left_out_; }
+  void leave_out(std::size_t element, bool out = true);
 
  private:
+  const ConstraintType* type_;
+  detail::DifferentiatedEquations equations_;
   std::vector<char> left_out_;  // empty if none is
 };
 
@@ -181,57 +146,6 @@ struct BatchOf {
   static bool add(Batch& batch, const Element& element);
   /// Puts the element in the place of number `i` if the batch is of its type, else returns false.
   static bool replace(Batch& batch, std::size_t i, const Element& element);
-};
-
-/// The elements of a batch and the coordinates they read. Whatever throws as an element is copied, nothing
-/// has changed.
-template <class Element>
-class Elements {
- public:
-  static constexpr int width = PointFacts<Element>::coordinates;
-
-  void add(Element element) {
-    std::array<int, width> read{};
-    detail::read_coordinates(element, read);
-    coordinates_.insert(coordinates_.end(), read.begin(), read.end());
-    try {
-      all_.push_back(std::move(element));
-    } catch (...) {
-      coordinates_.resize(coordinates_.size() - width);
-      throw;
-    }
-  }
-  void replace(std::size_t i, const Element& element) {
-    if constexpr (std::is_nothrow_move_constructible_v<Element>) {
-      Element copy(element);  // a lambda that captures cannot be assigned
-      std::destroy_at(&all_[i]);
-      std::construct_at(&all_[i], std::move(copy));
-    } else {
-      std::vector<Element> all;
-      all.reserve(all_.size());
-      for (std::size_t k = 0; k < all_.size(); ++k) all.push_back(k == i ? element : all_[k]);
-      all_.swap(all);
-    }
-    detail::read_coordinates(element, std::span(coordinates_).subspan(i * width, width));
-  }
-  /// See detail::forces_at_points; `rows` rows of w and of `out` per element.
-  void forces_at_points(int rows, std::span<const double> w, std::span<const double> lengths,
-                        std::span<double> out) const {
-    const auto n = static_cast<std::size_t>(rows);
-    for (std::size_t i = 0; i < all_.size(); ++i) {
-      detail::forces_at_points(detail::point_maps(all_[i]), rows, w.data() + i * n * width, coordinates(i),
-                               lengths, out.data() + i * n * PointFacts<Element>::inputs);
-    }
-  }
-  [[nodiscard]] const std::vector<Element>& all() const { return all_; }
-  [[nodiscard]] std::span<const int> coordinates() const { return coordinates_; }
-  [[nodiscard]] std::span<const int> coordinates(std::size_t i) const {
-    return coordinates().subspan(i * width, width);
-  }
-
- private:
-  std::vector<Element> all_;
-  std::vector<int> coordinates_;
 };
 
 }  // namespace dalembert

@@ -59,7 +59,7 @@ namespace detail {
 /// What an equation is tried with to see whether it can be called: a scalar it is evaluated with as well,
 /// so that trying costs no compilation of its own.
 template <class C>
-using Probe = Dual<PointFacts<C>::inputs, 1>;
+using Probe = Dual<directions_for(PointFacts<C>::inputs)>;
 template <class C>
 using ProbePositions = typename PointFacts<C>::template Positions<Probe<C>>;
 template <class C>
@@ -70,17 +70,8 @@ using ProbeMotion =
 template <class T>
 inline constexpr int rows_in = 1;
 template <class T>
-  requires std::is_base_of_v<Eigen::EigenBase<T>, T>
+  requires Column<T>
 inline constexpr int rows_in<T> = T::RowsAtCompileTime;
-
-template <class S, class T>
-[[nodiscard]] S row_of(const T& residual, [[maybe_unused]] int k) {
-  if constexpr (std::is_base_of_v<Eigen::EigenBase<T>, T>) {
-    return S(residual[k]);
-  } else {
-    return S(residual);
-  }
-}
 
 template <class C>
 [[nodiscard]] Condition condition_of(const C& constraint) {
@@ -132,18 +123,6 @@ template <class C>
   return out.str();
 }
 
-/// Adds `factor` times the N x N block of a matrix whose rows begin at `first`; the sum by columns.
-template <int N>
-void add_block(double factor, const auto& matrix, int first, double* sum) {
-  for (int column = 0; column < N; ++column) {
-    for (int row = 0; row < N; ++row) *sum++ += factor * matrix(first + row, column);
-  }
-}
-
-inline void require_finite(bool finite, std::size_t element, const char* what) {
-  if (!finite) throw ElementFault{element, what};
-}
-
 /// Whether the points of a factory can be called with at all. Each mistake is an error of its own, and
 /// the first ends it.
 template <class Points, class F>
@@ -190,9 +169,9 @@ inline constexpr bool takes_time = [] {
 
 /// What a constraint's equation returns.
 template <class C>
-using Residual = std::remove_cvref_t<decltype(call<takes_time<C>>(
-    std::declval<const C&>(), std::declval<const Probe<C>&>(),
-    std::declval<const std::conditional_t<VelocityLevel<C>, ProbeMotion<C>, ProbePositions<C>>&>()))>;
+using Residual = Result<takes_time<C>, C, Probe<C>,
+                        typename std::conditional_t<VelocityLevel<C>, std::type_identity<ProbeMotion<C>>,
+                                                    std::type_identity<ProbePositions<C>>>::type>;
 
 }  // namespace detail
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 namespace dalembert::detail {
 
@@ -14,6 +15,14 @@ namespace {
 constexpr int most = PointMap::most_inputs;
 using Position = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1>;
 using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
+
+/// Calls f with std::integral_constant<int, inputs>.
+template <class F>
+void with_inputs(int inputs, const F& f) {
+  if (inputs == 3) return f(std::integral_constant<int, 3>{});
+  if (inputs == 2) return f(std::integral_constant<int, 2>{});
+  return f(std::integral_constant<int, 1>{});
+}
 
 /// Number k of L^T g.
 [[nodiscard]] double pulled_back(const PointMap& map, int k, const double* g) {
@@ -26,9 +35,48 @@ using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, mo
 
 }  // namespace
 
+void gather_by(std::span<const PointMap> maps, const int* places, const double* x, const double* v,
+               double* inputs, double* rates) {
+  for (const PointMap& map : maps) {
+    with_inputs(map.inputs, [&](auto D) {
+      if (map.L == nullptr) {
+        for (int r = 0; r < D; ++r) {
+          inputs[r] = x[places[r]];
+          rates[r] = v[places[r]];
+        }
+        return;
+      }
+      std::array<double, D> sum{}, rate{};
+      const double* L = map.L;
+      for (int k = 0; k < map.coordinates; ++k, L += D) {
+        for (std::size_t r = 0; r < D; ++r) sum[r] += L[r] * x[places[k]];
+        for (std::size_t r = 0; r < D; ++r) rate[r] += L[r] * v[places[k]];
+      }
+      std::ranges::copy(sum, inputs);
+      std::ranges::copy(rate, rates);
+    });
+    inputs += map.inputs;
+    rates += map.inputs;
+    places += map.coordinates;
+  }
+}
+
 void pull_back_by(std::span<const PointMap> maps, const double* gradient, double* out) {
   for (const PointMap& map : maps) {
-    for (int k = 0; k < map.coordinates; ++k) *out++ = pulled_back(map, k, gradient);
+    with_inputs(map.inputs, [&](auto D) {
+      if (map.L == nullptr) {
+        out = std::copy_n(gradient, D.value, out);
+        return;
+      }
+      std::array<double, D> g;
+      std::copy_n(gradient, D.value, g.begin());
+      const double* L = map.L;
+      for (int k = 0; k < map.coordinates; ++k, L += D) {
+        double sum = L[0] * g[0];
+        for (std::size_t r = 1; r < D; ++r) sum += L[r] * g[r];
+        *out++ = sum;
+      }
+    });
     gradient += map.inputs;
   }
 }

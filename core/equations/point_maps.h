@@ -15,6 +15,11 @@ struct PointMap {
   int inputs, coordinates;
 };
 
+/// The numbers of the positions out of coordinates x and their rates out of v; `places` of the coordinates
+/// in these.
+void gather_by(std::span<const PointMap> maps, const int* places, const double* x, const double* v,
+               double* inputs, double* rates);
+
 /// A gradient with respect to the positions as one with respect to the coordinates: out = L^T g, with L the
 /// map of all points.
 void pull_back_by(std::span<const PointMap> maps, const double* gradient, double* out);

@@ -1,5 +1,7 @@
 #include "dalembert/core/equations/sketch.h"
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <utility>
 
@@ -16,10 +18,16 @@ bool is_direction(std::span<const double> map, std::size_t rows) {
   return std::abs(sum) < 0.5;
 }
 
-Sketch carried(Sketch sketch, std::function<Eigen::Isometry3d(double t)> pose) {
+Pose turned_about(const Vec<3>& point, const Vec<3>& axis, double angle) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+  return {turn, point - turn * point};
+}
+
+Sketch carried(Sketch sketch, std::function<Pose(double t)> pose) {
   if (sketch.pose) {
     sketch.pose = [first = std::move(sketch.pose), then = std::move(pose)](double t) {
-      return Eigen::Isometry3d(then(t) * first(t));
+      const Pose a = first(t), b = then(t);
+      return Pose{b.rotation * a.rotation, b.rotation * a.shift + b.shift};
     };
   } else {
     sketch.pose = std::move(pose);

@@ -2,8 +2,6 @@
 
 #include <dalembert/core/equations/arguments.h>
 
-#include <Eigen/Geometry>
-
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -13,6 +11,12 @@
 #include <vector>
 
 namespace dalembert {
+
+/// Where something rigid is: `rotation * r + shift`, of a place r of it as it was.
+struct Pose {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< orthonormal
+  Vec<3> shift = Vec<3>::Zero();                           ///< [length]
+};
 
 /// What a picture shows of a constraint or force: its type says so by a member `Sketch sketch() const`, and
 /// one that says nothing is drawn as lines between its points. A picture has no part in the motion.
@@ -29,7 +33,7 @@ struct Sketch {
   std::string_view shape = "lines";  ///< one of those above
   std::vector<double> sizes{};       ///< of the shape, in the order above
   /// Where what is drawn is carried at time t, if it moves.
-  std::function<Eigen::Isometry3d(double t)> pose{};
+  std::function<Pose(double t)> pose{};
   /// A curve or surface, as it is before it is carried anywhere.
   std::function<double(const Place& r)> equation{};
 };
@@ -128,8 +132,10 @@ template <int D, class Surface>
   }
 }
 
+/// A turn about an axis of unit length through a point.
+[[nodiscard]] Pose turned_about(const Vec<3>& point, const Vec<3>& axis, double angle);
 /// What is carried by a motion, and may have been carried by another before.
-[[nodiscard]] Sketch carried(Sketch sketch, std::function<Eigen::Isometry3d(double t)> pose);
+[[nodiscard]] Sketch carried(Sketch sketch, std::function<Pose(double t)> pose);
 
 }  // namespace detail
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <dalembert/core/equations/holonomic_batch.h>
-#include <dalembert/core/equations/nonholonomic_batch.h>
+#include <dalembert/core/equations/constraint_type.h>
 #include <dalembert/core/forces/law_batch.h>
+#include <dalembert/core/forces/potential_type.h>
 
 namespace dalembert {
 
@@ -14,29 +14,43 @@ concept HasOwnBatch = requires {
   typename E::Batch;
 };
 
+/// The batch of a type of element, which takes the address of one.
 template <class Element>
 struct BatchFor;
 template <HasOwnBatch E>
 struct BatchFor<E> {
   using type = typename E::Batch;
+  [[nodiscard]] static std::unique_ptr<type> empty() { return std::make_unique<type>(); }
 };
-template <HolonomicConstraint C>
+template <AnyConstraint C>
 struct BatchFor<C> {
-  using type = HolonomicBatch<C>;
-};
-template <NonholonomicConstraint C>
-struct BatchFor<C> {
-  using type = NonholonomicBatch<C>;
+  using type = ConstraintBatch;
+  [[nodiscard]] static std::unique_ptr<type> empty() { return std::make_unique<type>(constraint_type<C>); }
 };
 template <PotentialForce E>
 struct BatchFor<E> {
-  using type = PotentialBatch<E>;
+  using type = PotentialBatch;
+  [[nodiscard]] static std::unique_ptr<type> empty() { return std::make_unique<type>(potential_type<E>); }
 };
 template <class E>
   requires LawForce<E> || FrictionForce<E>
 struct BatchFor<E> {
-  using type = LawBatch<E>;
+  using type = LawBatch;
+  [[nodiscard]] static std::unique_ptr<type> empty() { return std::make_unique<type>(law_type<E>); }
 };
+
+/// The batch as one of that kind, if it is one and holds elements of that type.
+template <class Element, class Batch>
+[[nodiscard]] auto* batch_for(Batch& batch) {
+  using Own = typename BatchFor<Element>::type;
+  Own* own;
+  if constexpr (std::is_same_v<Own, Batch>) {
+    own = &batch;
+  } else {
+    own = dynamic_cast<Own*>(&batch);
+  }
+  return own != nullptr && own->holds(typeid(Element)) ? own : nullptr;
+}
 
 template <class E>
 concept AnyForce = PotentialForce<E> || LawForce<E> || FrictionForce<E> || HasOwnBatch<E>;
@@ -51,38 +65,39 @@ template <AnyForce E>
 constexpr void require_forces() {
   static_assert(HasOwnBatch<E> || PotentialForce<E> + LawForce<E> + FrictionForce<E> == 1,
                 "a force states one of energy(r), force(r, v) and friction(lambda, r, v)");
-  using Batch = typename BatchFor<E>::type;
-  static_assert(!PotentialForce<E> || Batch::gives_what_it_should,
-                "a potential returns its energy, one number; of an Eigen expression its .value()");
-  static_assert(!LawForce<E> || Batch::gives_what_it_should,
-                "a force law returns one column of its point's dimension, or one for each point, "
-                "std::tuple{f_a, f_b}; of an Eigen expression its .eval()");
-  static_assert(!FrictionForce<E> || Batch::gives_what_it_should,
-                "a friction law returns one column of its point's dimension, or one for each point, "
-                "std::tuple{f_a, f_b}; of an Eigen expression its .eval()");
+  if constexpr (PotentialForce<E>) {
+    static_assert(Number<EnergyResult<E>>,
+                  "a potential returns its energy, one number; of an Eigen expression its .value()");
+  } else if constexpr (LawForce<E>) {
+    static_assert(are_forces<LawResult<E>, PointTuple<E>>,
+                  "a force law returns one column of its point's dimension, or one for each point, "
+                  "std::tuple{f_a, f_b}; of an Eigen expression its .eval()");
+  } else if constexpr (FrictionForce<E>) {
+    static_assert(are_forces<LawResult<E>, PointTuple<E>>,
+                  "a friction law returns one column of its point's dimension, or one for each point, "
+                  "std::tuple{f_a, f_b}; of an Eigen expression its .eval()");
+  }
 }
 
 }  // namespace detail
 
 template <class Batch, class Element>
 std::unique_ptr<Batch> BatchOf<Batch, Element>::empty() {
-  return std::make_unique<typename detail::BatchFor<Element>::type>();
+  return detail::BatchFor<Element>::empty();
 }
 
 template <class Batch, class Element>
 bool BatchOf<Batch, Element>::add(Batch& batch, const Element& element) {
-  auto* const same = dynamic_cast<typename detail::BatchFor<Element>::type*>(&batch);
-  if (same == nullptr) return false;
-  same->add(element);
-  return true;
+  auto* const same = detail::batch_for<Element>(batch);
+  if (same != nullptr) same->add(&element);
+  return same != nullptr;
 }
 
 template <class Batch, class Element>
 bool BatchOf<Batch, Element>::replace(Batch& batch, std::size_t i, const Element& element) {
-  auto* const same = dynamic_cast<typename detail::BatchFor<Element>::type*>(&batch);
-  if (same == nullptr) return false;
-  same->replace(i, element);
-  return true;
+  auto* const same = detail::batch_for<Element>(batch);
+  if (same != nullptr) same->replace(i, &element);
+  return same != nullptr;
 }
 
 }  // namespace dalembert

@@ -39,7 +39,7 @@ struct LinearDrag {
   double coefficient;  ///< [force / speed], finite and >= 0
 
   auto points() const { return std::tie(point); }
-  auto force(const auto& /*r*/, const auto& v) const { return (-coefficient * v).eval(); }
+  auto force(const auto& /*r*/, const auto& v) const { return -coefficient * v; }
   [[nodiscard]] std::string fault() const { return detail::not_negative(coefficient, "coefficient"); }
 };
 template <class P>

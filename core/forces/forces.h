@@ -113,7 +113,7 @@ struct ForceFromLaw {
   { return function(a...); }
 };
 
-/// A force from its law: `force_law(points(a), [](auto r, auto v) { return (-0.1 * v).eval(); })`,
+/// A force from its law: `force_law(points(a), [](auto r, auto v) { return -0.1 * v; })`,
 /// with time in front if it depends on time. For several points return std::tuple{f_a, f_b}.
 template <class... P, class Law>
 [[nodiscard]] auto force_law(std::tuple<P...> on, Law law) {

@@ -70,7 +70,7 @@ struct FrictionFromLaw {
 /// a surface,
 ///
 ///   friction_law(table, points(block), [](auto lambda, auto, auto v) {
-///     return (-0.3 * lambda * v.normalized()).eval();
+///     return -0.3 * lambda * v.normalized();
 ///   })
 ///
 /// lambda is a number, or a vector for a constraint of several equations, and has the sign that

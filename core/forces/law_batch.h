@@ -1,8 +1,55 @@
 #pragma once
 
+#include <dalembert/core/equations/batch.h>
 #include <dalembert/core/forces/friction.h>
 
 namespace dalembert {
+
+/// A type of forces given by their law F(t, [lambda,] r, v), lambda the multipliers of a constraint. A law is
+/// called with plain numbers and, for its slopes, with numbers that carry derivatives by its positions, then
+/// by its velocities, then by its multipliers.
+struct LawType {
+  ElementType elements;
+  ForceShape shape;
+  int directions;
+  void (*numbers)(detail::Pass&);
+  void (*duals)(detail::Pass&);
+  int (*constraint)(const void* force);  ///< the number of the one that it reads; null if none
+};
+
+class LawBatch final : public ForceBatch {
+ public:
+  explicit LawBatch(const LawType& type);
+
+  [[nodiscard]] bool holds(const std::type_info& type) const { return *elements_.type().type == type; }
+  void add(const void* force);
+  void replace(std::size_t i, const void* force);
+
+  [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override;
+  [[nodiscard]] ForceShape shape() const override { return type_->shape; }
+  [[nodiscard]] std::size_t size() const override { return elements_.size(); }
+  [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
+  [[nodiscard]] std::span<const int> constraints() const override { return constraints_; }
+
+  void add_force(const Instant& at, const Multipliers& lambda, std::span<double> F) const override;
+  void power(const Instant& at, const Multipliers& lambda, std::span<double> out) const override;
+  void force(std::size_t element, const Instant& at, std::span<const double> lambda,
+             std::span<double> out) const override;
+  void slope(const Instant& at, const Multipliers& lambda, std::span<double> out) const override;
+  void linearise(const Instant& at, const Multipliers& lambda, std::span<double> stiffness,
+                 std::span<double> damping) const override;
+
+ private:
+  struct Work;
+  template <int K>
+  struct Slopes;
+  [[nodiscard]] std::size_t width() const { return static_cast<std::size_t>(type_->shape.width); }
+
+  const LawType* type_;
+  Elements elements_;
+  std::vector<int> constraints_;  // whose multipliers they read
+  std::vector<int> in_order_;     // 0, 1, ..: the places of inputs that were gathered
+};
 
 namespace detail {
 
@@ -21,156 +68,80 @@ struct LawTraits<E> {
   static constexpr int rows = rows_read<E>;
 };
 
-}  // namespace detail
-
-/// Forces of one type given by their law F(t, [lambda,] r, v), lambda the multipliers of a constraint.
 template <class E>
-  requires LawForce<E> || FrictionForce<E>
-class LawBatch final : public ForceBatch {
-  using Function = typename detail::LawTraits<E>::Function;
-  using Arguments = typename detail::LawTraits<E>::Arguments;
-  static constexpr int inputs = PointFacts<E>::inputs;
-  static constexpr int width = PointFacts<E>::coordinates;
-  static constexpr int rows = detail::LawTraits<E>::rows;
-  static constexpr bool takes_time = detail::applicable_with_time<Function, detail::Probe<E>, Arguments>;
+inline constexpr bool law_takes_time =
+    applicable_with_time<typename LawTraits<E>::Function, Probe<E>, typename LawTraits<E>::Arguments>;
 
- public:
-  /// What Scene::add asks for.
-  static constexpr bool gives_what_it_should =
-      detail::are_forces<detail::ForceResult<Function, takes_time, E, Arguments>, PointTuple<E>>;
+/// What the law of a force returns.
+template <class E>
+using LawResult =
+    Result<law_takes_time<E>, typename LawTraits<E>::Function, Probe<E>, typename LawTraits<E>::Arguments>;
 
-  void add(E element) {
-    if constexpr (rows > 0) constraints_.push_back(element.constraint().index);
-    try {
-      elements_.add(std::move(element));
-    } catch (...) {
-      if constexpr (rows > 0) constraints_.pop_back();
-      throw;
-    }
+/// Number `input` of those that a law is differentiated with respect to.
+template <class S>
+[[nodiscard]] DALEMBERT_INLINE S law_input(double value, [[maybe_unused]] int lane) {
+  if constexpr (std::is_same_v<S, double>) {
+    return value;
+  } else {
+    return S::input(value, lane);
   }
-  void replace(std::size_t i, const E& element) {
-    elements_.replace(i, element);
-    if constexpr (rows > 0) constraints_[i] = element.constraint().index;
-  }
+}
 
-  [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override {
-    return std::make_unique<LawBatch>(*this);
-  }
-  [[nodiscard]] ForceShape shape() const override {
-    return {detail::kind_of<E>(rows > 0 ? "Friction" : "ForceLaw"),
-            width,
-            rows,
-            true,
-            false,
-            takes_time || PointFacts<E>::driven};
-  }
-  [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
-  [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
-  [[nodiscard]] std::span<const int> constraints() const override { return constraints_; }
-
-  void add_force(const Instant& at, const Multipliers& lambda, std::span<double> F) const override {
-    const bool by_numbers = !Branches::needed();
-    detail::for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      const Vec<inputs> f = by_numbers ? forces<double>(e, at, own(lambda, i), detail::AsNumber{},
-                                                        detail::AsNumber{}, detail::AsNumber{})
-                                       : heard_forces(e, at, own(lambda, i), i);
-      detail::require_finite(detail::all_finite(f), i, "is not a finite number");
-      detail::scatter(e, f, elements_.coordinates(i), F);
-    });
-  }
-
-  void power(const Instant& at, const Multipliers& lambda, std::span<double> out) const override {
-    detail::for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      out[i] =
-          forces<double>(e, at, own(lambda, i), detail::AsNumber{}, detail::AsNumber{}, detail::AsNumber{})
-              .dot(detail::gather_inputs(e, at.v));
-    });
-  }
-
-  void force(std::size_t element, const Instant& at, std::span<const double> lambda,
-             std::span<double> out) const override {
-    detail::for_each_element(elements_.all(), element, element + 1, [&](const E& e, std::size_t) {
-      const Vec<inputs> f =
-          forces<double>(e, at, lambda, detail::AsNumber{}, detail::AsNumber{}, detail::AsNumber{});
-      detail::require_finite(detail::all_finite(f), element, "is not a finite number");
-      detail::pull_back(e, f.data(), out.data());
-    });
-  }
-
-  void slope(const Instant& at, const Multipliers& lambda, std::span<double> out) const override {
-    if constexpr (rows > 0) write_slope(at, lambda, out);
-  }
-
-  void linearise(const Instant& at, const Multipliers& lambda, std::span<double> stiffness,
-                 std::span<double> damping) const override {
-    using S = Dual<2 * inputs, 1>;
-    detail::for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      const VecOf<S, inputs> f = forces<S>(e, at, own(lambda, i), detail::AsInput<S>{}, detail::AsInput<S>{},
-                                           detail::AsConstant<S>{});
-      detail::write_slopes<E, S>(e, i, f, stiffness, damping);
-    });
-  }
-
- private:
-  void write_slope(const Instant& at, const Multipliers& lambda, std::span<double> out) const {
-    using S = Dual<rows, 1>;
-    detail::for_each_element(elements_.all(), [&](const E& e, std::size_t i) {
-      const VecOf<S, inputs> f = forces<S>(e, at, own(lambda, i), detail::AsConstant<S>{},
-                                           detail::AsConstant<S>{}, detail::AsInput<S>{});
-      for (int r = 0; r < rows; ++r) {
-        Vec<inputs> f_lambda;
-        for (int k = 0; k < inputs; ++k) f_lambda[k] = f[k].gradient[r];
-        detail::require_finite(detail::all_finite(f_lambda), i, "has no finite derivative");
-        detail::pull_back(e, f_lambda.data(), out.data() + (i * rows + static_cast<std::size_t>(r)) * width);
-      }
-    });
-  }
-
-  /// With numbers that report their comparisons, of the type that `linearise` takes.
-  [[nodiscard]] static Vec<inputs> heard_forces(const E& e, const Instant& at, std::span<const double> lambda,
-                                                std::size_t i) {
-    using S = Dual<2 * inputs, 1>;
-    Vec<inputs> values;
-    Branches::or_naturally<ElementFault>([&] {
-      const VecOf<S, inputs> f =
-          forces<S>(e, at, lambda, detail::AsConstant<S>{}, detail::AsConstant<S>{}, detail::AsConstant<S>{});
-      for (int k = 0; k < inputs; ++k) values[k] = f[k].value;
-      detail::require_finite(detail::all_finite(values), i, "is not a finite number");
-    });
-    return values;
-  }
-
-  /// The multipliers that element i reads.
-  [[nodiscard]] static std::span<const double> own(const Multipliers& lambda, std::size_t i) {
-    if constexpr (rows == 0) return {};
-    return lambda.all.subspan(lambda.first_row[i], rows);
-  }
-  /// Those, as arguments of its law.
-  template <class S, class Lift>
-  [[nodiscard]] static auto multiplier(std::span<const double> lambda, const Lift& lift) {
-    if constexpr (rows == 0) {
-      return std::tuple();
-    } else if constexpr (rows == 1) {
-      return std::tuple<S>(lift(lambda[0], 0.0, 0));
+/// The force on each input of the one element of a pass.
+template <class E, class S>
+void run_law(Pass& pass) {
+  constexpr int n = PointFacts<E>::inputs, rows = LawTraits<E>::rows;
+  constexpr bool at_once = rows == 0 && directions_for(2 * n) == 2 * n;
+  const auto& element = static_cast<const E*>(pass.elements)[pass.i];
+  const typename LawTraits<E>::Function f{element};
+  const int first = at_once ? 0 : pass.first;
+  const int* const at = pass.at;
+  const S t(pass.t);
+  S r[n], v[n];
+  const auto lift = [&]<int... k>(std::integer_sequence<int, k...>) DALEMBERT_INLINE_LAMBDA {
+    ((r[k] = law_input<S>(pass.x[at[k]], k - first)), ...);
+    ((v[k] = law_input<S>(pass.v[at[k]], n + k - first)), ...);
+  };
+  lift(std::make_integer_sequence<int, n>{});
+  auto* const out = static_cast<S*>(pass.out);
+  if constexpr (rows == 0) {
+    write_forces<E>(call_in_motion<law_takes_time<E>>(f, element, t, r, v), out);
+  } else {
+    MultiplierOf<S, rows> lambda;
+    if constexpr (rows == 1) {
+      lambda = law_input<S>(pass.lambda[0], 2 * n - first);
     } else {
-      VecOf<S, rows> all;
-      for (int r = 0; r < rows; ++r) all[r] = lift(lambda[static_cast<std::size_t>(r)], 0.0, r);
-      return std::tuple(all);
+      for (int k = 0; k < rows; ++k) lambda[k] = law_input<S>(pass.lambda[k], 2 * n + k - first);
     }
+    write_forces<E>(call_in_motion<law_takes_time<E>>(f, element, t, r, v, lambda), out);
   }
-  /// The force of an element on each of its inputs, by the multipliers that it reads.
-  template <class S, class LiftPosition, class LiftVelocity, class LiftMultiplier>
-  [[nodiscard]] static VecOf<S, inputs> forces(const E& e, const Instant& at, std::span<const double> lambda,
-                                               const LiftPosition& lift_r, const LiftVelocity& lift_v,
-                                               const LiftMultiplier& lift) {
-    const S t(at.t);
-    const auto arguments = std::tuple_cat(multiplier<S>(lambda, lift), detail::positions<S>(e, t, at, lift_r),
-                                          detail::velocities<S>(e, t, at, lift_v, inputs));
-    return detail::forces_on_inputs<S, E>(detail::call<takes_time>(Function{e}, t, arguments));
-  }
+}
 
-  Elements<E> elements_;
-  std::vector<int> constraints_;  // whose multipliers they read
-};
+template <class E>
+[[nodiscard]] int constraint_read(const void* force) {
+  return static_cast<const E*>(force)->constraint().index;
+}
+
+template <class E>
+[[nodiscard]] constexpr LawType make_law_type() {
+  constexpr int rows = LawTraits<E>::rows, directions = directions_for(2 * PointFacts<E>::inputs);
+  LawType its{.elements = element_type_of<E>(),
+              .shape = {.kind = kind_of<E>(rows > 0 ? "Friction" : "ForceLaw"),
+                        .width = PointFacts<E>::coordinates,
+                        .rows = rows,
+                        .dissipative = true,
+                        .conservative = false,
+                        .timed = law_takes_time<E> || PointFacts<E>::driven},
+              .directions = directions,
+              .numbers = &run_law<E, double>,
+              .duals = &run_law<E, Dual<directions>>,
+              .constraint = nullptr};
+  if constexpr (rows > 0) its.constraint = &constraint_read<E>;
+  return its;
+}
+template <class E>
+inline constexpr LawType law_type = make_law_type<E>();
+
+}  // namespace detail
 
 }  // namespace dalembert

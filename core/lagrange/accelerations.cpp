@@ -102,9 +102,8 @@ Rows rows_of(const System& constraints, const Instant& at) {
   const auto m = static_cast<Eigen::Index>(constraints.rows()),
              n = static_cast<Eigen::Index>(constraints.coordinates());
   auto e = constraints.evaluation();
-  constraints.evaluate(at, e);
   std::vector<double> bias(constraints.rows());
-  constraints.bias(at, bias);
+  constraints.evaluate_with_bias(at, e, bias);
   Rows rows{SmallMatrix::Zero(m, n), Eigen::Map<const Eigen::VectorXd>(bias.data(), m)};
   for (std::size_t r = 0; r < bias.size(); ++r) {
     for (const std::size_t k : constraints.row(r))

@@ -30,7 +30,7 @@ void constraint_forces(const System& system, const Instant& at, std::span<const 
 /// Written for any scalar: velocities and accelerations follow by differentiation along the motion.
 template <int D, int N>
 class Embedding {
-  using Time = Dual<1, 2>;  // a quantity along the motion: its value, rate and acceleration
+  using Time = Jet<1>;  // a quantity along the motion: its value, rate and acceleration
   template <class F>
   static constexpr bool Places = detail::ColumnOf<
       std::remove_cvref_t<decltype(detail::call_in_time(std::declval<const F&>(), std::declval<const Time&>(),
@@ -83,23 +83,22 @@ void Embedding<D, N>::write(const Layout& layout, double t, const Vec<N>& q, con
                             std::span<double> out_q, std::span<double> out_v, std::span<double> out_a) const {
   VecOf<Time, N> along;
   for (int k = 0; k < N; ++k) {
-    along[k] = Time::input(q[k], 0);
-    along[k].gradient[0] = v[k];
-    along[k].hessian(0, 0) = a[k];
+    along[k] = Time::input(q[k], 0, v[k]);
+    along[k].ss = a[k];
   }
   std::ranges::fill(out_q, std::numeric_limits<double>::quiet_NaN());
   for (const Part& part : parts_) {
     part.require(layout);
     std::array<Time, static_cast<std::size_t>(D)> r;
-    part.place(Time::input(t, 0), along, r);
+    part.place(Time::input(t, 0, 1.0), along, r);
     for (int k = 0; k < part.count; ++k) {
       const auto i = static_cast<std::size_t>(part.first + k);
       const Time& x = r[static_cast<std::size_t>(k)];
-      if (!std::isfinite(x.hessian(0, 0)) || !isfinite(x))
+      if (!std::isfinite(x.ss) || !std::isfinite(x.s) || !std::isfinite(x.value))
         throw EquationFault("The embedding has no finite value or derivatives at t = " + detail::text(t));
       out_q[i] = x.value;
-      out_v[i] = x.gradient[0];
-      out_a[i] = x.hessian(0, 0);
+      out_v[i] = x.s;
+      out_a[i] = x.ss;
     }
   }
   detail::require_all_placed(layout, out_q);

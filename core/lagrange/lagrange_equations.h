@@ -67,7 +67,10 @@ typename LagrangeEquations<N>::Solved LagrangeEquations<N>::solved(const Instant
   Vec<N> f = terms.force(v);
   for (const auto& Q : forces) f += Q(at.t, q, v);
   f = scale.cwiseProduct(f);
-  const typename LagrangeTerms<N>::Matrix inertia = scale.asDiagonal() * terms.L_vv * scale.asDiagonal();
+  typename LagrangeTerms<N>::Matrix inertia = terms.L_vv;
+  for (int k = 0; k < N; ++k) {
+    for (int row = 0; row < N; ++row) inertia(row, k) *= scale[row] * scale[k];
+  }
   if (!std::isfinite(terms.L) || !inertia.allFinite() || !terms.force(v).allFinite())
     throw std::domain_error("has no finite value or derivatives");
   if (!f.allFinite()) throw std::domain_error("has a generalized force that is not finite");
@@ -76,7 +79,7 @@ typename LagrangeEquations<N>::Solved LagrangeEquations<N>::solved(const Instant
   if (found.without_inertia.size() > 0)
     throw std::domain_error(detail::no_inertia(q, scale.cwiseProduct(Vec<N>(found.without_inertia))));
   if (sign != 0 && found.sign != sign) throw std::domain_error(detail::inertia_lost(q));
-  const Vec<N> a = found.a;
+  const Vec<N> a(found.a);
   return {a, inertia * a - f, rows, found.sign};
 }
 
@@ -94,38 +97,38 @@ class LagrangeBatch final : public ForceBatch {
   using Element = LagrangeEquations<N>;
 
  public:
-  static constexpr bool gives_what_it_should = true;
-
-  void add(Element element) { elements_.add(std::move(element)); }
-  void replace(std::size_t i, const Element& element) { elements_.replace(i, element); }
+  [[nodiscard]] bool holds(const std::type_info& type) const { return *elements_.type().type == type; }
+  void add(const void* element) { elements_.add(element); }
+  void replace(std::size_t i, const void* element) { elements_.replace(i, element); }
 
   [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override {
     return std::make_unique<LagrangeBatch>(*this);
   }
   [[nodiscard]] ForceShape shape() const override { return {Element::kind, N, 0, true, true, true}; }
-  [[nodiscard]] std::size_t size() const override { return elements_.all().size(); }
+  [[nodiscard]] std::size_t size() const override { return elements_.size(); }
   [[nodiscard]] std::span<const int> coordinates() const override { return elements_.coordinates(); }
 
   void add_force(const Instant& at, const Multipliers& /*lambda*/, std::span<double> F) const override {
-    detail::for_each_element(elements_.all(), [&](const Element& e, std::size_t i) {
-      detail::scatter(e, force_of(e, i, at), elements_.coordinates(i), F);
+    for_each([&](const Element& e, std::size_t i) {
+      const Vec<N> f = force_of(e, i, at);
+      for (int k = 0; k < N; ++k) F[place(i, k)] += f[k];
     });
   }
   void power(const Instant& at, const Multipliers& /*lambda*/, std::span<double> out) const override {
-    detail::for_each_element(elements_.all(), [&](const Element& e, std::size_t i) {
+    for_each([&](const Element& e, std::size_t i) {
       out[i] = force_of(e, i, at).dot(detail::gather_inputs(e, at.v));
     });
   }
   void force(std::size_t element, const Instant& at, std::span<const double> /*lambda*/,
              std::span<double> out) const override {
-    detail::for_each_element(elements_.all(), element, element + 1, [&](const Element& e, std::size_t i) {
+    at_element(element, [&](const Element& e, std::size_t i) {
       const Vec<N> f = force_of(e, i, at);
       std::copy_n(f.data(), N, out.data());
     });
   }
   [[nodiscard]] double energy(const Instant& at) const override {
     double sum = 0.0;
-    detail::for_each_element(elements_.all(), [&](const Element& e, std::size_t) { sum += e.energy(at); });
+    for_each([&](const Element& e, std::size_t) { sum += e.energy(at); });
     return sum;
   }
 
@@ -134,11 +137,11 @@ class LagrangeBatch final : public ForceBatch {
   /// coordinate's unit and of the largest velocity.
   void linearise(const Instant& at, const Multipliers& /*lambda*/, std::span<double> stiffness,
                  std::span<double> damping) const override {
-    detail::for_each_element(elements_.all(), [&](const Element& e, std::size_t i) {
+    for_each([&](const Element& e, std::size_t i) {
       const double speed = typical_speed(e, i, at);
       std::vector<double> q(at.q.begin(), at.q.end()), v(at.v.begin(), at.v.end());
       for (int k = 0; k < N; ++k) {
-        const auto place = static_cast<std::size_t>(elements_.coordinates(i)[static_cast<std::size_t>(k)]);
+        const std::size_t number = place(i, k);
         const auto write = [&](double& x, double unit, std::span<double> out) {
           const double middle = x, h = std::cbrt(std::numeric_limits<double>::epsilon()) * unit;
           x = middle + h;
@@ -149,13 +152,31 @@ class LagrangeBatch final : public ForceBatch {
           for (int row = 0; row < N; ++row)
             out[(i * N + static_cast<std::size_t>(row)) * N + static_cast<std::size_t>(k)] = slope[row];
         };
-        write(q[place], 1.0, stiffness);
-        write(v[place], speed, damping);
+        write(q[number], 1.0, stiffness);
+        write(v[number], speed, damping);
       }
     });
   }
 
  private:
+  static constexpr ElementType type_ = element_type_of<Element>();
+
+  template <class F>
+  void at_element(std::size_t i, const F& f) const {
+    try {
+      f(*static_cast<const Element*>(elements_[i]), i);
+    } catch (...) {
+      detail::rethrow_as_fault(i);
+    }
+  }
+  template <class F>
+  void for_each(const F& f) const {
+    for (std::size_t i = 0; i < size(); ++i) at_element(i, f);
+  }
+  /// In q, of coordinate k.
+  [[nodiscard]] std::size_t place(std::size_t i, int k) const {
+    return static_cast<std::size_t>(elements_.coordinates(i)[static_cast<std::size_t>(k)]);
+  }
   [[nodiscard]] static Vec<N> force_of(const Element& e, std::size_t i, const Instant& at) {
     try {
       return e.solved(at).a;
@@ -170,7 +191,7 @@ class LagrangeBatch final : public ForceBatch {
     return size > 0.0 ? size : 1.0;
   }
 
-  Elements<Element> elements_;
+  Elements elements_{type_};
 };
 
 }  // namespace dalembert

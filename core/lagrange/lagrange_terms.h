@@ -4,6 +4,8 @@
 #include <dalembert/core/equations/arguments.h>
 #include <dalembert/core/vec.h>
 
+#include <Eigen/Core>
+
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -49,11 +51,11 @@ template <class F, class S, class... A>
   }
 }
 
-/// The scalars that a Lagrangian is differentiated with.
-template <int N, bool takes_time>
-using LagrangeScalar = Dual<2 * N + (takes_time ? 1 : 0), 2>;
+/// The scalars that a Lagrangian is differentiated with, by (q, v, t) and along two velocities.
+template <int N>
+using LagrangeScalar = HyperDual<directions_for(2 * N + 1)>;
 
-template <int N, class F, class S = LagrangeScalar<N, true>>
+template <int N, class F, class S = LagrangeScalar<N>>
 inline constexpr bool takes_time_first = requires(const F& f, const S& t, const VecOf<S, N>& x) {
   f(t, x, x);
 };
@@ -62,7 +64,7 @@ inline constexpr bool takes_time_first = requires(const F& f, const S& t, const 
 
 /// What may be a Lagrangian: written for any scalar, it takes positions and velocities, time in front of them
 /// if it depends on time, and returns a number.
-template <class F, int N, class S = detail::LagrangeScalar<N, true>>
+template <class F, int N, class S = detail::LagrangeScalar<N>>
 concept LagrangianFunction = requires(const F& f, const S& t, const VecOf<S, N>& x) {
   { f(t, x, x) } -> detail::Number;
 }
@@ -74,31 +76,50 @@ concept LagrangianFunction = requires(const F& f, const S& t, const VecOf<S, N>&
 template <int N, LagrangianFunction<N> F>
 class LagrangianOf final : public Lagrangian<N> {
   static constexpr bool takes_time = detail::takes_time_first<N, F>;
-  using S = detail::LagrangeScalar<N, takes_time>;
+  static constexpr int K = detail::directions_for(2 * N + 1);
+  using S = detail::LagrangeScalar<N>;
 
  public:
   explicit LagrangianOf(F function) : function_(std::move(function)) {}
 
   [[nodiscard]] LagrangeTerms<N> terms(double t, const Vec<N>& q, const Vec<N>& v) const override {
-    VecOf<S, N> x, x_rate;
-    for (int k = 0; k < N; ++k) {
-      x[k] = S::input(q[k], k);
-      x_rate[k] = S::input(v[k], N + k);
-    }
-    S time(t);
-    if constexpr (takes_time) time = S::input(t, 2 * N);
-    const S L(detail::call_in_time(function_, time, x, x_rate));
     LagrangeTerms<N> terms;
-    terms.L = L.value;
-    terms.L_q = L.gradient.template head<N>();
-    terms.L_v = L.gradient.template segment<N>(N);
-    terms.L_vv = L.hessian.template block<N, N>(N, N);
-    terms.L_vq = L.hessian.template block<N, N>(N, 0);
-    if constexpr (takes_time) terms.L_vt = L.hessian.template block<N, 1>(N, 2 * N);
+    const std::size_t begin = Branches::next();
+    for (int k = 0; k < N; k += 2) {
+      for (int first = 0; first < 2 * N + (takes_time ? 1 : 0); first += K) {
+        Branches::again(begin);
+        const S L = along(k, first, t, q, v);
+        terms.L = L.value;
+        for (int j = 0; j < K; ++j) put(L, j, first + j, k, terms);
+      }
+    }
     return terms;
   }
 
  private:
+  /// L with its derivatives by K of (q, v, t) from number `first` on, and along velocities k and k + 1.
+  [[nodiscard]] S along(int k, int first, double t, const Vec<N>& q, const Vec<N>& v) const {
+    VecOf<S, N> x, x_rate;
+    for (int i = 0; i < N; ++i) {
+      x[i] = S::input(q[i], i - first);
+      x_rate[i] = S::input(v[i], N + i - first, typename S::Both{i == k ? 1.0 : 0.0, i == k + 1 ? 1.0 : 0.0});
+    }
+    return S(detail::call_in_time(function_, S::input(t, 2 * N - first), x, x_rate));
+  }
+  static void put(const S& L, int j, int variable, int k, LagrangeTerms<N>& terms) {
+    if (variable < N) terms.L_q[variable] = L.z[j];
+    if (variable >= N && variable < 2 * N) terms.L_v[variable - N] = L.z[j];
+    for (int d = 0; d < 2 && k + d < N; ++d) {
+      if (variable < N) {
+        terms.L_vq(k + d, variable) = L.zs[d][j];
+      } else if (variable < 2 * N) {
+        terms.L_vv(k + d, variable - N) = L.zs[d][j];
+      } else if (variable == 2 * N) {
+        terms.L_vt[k + d] = L.zs[d][j];
+      }
+    }
+  }
+
   F function_;
 };
 

@@ -54,13 +54,21 @@ class Sample {
   template <Point P>
   [[nodiscard]] Vec<D> position(const P& point) const {
     require_known(point);
-    return finite<P>(detail::position<double>(point, flat_.time, instant(), detail::AsNumber{}, 0));
+    if constexpr (P::inputs > 0) {
+      return finite<P>(point.gather(flat_.q));
+    } else {
+      return finite<P>(detail::position<double>(point, flat_.time, nullptr));
+    }
   }
   /// Likewise, its rate.
   template <Point P>
   [[nodiscard]] Vec<D> velocity(const P& point) const {
     require_known(point);
-    return finite<P>(detail::velocity<double>(point, flat_.time, instant(), detail::AsNumber{}, 0));
+    if constexpr (P::inputs > 0) {
+      return finite<P>(point.gather(flat_.v));
+    } else {
+      return finite<P>(detail::velocity<double>(point, flat_.time, nullptr));
+    }
   }
   /// Likewise, the second derivative.
   template <Point P>
@@ -71,9 +79,11 @@ class Sample {
       if (!a.allFinite()) refuse_acceleration();
       return a;
     } else if constexpr (P::driven) {
-      using Time = Dual<1, 2>;
-      const VecOf<Time, D> path = point.path(Time::input(flat_.time, 0)).template cast<Time>();
-      return finite<P>(path.unaryExpr([](const Time& x) { return x.hessian(0, 0); }));
+      using Time = Jet<1>;
+      const VecOf<Time, D> path = point.path(Time::input(flat_.time, 0, 1.0)).template cast<Time>();
+      Vec<D> a;
+      for (int k = 0; k < D; ++k) a[k] = path[k].ss;
+      return finite<P>(a);
     } else {
       return Vec<D>::Zero();
     }
@@ -92,7 +102,7 @@ class Sample {
     if constexpr (Rows == 1) {
       return *first;
     } else {
-      return Eigen::Map<const Vec<Rows>>(first);
+      return Vec<Rows>::from(first);
     }
   }
 

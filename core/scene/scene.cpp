@@ -217,11 +217,10 @@ void Scene<D>::refuse_type(const std::string& label) {
 }
 
 template <int D>
-void Scene<D>::admit_fixed(const Vec<D>& fixed, const Label& label, Box& box) {
+void Scene<D>::admit_fixed(const Vec<D>& fixed, const Label& label) {
   if (!fixed.allFinite()) {
     throw InvalidScene(label.text() + ": its fixed point " + text<D>(fixed) + " must be finite");
   }
-  box.extend(fixed);
 }
 
 template <int D>

@@ -9,8 +9,6 @@
 #include <dalembert/core/scene/system.h>
 #include <dalembert/core/scene/value.h>
 
-#include <Eigen/Geometry>
-
 #include <functional>
 #include <string>
 #include <string_view>
@@ -182,7 +180,6 @@ class Scene {
   void require_state(const Sample<D>& sample) const;
 
  private:
-  using Box = Eigen::AlignedBox<double, D>;
   using Path = std::function<Vec<D>(double)>;
 
   /// The elements of one type, and the scene's number of each.
@@ -191,10 +188,10 @@ class Scene {
     detail::Owned<Batch> batch;
     std::vector<int> numbers;
   };
-  /// The points of an element that the scene does not move: the box around those that stand still, and the
-  /// paths of the driven ones.
+  /// The points of an element that the scene does not move: those that stand still, and the paths of the
+  /// driven ones.
   struct Surroundings {
-    Box box;
+    std::vector<Vec<D>> fixed;
     std::vector<Path> paths;
   };
   /// Where an element stands among those of its type.
@@ -257,13 +254,14 @@ class Scene {
       around.paths.push_back(
           [path = point.path](double t) { return Vec<D>(path(t).template cast<double>()); });
     } else {
-      admit_fixed(point.position, label, around.box);
+      admit_fixed(point.position, label);
+      around.fixed.push_back(point.position);
     }
   }
   [[noreturn]] void refuse_point(std::uint64_t scene, const Label& label) const;
   [[noreturn]] void refuse_constraint(std::uint64_t scene, const Label& label) const;
   [[noreturn]] static void refuse_type(const std::string& label);
-  static void admit_fixed(const Vec<D>& fixed, const Label& label, Box& box);
+  static void admit_fixed(const Vec<D>& fixed, const Label& label);
   static void require_compliance(double compliance, const Label& label);
   static void check(const ParticleState<D>& state, const Label& label);
   static void check(const RotorState& state, const Label& label);

@@ -1,6 +1,8 @@
 #include <dalembert/core/errors.h>
 #include <dalembert/core/scene/scene.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 
@@ -40,11 +42,11 @@ System Scene<D>::system() const {
   if (q_.empty()) {
     throw InvalidScene("Scene \"" + layout_.scene + "\" is empty: add at least one particle");
   }
-  Box box;
+  Eigen::AlignedBox<double, D> box;
   std::vector<Path> paths;
   for (const auto* places : {&constraint_places_, &force_places_}) {
     for (const Place& place : *places) {
-      box.extend(place.around.box);
+      for (const Vec<D>& point : place.around.fixed) box.extend(point);
       paths.insert(paths.end(), place.around.paths.begin(), place.around.paths.end());
     }
   }

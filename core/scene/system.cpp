@@ -122,9 +122,16 @@ void System::on_constraints(double t, const F& f) const {
   }
 }
 
-void System::evaluate(const Instant& at, Evaluation& out) const {
+void System::evaluate(const Instant& at, Evaluation& out) const { evaluate_all(at, out, {}); }
+
+void System::evaluate_with_bias(const Instant& at, Evaluation& out, std::span<double> gamma) const {
+  evaluate_all(at, out, gamma);
+}
+
+void System::evaluate_all(const Instant& at, Evaluation& out, std::span<double> gamma) const {
   if (!out_of_force_.empty()) {
     for (auto* part : {&out.g, &out.psi, &out.w}) std::ranges::fill(*part, 0.0);
+    std::ranges::fill(gamma, 0.0);
   }
   Branches::or_naturally<EquationFault>([&] {
     std::ranges::copy(parts_.constant_force, out.force.begin());
@@ -132,7 +139,8 @@ void System::evaluate(const Instant& at, Evaluation& out) const {
   });
   on_constraints(at.t, [&](const ConstraintBatch& batch, const ConstraintPlaces& own) {
     batch.evaluate(at, {own.holonomic ? own.rows.in(std::span(out.g)) : std::span<double>{},
-                        own.rows.in(std::span(out.psi)), own.w.in(std::span(out.w))});
+                        own.rows.in(std::span(out.psi)), own.w.in(std::span(out.w)),
+                        gamma.empty() ? gamma : own.rows.in(gamma)});
   });
 }
 

@@ -131,6 +131,8 @@ class System {
   /// F without friction, g, psi and W. Throws EquationFault if a constraint or force throws or is not
   /// finite.
   void evaluate(const Instant& at, Evaluation& out) const;
+  /// The same and gamma, for hardly more: every equation is evaluated once.
+  void evaluate_with_bias(const Instant& at, Evaluation& out, std::span<double> gamma) const;
   /// gamma, m numbers. Throws like `evaluate`.
   void bias(const Instant& at, std::span<double> gamma) const;
   /// Derivatives for the multipliers lambda (m numbers). Throws like `evaluate`.
@@ -187,6 +189,8 @@ class System {
   [[nodiscard]] std::string describe(double t, std::span<const double> q) const;
 
  private:
+  /// Unless gamma is empty, with the bias.
+  void evaluate_all(const Instant& at, Evaluation& out, std::span<double> gamma) const;
   /// When, for the end of an error.
   [[nodiscard]] static std::string at_time(double t);
   /// A pattern's dense blocks, rows first, one per element.

@@ -57,8 +57,7 @@ void SampleLaws::find_what_acts(const FlatSample& sample) {
 
 void SampleLaws::evaluate(const FlatSample& sample) {
   const Instant at{sample.time, sample.q, sample.v};
-  acting_->evaluate(at, e_);
-  acting_->bias(at, gamma_);
+  acting_->evaluate_with_bias(at, e_, gamma_);
   if (acting_->frictional()) add_forces_that_read(sample);
   const bool redundant = std::ranges::find(sample.unique, char{0}) != sample.unique.end();
   dependence_ = redundant ? Limits::dependent : 0.0;

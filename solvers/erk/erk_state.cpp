@@ -34,6 +34,7 @@ ErkStepper::State::State(const Problem& problem, const Start& start, const Optio
       manifold(problem, start.rows, start.scales.lengths()),
       a(pair.a.begin(), pair.a.end()),
       last_difference(difference_of_last_rows()),
+      stages_after_first((stages - 1) * 2 * n),
       stage_q(start.q.size()),
       difference(2 * start.q.size()),
       weight(difference.size()),
@@ -51,7 +52,8 @@ ErkStepper::State::State(const Problem& problem, const Start& start, const Optio
   for (Node* node : {&from, &to, &middle, &next, &short_of, &beyond}) {
     node->t = options.t_start;
     node->q = start.q;
-    node->va = start.v;
+    node->va.reserve(2 * n);
+    node->va.assign(start.v.begin(), start.v.end());
     node->va.insert(node->va.end(), start.a.begin(), start.a.end());
   }
   if (switches.any()) {
@@ -60,10 +62,7 @@ ErkStepper::State::State(const Problem& problem, const Start& start, const Optio
                         &stage_side, &behind_side})
       switches.make_room(*side);
   }
-  for (std::size_t i = 1; i < stage.size(); ++i) {
-    stage[i].resize(2 * n);
-    k[i] = stage[i].data();
-  }
+  for (std::size_t i = 1; i < k.size(); ++i) k[i] = stage(i).data();
   passage.remember(to.t, start.a);
   find_sine(to);
   if (!system->compliant()) return;
@@ -111,7 +110,7 @@ bool ErkStepper::State::close_to_singular(double step) const {
 }
 
 void ErkStepper::State::run_stage(std::size_t i, double t, bool onto_constraints) {
-  const auto [v, v_dot] = halves(stage[i]);
+  const auto [v, v_dot] = halves(stage(i));
   require(onto_constraints ? manifold.project(t, stage_q, v, v_dot)
                            : manifold.accelerate({t, stage_q, v}, v_dot));
 }
@@ -133,7 +132,7 @@ void ErkStepper::State::run_stages(const Node& start, double step, std::size_t l
   least = angles[0];
   rows_of_angles = start.rows;
   for (std::size_t i = 1; i <= last; ++i) {
-    a[i].move(step, k, start.q.data(), stage_q.data(), start.va.data(), stage[i].data(), n);
+    a[i].move(step, k, start.q.data(), stage_q.data(), start.va.data(), stage(i).data(), n);
     const double t = start.t + pair.c[i] * step;
     if (held != nullptr && &start == &to)
       listen_to_stage(i, t, onto_constraints);

@@ -41,8 +41,12 @@ struct ErkStepper::State {
   };
 
   /// Velocities and accelerations.
-  [[nodiscard]] std::pair<std::span<double>, std::span<double>> halves(std::vector<double>& x) const {
-    return {std::span(x).first(n), std::span(x).subspan(n)};
+  [[nodiscard]] std::pair<std::span<double>, std::span<double>> halves(std::span<double> x) const {
+    return {x.first(n), x.subspan(n)};
+  }
+  /// Stage i > 0: its velocities and accelerations.
+  [[nodiscard]] std::span<double> stage(std::size_t i) {
+    return std::span(stages_after_first).subspan((i - 1) * 2 * n, 2 * n);
   }
   static void require(bool regular);
   /// Stages 2 to `last` of a step from `start`: a stage's velocity is written where its derivative is kept.
@@ -120,7 +124,7 @@ struct ErkStepper::State {
   bool projected = false;  // the stages of the last attempt
   bool crossed = false;    // the last step passed a singular position
   Node next;               // where a step goes until it is accepted
-  std::array<std::vector<double>, stages> stage;
+  std::vector<double> stages_after_first;
   std::array<const double*, stages> k{};
   /// Stages 4, 5 and 9 at 0.16, 0.39 and 0.90 of the step, whose comparisons are noted.
   static constexpr std::array<std::size_t, 3> noted{3, 4, 8};

@@ -39,7 +39,7 @@ void ErkStepper::State::find_side_anew() {
 void ErkStepper::State::look(std::size_t i, double t) {
   if (!looks(i) || !switches.any()) return;
   manifold.multipliers(multipliers);
-  switches.find({t, stage_q, halves(stage[i]).first}, multipliers, stage_side);
+  switches.find({t, stage_q, halves(stage(i)).first}, multipliers, stage_side);
   if (switches.same(to.side, stage_side)) return;
   if (passed_switch && !switches.same(behind_side, stage_side)) passed_several = true;
   passed_switch = true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <sstream>
 
 namespace dalembert {
@@ -26,6 +27,13 @@ std::string CrossCheck::report() const {
 }
 
 namespace detail {
+
+std::vector<double> random_numbers(std::size_t count) {
+  std::mt19937 generator(1);
+  std::vector<double> x(count);
+  for (double& each : x) each = static_cast<double>(generator()) / 2147483648.0 - 1.0;
+  return x;
+}
 
 namespace {
 

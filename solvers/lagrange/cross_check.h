@@ -4,7 +4,7 @@
 #include <dalembert/solvers/integrator.h>
 #include <dalembert/solvers/lagrange/lagrangian_simulation.h>
 
-#include <random>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -65,25 +65,21 @@ class Comparison {
 };
 
 /// Numbers from -1 to 1, the same in every run and on every machine.
-template <int N>
-[[nodiscard]] Vec<N> random_numbers(std::mt19937& generator) {
-  Vec<N> x;
-  for (int k = 0; k < N; ++k) x[k] = static_cast<double>(generator()) / 2147483648.0 - 1.0;
-  return x;
-}
+[[nodiscard]] std::vector<double> random_numbers(std::size_t count);
 
 /// Compares both sides at states around the start: as far from it as the coordinates' scales, and at rates
 /// that move them so far in the motion's own time.
 template <int D, int N>
 void compare_random_states(const Scene<D>& scene, const LagrangianSystem<N>& system,
                            const Embedding<D, N>& embedding, double t, double time, Comparison& comparison) {
-  constexpr int states = 10;
-  std::mt19937 generator(1);
+  constexpr std::size_t states = 10;
+  const std::vector<double> numbers = random_numbers(2 * N * states);
   const System equations = scene.system();
   const Options begin{.t_end = t + time, .t_start = t, .assemble = true};
   std::vector<double> q(equations.coordinates()), v(q.size()), a(q.size()), Z(q.size());
-  for (int k = 0; k < states; ++k) {
-    Vec<N> x = random_numbers<N>(generator), rate = random_numbers<N>(generator) / time;
+  for (std::size_t k = 0; k < states; ++k) {
+    const double* const own = &numbers[2 * N * k];
+    Vec<N> x = Vec<N>::from(own), rate = Vec<N>::from(own + N) / time;
     x += system.position().cwiseQuotient(system.scale());
     try {
       const Integrator lagrangian(system.rotor_scene(t).system(), std::span(x.data(), N),

@@ -79,15 +79,13 @@ int LdlPattern::order_by_amd(std::vector<int>& order) const {
 }
 
 SparseLdl::SparseLdl(const LdlPattern& pattern)
-    : pattern_(&pattern),
-      value_(pattern.row_.size()),
-      l_value_(static_cast<std::size_t>(pattern.fill())),
-      pivot_(pattern.size()),
-      work_(pattern.size()),
-      l_row_(l_value_.size()),
-      l_count_(pattern.size()),
-      flag_(pattern.size()),
-      nonzeros_(pattern.size()) {}
+    : pattern_(&pattern), value_(pattern.row_.size()), pivot_(pattern.size()) {
+  if (pattern.size() <= 1) return;
+  l_value_.resize(static_cast<std::size_t>(pattern.fill()));
+  l_row_.resize(l_value_.size());
+  work_.resize(pattern.size());
+  for (auto* each : {&l_count_, &flag_, &nonzeros_}) each->resize(pattern.size());
+}
 
 bool SparseLdl::factorise() {
   if (pivot_.size() == 1) {  // a lone rod or surface: LDL would spend ten times as long on being called

@@ -58,7 +58,9 @@ class SparseLdl {
 
  private:
   const LdlPattern* pattern_;
-  std::vector<double> value_, l_value_, pivot_, work_;
+  std::vector<double> value_, pivot_;
+  // Of more than one row.
+  std::vector<double> l_value_, work_;
   std::vector<int> l_row_, l_count_, flag_, nonzeros_;  // the last two are work
   double smallest_pivot_ = 0.0;
 };

@@ -163,6 +163,12 @@ void Manifold::evaluate(const Instant& at) {
   ++evaluations_;
 }
 
+void Manifold::evaluate_with_bias(const Instant& at) {
+  system_->evaluate_with_bias(at, e_, gamma_);
+  add_springs();
+  ++evaluations_;
+}
+
 void Manifold::solve_for_position_step(std::size_t n) {
   std::fill_n(x_.begin(), n, 0.0);
   for (std::size_t r = 0; r < rows_.rows.size(); ++r) {
@@ -224,10 +230,9 @@ void Manifold::correct_velocities(std::span<double> v) {
   if (following_) add_to_springs(springs_.rate, 1.0, springs_.rate);
 }
 
-/// (3) and (4), with the matrix and the forces at hand.
+/// (3) and (4), with the matrix, the forces and gamma at hand.
 bool Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
   const std::size_t n = at.q.size();
-  system_->bias(at, gamma_);
   if (!solve_beside_springs(at, springs_.lambda)) return false;
   if (following_) {
     for (std::size_t k = 0; k < rows_.rows.size(); ++k)
@@ -271,7 +276,7 @@ void Manifold::multipliers(std::span<double> lambda) const {
 }
 
 bool Manifold::accelerate(const Instant& at, std::span<double> a) {
-  evaluate(at);
+  evaluate_with_bias(at);
   if (friction_ && !redundant_) {
     weigh_springs();
   } else if (!factorise()) {
@@ -290,7 +295,11 @@ bool Manifold::project(double t, std::span<double> q, std::span<double> v, std::
   }
   if (!factorise()) return false;
   correct_velocities(v);
-  if (!system_->damping_pattern().empty()) evaluate({t, q, v});
+  if (system_->damping_pattern().empty()) {
+    system_->bias({t, q, v}, gamma_);
+  } else {
+    evaluate_with_bias({t, q, v});
+  }
   return solve_for_accelerations({t, q, v}, a);
 }
 
@@ -298,9 +307,11 @@ bool Manifold::solve_motion(double t, std::span<const double> q, std::span<doubl
                             std::span<double> lambda) {
   evaluate({t, q, v});
   if (!factorise()) return false;
-  if (!rows_.rows.empty()) {
+  if (rows_.rows.empty()) {
+    system_->bias({t, q, v}, gamma_);
+  } else {
     correct_velocities(v);
-    evaluate({t, q, v});
+    evaluate_with_bias({t, q, v});
   }
   if (!solve_for_accelerations({t, q, v}, a)) return false;
   multipliers(lambda);

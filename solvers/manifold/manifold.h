@@ -126,6 +126,7 @@ class Manifold {
 
  private:
   void evaluate(const Instant& at);
+  void evaluate_with_bias(const Instant& at);
   [[nodiscard]] bool compliant(std::size_t row) const {
     return system_->in_force(row) && system_->law(row).compliant();
   }

@@ -240,8 +240,7 @@ std::vector<double> Recovery::stretches_to_come(const Moment& m) const {
   auto e = system_->evaluation();
   std::vector<double> gamma(m.lambda.size()), stretches(gamma);
   const Instant at{m.t, m.q, m.v};
-  system_->evaluate(at, e);
-  system_->bias(at, gamma);
+  system_->evaluate_with_bias(at, e, gamma);
   const double T = scales_.time;
   for (std::size_t r = 0; r < stretches.size(); ++r) {
     for (const std::size_t k : system_->row(r)) gamma[r] += e.w[k] * m.a[system_->w_columns()[k]];

@@ -17,8 +17,8 @@ double Scales::largest_rounding(std::span<const double> q) const {
 double Scales::rounding(std::span<const double> q) const { return 10.0 * largest_rounding(q); }
 
 std::vector<double> Scales::lengths() const {
-  std::vector<double> lengths;
-  for (const char angle : is_angle) lengths.push_back(angle ? length : 1.0);
+  std::vector<double> lengths(is_angle.size());
+  std::ranges::transform(is_angle, lengths.begin(), [&](char angle) { return angle ? length : 1.0; });
   return lengths;
 }
 

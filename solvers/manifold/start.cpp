@@ -61,11 +61,18 @@ void require_near_origin(const Scales& scales, std::span<const double> q) {
   throw InconsistentStart(what.str());
 }
 
-[[noreturn]] void refuse(const System& system, const Violation& violation, double t, const char* quantity,
-                         const char* remedy) {
+enum class Level { position, velocity };
+
+/// The residual as the equation is stated, besides its size as a distance or speed: what its author looks
+/// for.
+[[noreturn]] void refuse(const System& system, const Violation& violation, const System::Evaluation& e,
+                         Level level, double t, const char* quantity, const char* remedy) {
+  const bool of_position = level == Level::position;
+  const bool rate = !of_position && violation.row < system.holonomic_rows();
   std::ostringstream what;
   what << system.row_label(violation.row) << ' ' << quantity << ' ' << violation.size << " at t = " << t
-       << "; " << remedy;
+       << ", where " << (rate ? "the rate of its equation is " : "its equation gives ")
+       << (of_position ? e.g : e.psi)[violation.row] << "; " << remedy;
   throw InconsistentStart(what.str());
 }
 
@@ -112,12 +119,12 @@ double speed_of(const System& system, const System::Evaluation& e, const Start& 
 }
 
 /// After projection: what is left is a contradiction.
-void require_satisfied(const System& system, const Violation& left, double bound, double t,
-                       const char* what) {
+void require_satisfied(const System& system, const Violation& left, const System::Evaluation& e, Level level,
+                       double bound, double t, const char* what) {
   if (left.size <= bound) return;
   const std::string quantity =
       std::string("cannot be satisfied together with the other constraints: remaining ") + what;
-  refuse(system, left, t, quantity.c_str(),
+  refuse(system, left, e, level, t, quantity.c_str(),
          "check lengths and fixed points, or start closer to the intended configuration");
 }
 
@@ -129,22 +136,23 @@ void start_positions(const Problem& problem, Start& start, const System::Evaluat
   const double bound = rounding_of_the_user * L + start.scales.rounding(start.q);
   const Violation given = position_violation(system, e, lengths);
   if (given.size > bound && !options.assemble) {
-    refuse(system, given, options.t_start, "is violated by the initial positions: distance",
+    refuse(system, given, e, Level::position, options.t_start,
+           "is violated by the initial positions: distance",
            "correct the positions, or set the option assemble to have them moved");
   }
   // Rows are told apart only as well as the given state is known: rows that depend on each other on
   // the constraints do so only roughly nearby, and must not be solved against each other.
   const double known = std::max(rank_threshold, std::min(10.0 * given.size / L, 1e-3));
   Manifold manifold(problem, independent_rows(system, e.w, known), lengths);
-  require_satisfied(system, manifold.project_positions(options.t_start, start.q, start.v, converged_to * L),
-                    bound, options.t_start, "distance");
+  const Violation left = manifold.project_positions(options.t_start, start.q, start.v, converged_to * L);
+  require_satisfied(system, left, manifold.equations(), Level::position, bound, options.t_start, "distance");
 }
 
 void start_velocities(const System& system, const Start& start, const System::Evaluation& e,
                       const Options& options) {
   const Violation given = velocity_violation(system, e, start.scales.lengths());
   if (given.size > rounding_of_the_user * speed_of(system, e, start) && !options.assemble) {
-    refuse(system, given, options.t_start, "is violated by the initial velocities: speed",
+    refuse(system, given, e, Level::velocity, options.t_start, "is violated by the initial velocities: speed",
            "correct the velocities, or set the option assemble to have them changed");
   }
 }
@@ -200,8 +208,8 @@ Start consistent_start(const Problem& problem, std::span<const double> q, std::s
       std::ranges::fill(start.v, 0.0);  // the constraints took away all but round-off of what was given
       violation = left();
     }
-    require_satisfied(system, violation, rounding_of_the_user * speed_of(system, manifold.equations(), start),
-                      t, "speed");
+    require_satisfied(system, violation, manifold.equations(), Level::velocity,
+                      rounding_of_the_user * speed_of(system, manifold.equations(), start), t, "speed");
     require_regular(problem, start, t);
     require_consistent_accelerations(system, manifold, start, v, t);
     start.scales.time = time_scale(system, manifold.equations(), start, duration);

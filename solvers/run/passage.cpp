@@ -65,14 +65,14 @@ Polynomial lagrange(std::span<const double> x, std::size_t node) {
 
 }  // namespace
 
-Passage::Passage(std::size_t n) : past_(kept) {
-  for (Past& node : past_) node.a.resize(n);
+Passage::Passage(std::size_t n) : accelerations_(kept * n), past_(kept) {
+  for (std::size_t i = 0; i < past_.size(); ++i) past_[i].a = accelerations_.data() + i * n;
 }
 
 void Passage::remember(double t, std::span<const double> a) {
   std::rotate(past_.begin(), past_.end() - 1, past_.end());  // clang 14 has no std::ranges::rotate
   past_.front().t = t;
-  std::ranges::copy(a, past_.front().a.begin());
+  std::ranges::copy(a, past_.front().a);
   known_ = std::min(known_ + 1, past_.size() - 1);  // one more is there for those chosen before
   for (std::size_t& i : chosen_) ++i;
 }

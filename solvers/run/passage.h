@@ -22,6 +22,8 @@ class Passage {
   static constexpr std::size_t most_nodes = 7;
 
   explicit Passage(std::size_t n);
+  Passage(const Passage&) = delete;
+  Passage& operator=(const Passage&) = delete;
 
   /// After each step, and before the first: the accelerations at t.
   void remember(double t, std::span<const double> a);
@@ -55,8 +57,9 @@ class Passage {
 
   struct Past {
     double t = 0.0;
-    std::vector<double> a;
+    double* a = nullptr;
   };
+  std::vector<double> accelerations_;
   std::vector<Past> past_;  // the last one first
   std::size_t known_ = 0;
   std::array<std::size_t, most_nodes> chosen_{};

@@ -2,6 +2,7 @@
 #include "newton_euler.h"
 #include <dalembert/dalembert.h>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <cmath>

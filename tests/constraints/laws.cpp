@@ -2,6 +2,7 @@
 
 #include "../equations.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <limits>

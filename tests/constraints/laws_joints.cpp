@@ -1,6 +1,7 @@
 #include "laws_joints.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -46,5 +46,43 @@ TEST(FailedCopies, OfAnElementLeaveNoTrace) {
   EXPECT_EQ(e.force, (std::vector<double>{1.0, 0.0, 2.0, 0.0}));
 }
 
+/// A parameter of which a copy to come fails.
+struct Late {
+  std::shared_ptr<int> copies;
+
+  explicit Late(std::shared_ptr<int> its) : copies(std::move(its)) {}
+  Late(const Late& other) : copies(other.copies) {
+    if (--*copies == 0) throw std::runtime_error("cannot be copied");
+  }
+  Late& operator=(const Late&) = delete;
+  ~Late() = default;
+};
+
+TEST(FailedCopies, WhicheverItIsLeavesNoTrace) {
+  for (int good = 1;; ++good) {
+    const auto copies = std::make_shared<int>(0);
+    Scene<2> scene;
+    const auto a = scene.add_particle({.mass = 1.0}, "a");
+    const auto pull = [late = Late(copies)](auto, auto) { return Vec<2>{1.0, 0.0}; };
+    scene.add(force_law(points(a), pull));
+    *copies = good;
+    bool failed = false;
+    try {
+      scene.add(force_law(points(a), pull));
+    } catch (const std::runtime_error&) {
+      failed = true;
+    }
+    *copies = 0;
+    const System system = scene.system();
+    auto e = system.evaluation();
+    system.evaluate({0.0, scene.initial_positions(), scene.initial_velocities()}, e);
+    EXPECT_EQ(e.force[0], failed ? 1.0 : 2.0) << good;
+    if (!failed) {
+      EXPECT_GT(good, 2);  // one to state it, one at least to keep it
+      break;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::failed_copies_test

@@ -57,11 +57,11 @@ TEST(Driven, VelocityAndAccelerationAreDerivativesOfThePath) {
   const Vec<2> v = detail::driven_velocity<double>(point, t);
   EXPECT_DOUBLE_EQ(v.x(), 2.0 * std::cos(2.0 * t));
   EXPECT_DOUBLE_EQ(v.y(), 3.0 * t * t);
-  using S = Dual<1, 1>;
-  const auto with_rate = detail::driven_velocity<S>(point, S::input(t, 0));
+  using S = Jet<1>;
+  const auto with_rate = detail::driven_velocity<S>(point, S::input(t, 0, 1.0));
   EXPECT_DOUBLE_EQ(with_rate.x().value, v.x());
-  EXPECT_DOUBLE_EQ(with_rate.x().gradient[0], -4.0 * std::sin(2.0 * t));
-  EXPECT_DOUBLE_EQ(with_rate.y().gradient[0], 6.0 * t);
+  EXPECT_DOUBLE_EQ(with_rate.x().s, -4.0 * std::sin(2.0 * t));
+  EXPECT_DOUBLE_EQ(with_rate.y().s, 6.0 * t);
 }
 
 TEST(Driven, APointThatStandsStillHasNoVelocity) {

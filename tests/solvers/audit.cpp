@@ -432,13 +432,13 @@ TEST(Audit, ReadsDenseOutputByWhatTheSceneStatedThen) {
   }
 }
 
-/// A potential that says V = x to who asks for its gradient, and V = 0 to who asks for its value.
+/// A potential of value 0 with the gradient of V = x.
 TEST(Audit, StopsARunByNameAndKeepsTheSamplesBefore) {
   Scene<2> scene("liar");
   const auto p = scene.add_particle({.mass = 1.0});
   scene.add(potential(points(p), [](auto r) {
     using S = std::remove_cvref_t<decltype(r.x())>;
-    return std::is_same_v<S, double> ? S(0.0) : S(r.x());
+    return S::with_value(r.x(), 0.0);
   }));
   const Options options{.t_end = 1.0, .samples = 11, .tolerance = tolerance, .length = 1.0};
   try {

@@ -1,6 +1,6 @@
 #include "../both_steppers.h"
 #include <dalembert/core/autodiff/branches.h>
-#include <dalembert/core/autodiff/dual.h>
+#include <dalembert/core/autodiff/functions.h>
 #include <dalembert/dalembert.h>
 
 #include <gmock/gmock.h>
@@ -30,7 +30,7 @@ std::vector<int> sides(const F& f, const Branches::Sides* held = nullptr) {
 }
 
 TEST(Branches, TellTheSidesOfAKinkApartAndItsEdge) {
-  using S = Dual<1, 1>;
+  using S = Jet<1>;
   const auto outcome = [](double x) { return sides([x] { (void)abs(S::input(x, 0)); }); };
   EXPECT_EQ(outcome(2.0), outcome(1.0));
   EXPECT_EQ(outcome(-2.0), outcome(-1.0));
@@ -39,7 +39,7 @@ TEST(Branches, TellTheSidesOfAKinkApartAndItsEdge) {
 }
 
 TEST(Branches, ThatAreHeldGoOnBeyondTheirEnd) {
-  using S = Dual<1, 1>;
+  using S = Jet<1>;
   Branches::Sides held;
   {
     const Branches listening(&held, nullptr);
@@ -57,8 +57,8 @@ TEST(Branches, ThatAreHeldGoOnBeyondTheirEnd) {
 }
 
 TEST(Branches, AreHeardOnlyWhileSomebodyListens) {
-  EXPECT_EQ(sides([] { EXPECT_FALSE((Dual<1, 1>(1.0) < 0.0)); }).size(), 1U);
-  EXPECT_TRUE((Dual<1, 1>(1.0) > 0.0));
+  EXPECT_EQ(sides([] { EXPECT_FALSE((Jet<1>(1.0) < 0.0)); }).size(), 1U);
+  EXPECT_TRUE((Jet<1>(1.0) > 0.0));
 }
 
 Options explicitly(double t_end, double tolerance) {

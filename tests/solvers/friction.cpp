@@ -1,6 +1,7 @@
 #include "../both_steppers.h"
 #include <dalembert/dalembert.h>
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -34,6 +34,17 @@ TEST(Start, APositionOffAConstraintIsAnError) {
                                              HasSubstr("distance 0.25"), HasSubstr("assemble"))));
 }
 
+TEST(Start, WhatIsWrongIsSaidAlsoAsTheEquationHasIt) {
+  Scene<2> scene;
+  const auto a = scene.add_particle({.mass = 1.0}),
+             b = scene.add_particle({.mass = 1.0, .position = {6.0, 0.0}});
+  scene.add(Distance{a, b, 600.0}, "rope");  // each end is as near to it as 594 m over the root of 2
+  EXPECT_THAT(
+      [&] { (void)simulate(scene, {.t_end = 1.0}); },
+      ThrowsMessage<InconsistentStart>(AllOf(HasSubstr("Distance \"rope\""), HasSubstr("distance 420.02"),
+                                             HasSubstr("its equation gives -594"))));
+}
+
 TEST(Start, AVelocityAgainstAConstraintIsAnError) {
   Scene<2> scene;
   const auto bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}, .velocity = {0.5, 1.0}});

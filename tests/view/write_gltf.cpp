@@ -2,6 +2,7 @@
 #include <dalembert/view/write_gltf.h>
 
 #define BOOST_BIND_GLOBAL_PLACEHOLDERS  // which Boost 1.74 asks for
+#include <Eigen/Geometry>
 #include <boost/property_tree/json_parser.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,6 +4,7 @@
 #include <dalembert/view/write_html.h>
 
 #define BOOST_BIND_GLOBAL_PLACEHOLDERS  // which Boost 1.74 asks for
+#include <Eigen/Geometry>
 #include <boost/property_tree/json_parser.hpp>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
-#include "dalembert/core/autodiff/dual.h"
-
 #include "../finite_differences.h"
+#include "dalembert/core/autodiff/functions.h"
 #include <dalembert/core/vec.h>
 
 #include <Eigen/Geometry>
@@ -9,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace dalembert::dual_test {
+namespace dalembert::derivatives_test {
 namespace {
 
 using std::abs, std::acos, std::acosh, std::asin, std::asinh, std::atan, std::atan2, std::atanh, std::cbrt,
@@ -21,49 +20,70 @@ using std::abs, std::acos, std::acosh, std::asin, std::asinh, std::atan, std::at
 /// A function of k variables as the library sees it.
 template <int k>
 struct Function {
-  using S = Dual<k, 2>;
-  using First = Dual<k, 1>;
   template <class T>
   using Arguments = VecOf<T, k>;
 
   std::string name;
   Arguments<double> x;
   double (*number)(const Arguments<double>&);
-  S (*dual)(const Arguments<S>&);
-  First (*first)(const Arguments<First>&);
+  Dual<k> (*dual)(const Arguments<Dual<k>>&);
+  Jet<k> (*jet)(const Arguments<Jet<k>>&);
+  HyperDual<k> (*tangent)(const Arguments<HyperDual<k>>&);
 
   template <class F>
   Function(std::string n, const Arguments<double>& at, F f)
-      : name(std::move(n)), x(at), number(f), dual(f), first(f) {}
+      : name(std::move(n)), x(at), number(f), dual(f), jet(f), tangent(f) {}
 };
 
+/// Along s the inputs change at some rates, along the second of two at minus half of these.
 template <class S, int k>
-VecOf<S, k> inputs(const VecOf<double, k>& x) {
+VecOf<S, k> inputs(const VecOf<double, k>& x, const VecOf<double, k>& rates) {
   VecOf<S, k> r;
-  for (int i = 0; i < k; ++i) r[i] = S::input(x[i], i);
+  for (int i = 0; i < k; ++i) {
+    if constexpr (S::along == 0) r[i] = S::input(x[i], i);
+    if constexpr (S::along == 1) r[i] = S::input(x[i], i, rates[i]);
+    if constexpr (S::along == 2) r[i] = S::input(x[i], i, typename S::Both{rates[i], -0.5 * rates[i]});
+  }
   return r;
 }
 
-/// Value against the same formula in numbers, gradient against differences of the value, Hessian
-/// against differences of the gradient.
+Eigen::VectorXd one(double x) { return Eigen::VectorXd::Constant(1, x); }
+template <int k>
+Eigen::VectorXd numbers(const detail::Lanes<k>& x) {
+  Eigen::VectorXd all(k);
+  for (int i = 0; i < k; ++i) all[i] = x[i];
+  return all;
+}
+
+/// Value against the same formula in numbers, gradients against differences of the value, second derivatives
+/// against differences of the first, along the axes and along a motion.
 template <int k>
 void expect_derivatives(const Function<k>& f) {
-  using S = typename Function<k>::S;
-  const S y = f.dual(inputs<S, k>(f.x));
+  VecOf<double, k> v;
+  for (int i = 0; i < k; ++i) v[i] = 0.3 + 0.2 * i;
+  const auto jet = [&](double s) { return f.jet(inputs<Jet<k>>(VecOf<double, k>(f.x + s * v), v)); };
+  const auto tangent = [&](const VecOf<double, k>& x, const VecOf<double, k>& along) {
+    return f.tangent(inputs<HyperDual<k>>(x, along));
+  };
+  const Jet<k> y = jet(0.0);
+  const HyperDual<k> y_t = tangent(f.x, v);
   EXPECT_DOUBLE_EQ(y.value, f.number(f.x)) << f.name;
-  const auto first = f.first(inputs<Dual<k, 1>, k>(f.x));
-  EXPECT_EQ(first.value, y.value) << f.name;
-  EXPECT_EQ(first.gradient, y.gradient) << f.name;
+  EXPECT_EQ(y_t.value, y.value) << f.name;
+  EXPECT_DOUBLE_EQ(y_t.s[0], y.s) << f.name;
+  EXPECT_DOUBLE_EQ(y_t.s[1], -0.5 * y.s) << f.name;
+  const Dual<k> y_z = f.dual(inputs<Dual<k>>(f.x, v));
+  EXPECT_EQ(y_z.value, y.value) << f.name;
+  expect_slope(slope([&](double s) { return one(jet(s).value); }), one(y.s), f.name + ": along the motion");
+  expect_slope(slope([&](double s) { return one(jet(s).s); }), one(y.ss), f.name + ": twice");
   for (int j = 0; j < k; ++j) {
-    const auto at = [&](double s) {
-      VecOf<double, k> x = f.x;
-      x[j] += s;
-      return x;
-    };
-    expect_slope(slope([&](double s) { return Eigen::VectorXd::Constant(1, f.number(at(s))); }),
-                 Eigen::VectorXd::Constant(1, y.gradient[j]), f.name + ": gradient");
-    expect_slope(slope([&](double s) { return Eigen::VectorXd(f.dual(inputs<S, k>(at(s))).gradient); }),
-                 y.hessian.col(j), f.name + ": Hessian");
+    const auto unit = VecOf<double, k>::Unit(j);
+    const auto at = [&](double s) { return VecOf<double, k>(f.x + s * unit); };
+    EXPECT_EQ(y_t.z[j], y.z[j]) << f.name;
+    EXPECT_EQ(y_z.z[j], y.z[j]) << f.name;
+    EXPECT_DOUBLE_EQ(y_t.zs[1][j], -0.5 * y_t.zs[0][j]) << f.name;
+    expect_slope(slope([&](double s) { return one(f.number(at(s))); }), one(y.z[j]), f.name + ": gradient");
+    expect_slope(slope([&](double s) { return numbers(tangent(at(s), v).z); }),
+                 numbers(tangent(f.x, unit).zs[0]), f.name + ": second derivatives");
   }
 }
 
@@ -73,7 +93,7 @@ auto inner(const auto& r) { return r[0] * r[1] + 0.1 * r[0] * r[0]; }
 /// Where inner() is u.
 Vec<2> where(double u) { return {1.0, u - 0.1}; }
 
-TEST(Dual, EveryFunctionOfOneArgumentHasItsDerivatives) {
+TEST(Derivatives, EveryFunctionOfOneArgumentHasItsDerivatives) {
   const std::vector<Function<2>> functions{
       {"sqrt", where(0.7), [](const auto& r) { return sqrt(inner(r)); }},
       {"exp", where(0.7), [](const auto& r) { return exp(inner(r)); }},
@@ -124,7 +144,7 @@ TEST(Dual, EveryFunctionOfOneArgumentHasItsDerivatives) {
   for (const auto& f : functions) expect_derivatives(f);
 }
 
-TEST(Dual, EveryFunctionOfTwoArgumentsHasItsDerivatives) {
+TEST(Derivatives, EveryFunctionOfTwoArgumentsHasItsDerivatives) {
   const Vec<2> at{0.7, 0.4};
   const std::vector<Function<2>> functions{
       {"sum", at, [](const auto& r) { return sin(r[0]) + sin(r[1]); }},
@@ -166,7 +186,7 @@ TEST(Dual, EveryFunctionOfTwoArgumentsHasItsDerivatives) {
   for (const auto& f : functions) expect_derivatives(f);
 }
 
-TEST(Dual, VectorAlgebraOfEigenHasItsDerivatives) {
+TEST(Derivatives, OfVectorAlgebraAreThoseOfItsFormulas) {
   using Six = VecOf<double, 6>;
   const Six at{0.3, -0.7, 1.1, 0.9, 0.2, -0.5};
   const std::vector<Function<6>> functions{
@@ -193,22 +213,23 @@ TEST(Dual, VectorAlgebraOfEigenHasItsDerivatives) {
   for (const auto& f : functions) expect_derivatives(f);
 }
 
-TEST(Dual, AutoTypedPartsOfAFormulaOutliveTheirExpression) {
-  using S = Dual<2, 2>;
-  const S x = S::input(3.0, 0);
+TEST(Derivatives, AutoTypedPartsOfAFormulaOutliveTheirExpression) {
+  using S = HyperDual<2>;
+  const S x = S::input(3.0, 0, S::Both{1.0, 0.0});
   const S y = S::input(4.0, 1);
   auto s = x * y + 1.0;  // with expression templates: a reference to the dead x * y
   auto r = s * s - 2.0 * (x + y);
   EXPECT_EQ(r.value, 13.0 * 13.0 - 14.0);
-  EXPECT_EQ(r.gradient, Vec<2>(2.0 * 13.0 * 4.0 - 2.0, 2.0 * 13.0 * 3.0 - 2.0));
-  EXPECT_EQ(r.hessian(0, 1), 2.0 * 13.0 + 2.0 * 3.0 * 4.0);
+  EXPECT_EQ(r.z[0], 2.0 * 13.0 * 4.0 - 2.0);
+  EXPECT_EQ(r.z[1], 2.0 * 13.0 * 3.0 - 2.0);
+  EXPECT_EQ(r.zs[0][1], 2.0 * 13.0 + 2.0 * 3.0 * 4.0);
 }
 
-TEST(Dual, PowersAtZeroHaveTheirLimits) {
-  using S = Dual<1, 2>;
-  const S zero = S::input(0.0, 0);
+TEST(Derivatives, OfPowersAtZeroHaveTheirLimits) {
+  using S = Jet<1>;
+  const S zero = S::input(0.0, 0, 1.0);
   const auto is = [](const S& f, double value, double slope, double curvature) {
-    return f.value == value && f.gradient[0] == slope && f.hessian(0, 0) == curvature;
+    return f.value == value && f.z[0] == slope && f.s == slope && f.ss == curvature;
   };
   EXPECT_TRUE(is(pow(zero, 0.0), 1.0, 0.0, 0.0));
   EXPECT_TRUE(is(pow(zero, 1.0), 0.0, 1.0, 0.0));
@@ -216,8 +237,8 @@ TEST(Dual, PowersAtZeroHaveTheirLimits) {
   EXPECT_TRUE(is(pow(zero, 3.0), 0.0, 0.0, 0.0));
 }
 
-TEST(Dual, SignedZerosAndTiesGoAsInStd) {
-  using S = Dual<1, 1>;
+TEST(Derivatives, SignedZerosAndTiesGoAsInStd) {
+  using S = Jet<1>;
   EXPECT_EQ(copysign(S(2.0), S(-0.0)).value, std::copysign(2.0, -0.0));
   EXPECT_EQ(copysign(S(2.0), S(0.0)).value, 2.0);
   // What is not a number is never lost.
@@ -228,14 +249,14 @@ TEST(Dual, SignedZerosAndTiesGoAsInStd) {
                          dalembert::min(none.value, 0.0), dalembert::min(0.0, none.value)})
     EXPECT_TRUE(std::isnan(m));
   // std::max and std::min return their first argument where both are equal.
-  EXPECT_EQ(max(S::input(1.0, 0), S(1.0)).gradient[0], 1.0);
-  EXPECT_EQ(max(S(1.0), S::input(1.0, 0)).gradient[0], 0.0);
-  EXPECT_EQ(min(S::input(1.0, 0), S(1.0)).gradient[0], 1.0);
-  EXPECT_EQ(min(S(1.0), S::input(1.0, 0)).gradient[0], 0.0);
+  EXPECT_EQ(max(S::input(1.0, 0), S(1.0)).z[0], 1.0);
+  EXPECT_EQ(max(S(1.0), S::input(1.0, 0)).z[0], 0.0);
+  EXPECT_EQ(min(S::input(1.0, 0), S(1.0)).z[0], 1.0);
+  EXPECT_EQ(min(S(1.0), S::input(1.0, 0)).z[0], 0.0);
 }
 
-TEST(Dual, EveryKinkAndJumpIsHeard) {
-  using S = Dual<1, 1>;
+TEST(Derivatives, ReportEveryKinkAndJump) {
+  using S = Jet<1>;
   const auto heard = [](double x, auto f) {
     Branches::Sides heard;
     const Branches listen(&heard, nullptr);
@@ -261,8 +282,8 @@ TEST(Dual, EveryKinkAndJumpIsHeard) {
   EXPECT_EQ(heard(0.9, [](const S& x) { return exp(x); }), heard(1.1, [](const S& x) { return exp(x); }));
 }
 
-TEST(Dual, ASingularDerivativeIsNotFinite) {
-  using S = Dual<1, 2>;
+TEST(Derivatives, ThatAreSingularAreNotFinite) {
+  using S = Jet<1>;
   EXPECT_FALSE(isfinite(sqrt(S::input(0.0, 0))));
   EXPECT_FALSE(isfinite(log(S::input(0.0, 0))));
   EXPECT_FALSE(isfinite(cbrt(S::input(0.0, 0))));
@@ -274,23 +295,23 @@ TEST(Dual, ASingularDerivativeIsNotFinite) {
   EXPECT_TRUE(isfinite(abs(S::input(0.0, 0))));
 }
 
-TEST(Dual, ComparesByValue) {
-  using S = Dual<1, 1>;
+TEST(Derivatives, DoNotEnterComparisons) {
+  using S = Jet<1>;
   const S two = S::input(2.0, 0);
   EXPECT_TRUE(two == S(2.0));
   EXPECT_TRUE(two == 2.0);
   EXPECT_TRUE(1.0 < two && two < 3.0 && two <= S(2.0) && two > S(1.0));
-  EXPECT_EQ(std::max(S(1.0), two).gradient[0], 1.0);
+  EXPECT_EQ(std::max(S(1.0), two).z[0], 1.0);
 }
 
-TEST(Dual, AVectorMixesNumbersAndDuals) {
-  using S = Dual<1, 1>;
+TEST(Derivatives, AreMixedWithNumbersInAVector) {
+  using S = Jet<1>;
   const auto r = vec(S::input(2.0, 0), 3.0, 4);
   static_assert(std::is_same_v<decltype(r), const VecOf<S, 3>>);
-  EXPECT_EQ(r[0].gradient[0], 1.0);
+  EXPECT_EQ(r[0].z[0], 1.0);
   EXPECT_EQ(r[1].value, 3.0);
   EXPECT_EQ(r[2].value, 4.0);
 }
 
 }  // namespace
-}  // namespace dalembert::dual_test
+}  // namespace dalembert::derivatives_test
