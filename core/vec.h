@@ -51,7 +51,7 @@ concept ColumnOfEigen = OfEigen<E> &&(E::RowsAtCompileTime == N && E::ColsAtComp
 /// A column of N numbers of type S: positions, velocities and forces, and what a constraint's equation
 /// computes with, S being `double` or a number that carries derivatives. It is one of Eigen's, so that all of
 /// Eigen takes it; but sums, products and what else equations consist of are vectors, loops over components:
-/// Eigen's expressions refer to what may be gone, and cost a compiler five times as much for every equation.
+/// Eigen's expressions refer to what may be gone, and cost a compiler much more for every equation.
 template <class S, int N>
 struct VecOf : Eigen::Matrix<S, N, 1> {
   static_assert(N > 0);
@@ -69,192 +69,192 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
   }
   VecOf(const Base& of_eigen) : Base(of_eigen) {}  // NOLINT(google-explicit-constructor)
   template <class E>
-    requires std::convertible_to<typename E::Scalar, S> VecOf(const Eigen::MatrixBase<E>& of_eigen)
-        : Base(of_eigen) {}  // NOLINT(google-explicit-constructor)
-    /// @}
+    requires(std::convertible_to<typename E::Scalar, S>)
+  VecOf(const Eigen::MatrixBase<E>& of_eigen) : Base(of_eigen) {}  // NOLINT(google-explicit-constructor)
+  /// @}
 
-    /// @{
-    /// A component, not checked; of a vector that is about to go by value.
-    DALEMBERT_INLINE S& operator[](Eigen::Index i) & { return at(i); }
-    DALEMBERT_INLINE const S& operator[](Eigen::Index i) const& { return at(i); }
-    DALEMBERT_INLINE S operator[](Eigen::Index i) && { return at(i); }
-    DALEMBERT_INLINE S& operator()(Eigen::Index i) & { return at(i); }
-    DALEMBERT_INLINE const S& operator()(Eigen::Index i) const& { return at(i); }
-    DALEMBERT_INLINE S operator()(Eigen::Index i) && { return at(i); }
-    DALEMBERT_INLINE S& x() & { return at(0); }
-    DALEMBERT_INLINE const S& x() const& { return at(0); }
-    DALEMBERT_INLINE S x() && { return at(0); }
-    DALEMBERT_INLINE S& y() & requires(N > 1) { return at(1); }
-    DALEMBERT_INLINE const S& y() const& requires(N > 1) { return at(1); }
-    DALEMBERT_INLINE S y() && requires(N > 1) { return at(1); }
-    DALEMBERT_INLINE S& z() & requires(N > 2) { return at(2); }
-    DALEMBERT_INLINE const S& z() const& requires(N > 2) { return at(2); }
-    DALEMBERT_INLINE S z() && requires(N > 2) { return at(2); }
-    /// @}
+  /// @{
+  /// A component, not checked; of a vector that is about to go by value.
+  DALEMBERT_INLINE S& operator[](Eigen::Index i) & { return at(i); }
+  DALEMBERT_INLINE const S& operator[](Eigen::Index i) const& { return at(i); }
+  DALEMBERT_INLINE S operator[](Eigen::Index i) && { return at(i); }
+  DALEMBERT_INLINE S& operator()(Eigen::Index i) & { return at(i); }
+  DALEMBERT_INLINE const S& operator()(Eigen::Index i) const& { return at(i); }
+  DALEMBERT_INLINE S operator()(Eigen::Index i) && { return at(i); }
+  DALEMBERT_INLINE S& x() & { return at(0); }
+  DALEMBERT_INLINE const S& x() const& { return at(0); }
+  DALEMBERT_INLINE S x() && { return at(0); }
+  DALEMBERT_INLINE S& y() & requires(N > 1) { return at(1); }
+  DALEMBERT_INLINE const S& y() const& requires(N > 1) { return at(1); }
+  DALEMBERT_INLINE S y() && requires(N > 1) { return at(1); }
+  DALEMBERT_INLINE S& z() & requires(N > 2) { return at(2); }
+  DALEMBERT_INLINE const S& z() const& requires(N > 2) { return at(2); }
+  DALEMBERT_INLINE S z() && requires(N > 2) { return at(2); }
+  /// @}
 
-    /// @{
-    /// Some of the components: a place to write to, or else by value, so that of a sum they may be kept.
-    template <int M>
-    [[nodiscard]] auto head() & {
-      return Base::template head<M>();
-    }
-    template <int M>
-    [[nodiscard]] VecOf<S, M> head() const& {
-      return VecOf<S, M>::from(this->data());
-    }
-    template <int M>
-    [[nodiscard]] auto tail() & {
-      return Base::template tail<M>();
-    }
-    template <int M>
-    [[nodiscard]] VecOf<S, M> tail() const& {
-      return VecOf<S, M>::from(this->data() + N - M);
-    }
-    template <int M>
-    [[nodiscard]] auto segment(Eigen::Index first) & {
-      return Base::template segment<M>(first);
-    }
-    template <int M>
-    [[nodiscard]] VecOf<S, M> segment(Eigen::Index first) const& {
-      return VecOf<S, M>::from(this->data() + first);
-    }
-    /// @}
-    /// @{
-    /// As a row; of a vector that is about to go by value.
-    [[nodiscard]] auto transpose() & { return Base::transpose(); }
-    [[nodiscard]] auto transpose() const& { return Base::transpose(); }
-    [[nodiscard]] Eigen::Matrix<S, 1, N> transpose() && { return Base::transpose(); }
-    /// @}
-    /// @{
-    /// Component by component.
-    template <class E>
-    [[nodiscard]] auto cwiseProduct(const E& b) const {
-      VecOf<std::remove_cvref_t<decltype(at(0) * b[0])>, N> r;
-      DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r[i] = at(i) * b[i];
-      return r;
-    }
-    template <class E>
-    [[nodiscard]] auto cwiseQuotient(const E& b) const {
-      VecOf<std::remove_cvref_t<decltype(at(0) / b[0])>, N> r;
-      DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r[i] = at(i) / b[i];
-      return r;
-    }
-    [[nodiscard]] VecOf cwiseAbs() const {
-      using std::abs;
-      VecOf r;
-      DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.at(i) = abs(at(i));
-      return r;
-    }
-    /// @}
-    /// Itself: equations may be written for Eigen's expressions, too.
-    [[nodiscard]] DALEMBERT_INLINE VecOf eval() const { return *this; }
+  /// @{
+  /// Some of the components: a place to write to, or else by value, so that of a sum they may be kept.
+  template <int M>
+  [[nodiscard]] auto head() & {
+    return Base::template head<M>();
+  }
+  template <int M>
+  [[nodiscard]] VecOf<S, M> head() const& {
+    return VecOf<S, M>::from(this->data());
+  }
+  template <int M>
+  [[nodiscard]] auto tail() & {
+    return Base::template tail<M>();
+  }
+  template <int M>
+  [[nodiscard]] VecOf<S, M> tail() const& {
+    return VecOf<S, M>::from(this->data() + N - M);
+  }
+  template <int M>
+  [[nodiscard]] auto segment(Eigen::Index first) & {
+    return Base::template segment<M>(first);
+  }
+  template <int M>
+  [[nodiscard]] VecOf<S, M> segment(Eigen::Index first) const& {
+    return VecOf<S, M>::from(this->data() + first);
+  }
+  /// @}
+  /// @{
+  /// As a row; of a vector that is about to go by value.
+  [[nodiscard]] auto transpose() & { return Base::transpose(); }
+  [[nodiscard]] auto transpose() const& { return Base::transpose(); }
+  [[nodiscard]] Eigen::Matrix<S, 1, N> transpose() && { return Base::transpose(); }
+  /// @}
+  /// @{
+  /// Component by component.
+  template <class E>
+  [[nodiscard]] auto cwiseProduct(const E& b) const {
+    VecOf<std::remove_cvref_t<decltype(at(0) * b[0])>, N> r;
+    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r[i] = at(i) * b[i];
+    return r;
+  }
+  template <class E>
+  [[nodiscard]] auto cwiseQuotient(const E& b) const {
+    VecOf<std::remove_cvref_t<decltype(at(0) / b[0])>, N> r;
+    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r[i] = at(i) / b[i];
+    return r;
+  }
+  [[nodiscard]] VecOf cwiseAbs() const {
+    using std::abs;
+    VecOf r;
+    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.at(i) = abs(at(i));
+    return r;
+  }
+  /// @}
+  /// Itself: equations may be written for Eigen's expressions, too.
+  [[nodiscard]] DALEMBERT_INLINE VecOf eval() const { return *this; }
 
-    /// The N numbers from a place in memory on.
-    [[nodiscard]] DALEMBERT_INLINE static VecOf from(const S* x) {
-      VecOf r;
-      DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.at(i) = x[i];
-      return r;
-    }
-    /// @{
-    /// As those of Eigen.
-    [[nodiscard]] static VecOf Constant(const S& s) {
-      VecOf r;
-      DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.at(i) = s;
-      return r;
-    }
-    [[nodiscard]] static VecOf Zero() { return Constant(S(0.0)); }
-    [[nodiscard]] static VecOf Ones() { return Constant(S(1.0)); }
-    [[nodiscard]] static VecOf Unit(Eigen::Index k) {
-      VecOf r = Zero();
-      r.at(k) = S(1.0);
-      return r;
-    }
-    [[nodiscard]] static VecOf UnitX() { return Unit(0); }
-    [[nodiscard]] static VecOf UnitY() requires(N > 1) { return Unit(1); }
-    [[nodiscard]] static VecOf UnitZ() requires(N > 2) { return Unit(2); }
-    /// @}
+  /// The N numbers from a place in memory on.
+  [[nodiscard]] DALEMBERT_INLINE static VecOf from(const S* x) {
+    VecOf r;
+    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.at(i) = x[i];
+    return r;
+  }
+  /// @{
+  /// As those of Eigen.
+  [[nodiscard]] static VecOf Constant(const S& s) {
+    VecOf r;
+    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.at(i) = s;
+    return r;
+  }
+  [[nodiscard]] static VecOf Zero() { return Constant(S(0.0)); }
+  [[nodiscard]] static VecOf Ones() { return Constant(S(1.0)); }
+  [[nodiscard]] static VecOf Unit(Eigen::Index k) {
+    VecOf r = Zero();
+    r.at(k) = S(1.0);
+    return r;
+  }
+  [[nodiscard]] static VecOf UnitX() { return Unit(0); }
+  [[nodiscard]] static VecOf UnitY() requires(N > 1) { return Unit(1); }
+  [[nodiscard]] static VecOf UnitZ() requires(N > 2) { return Unit(2); }
+  /// @}
 
-    /// With every component as a T.
-    template <class T>
-    [[nodiscard]] DALEMBERT_INLINE VecOf<T, N> cast() const {
-      if constexpr (std::is_same_v<T, S>) {
-        return *this;
-      } else {
-        VecOf<T, N> r;
-        DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.at(i) = T(at(i));
-        return r;
-      }
-    }
-    /// @{
-    /// As those of Eigen, but by value.
-    DALEMBERT_INLINE VecOf& operator+=(const VecOf& b) {
-      DALEMBERT_UNROLL for (int i = 0; i < N; ++i) at(i) += b.at(i);
+  /// With every component as a T.
+  template <class T>
+  [[nodiscard]] DALEMBERT_INLINE VecOf<T, N> cast() const {
+    if constexpr (std::is_same_v<T, S>) {
       return *this;
-    }
-    DALEMBERT_INLINE VecOf& operator-=(const VecOf& b) {
-      DALEMBERT_UNROLL for (int i = 0; i < N; ++i) at(i) -= b.at(i);
-      return *this;
-    }
-    DALEMBERT_INLINE VecOf& operator*=(S b) {  // by value: r *= r.x()
-      DALEMBERT_UNROLL for (int i = 0; i < N; ++i) at(i) *= b;
-      return *this;
-    }
-    DALEMBERT_INLINE VecOf& operator/=(S b) {
-      DALEMBERT_UNROLL for (int i = 0; i < N; ++i) at(i) /= b;
-      return *this;
-    }
-    DALEMBERT_INLINE VecOf operator-() const {
-      VecOf r;
-      DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.at(i) = -at(i);
+    } else {
+      VecOf<T, N> r;
+      DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.at(i) = T(at(i));
       return r;
     }
-    template <class T>
-    [[nodiscard]] DALEMBERT_INLINE auto dot(const VecOf<T, N>& b) const {
-      auto s = at(0) * b.at(0);
-      DALEMBERT_UNROLL for (int i = 1; i < N; ++i) s += at(i) * b.at(i);
-      return s;
-    }
-    template <class T>
-    [[nodiscard]] DALEMBERT_INLINE auto cross(const VecOf<T, N>& b) const requires(N == 3) {
-      using R = decltype(at(0) * b.at(0));
-      return VecOf<R, 3>(at(1) * b.at(2) - at(2) * b.at(1), at(2) * b.at(0) - at(0) * b.at(2),
-                         at(0) * b.at(1) - at(1) * b.at(0));
-    }
-    template <detail::OfEigen E>
-    [[nodiscard]] auto dot(const E& b) const {
-      return dot(VecOf<typename E::Scalar, N>(b));
-    }
-    template <detail::OfEigen E>
-    [[nodiscard]] auto cross(const E& b) const requires(N == 3) {
-      return cross(VecOf<typename E::Scalar, N>(b));
-    }
-    [[nodiscard]] DALEMBERT_INLINE S squaredNorm() const { return dot(*this); }
-    [[nodiscard]] DALEMBERT_INLINE S norm() const {
-      using std::sqrt;
-      return sqrt(squaredNorm());
-    }
-    /// @}
-    /// Of 0 itself, as in Eigen.
-    [[nodiscard]] DALEMBERT_INLINE VecOf normalized() const {
-      using std::sqrt;
-      const S square = squaredNorm();
-      if (square > 0.0) return *this / sqrt(square);
-      return *this;
-    }
-    /// Of 0 likewise.
-    void normalize() { *this = normalized(); }
-    /// Of the components.
-    [[nodiscard]] S sum() const {
-      S s = at(0);
-      DALEMBERT_UNROLL for (int i = 1; i < N; ++i) s += at(i);
-      return s;
-    }
+  }
+  /// @{
+  /// As those of Eigen, but by value.
+  DALEMBERT_INLINE VecOf& operator+=(const VecOf& b) {
+    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) at(i) += b.at(i);
+    return *this;
+  }
+  DALEMBERT_INLINE VecOf& operator-=(const VecOf& b) {
+    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) at(i) -= b.at(i);
+    return *this;
+  }
+  DALEMBERT_INLINE VecOf& operator*=(S b) {  // by value: r *= r.x()
+    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) at(i) *= b;
+    return *this;
+  }
+  DALEMBERT_INLINE VecOf& operator/=(S b) {
+    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) at(i) /= b;
+    return *this;
+  }
+  DALEMBERT_INLINE VecOf operator-() const {
+    VecOf r;
+    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.at(i) = -at(i);
+    return r;
+  }
+  template <class T>
+  [[nodiscard]] DALEMBERT_INLINE auto dot(const VecOf<T, N>& b) const {
+    auto s = at(0) * b.at(0);
+    DALEMBERT_UNROLL for (int i = 1; i < N; ++i) s += at(i) * b.at(i);
+    return s;
+  }
+  template <class T>
+  [[nodiscard]] DALEMBERT_INLINE auto cross(const VecOf<T, N>& b) const requires(N == 3) {
+    using R = decltype(at(0) * b.at(0));
+    return VecOf<R, 3>(at(1) * b.at(2) - at(2) * b.at(1), at(2) * b.at(0) - at(0) * b.at(2),
+                       at(0) * b.at(1) - at(1) * b.at(0));
+  }
+  template <detail::OfEigen E>
+  [[nodiscard]] auto dot(const E& b) const {
+    return dot(VecOf<typename E::Scalar, N>(b));
+  }
+  template <detail::OfEigen E>
+  [[nodiscard]] auto cross(const E& b) const requires(N == 3) {
+    return cross(VecOf<typename E::Scalar, N>(b));
+  }
+  [[nodiscard]] DALEMBERT_INLINE S squaredNorm() const { return dot(*this); }
+  [[nodiscard]] DALEMBERT_INLINE S norm() const {
+    using std::sqrt;
+    return sqrt(squaredNorm());
+  }
+  /// @}
+  /// Of 0 itself, as in Eigen.
+  [[nodiscard]] DALEMBERT_INLINE VecOf normalized() const {
+    using std::sqrt;
+    const S square = squaredNorm();
+    if (square > 0.0) return *this / sqrt(square);
+    return *this;
+  }
+  /// Of 0 likewise.
+  void normalize() { *this = normalized(); }
+  /// Of the components.
+  [[nodiscard]] S sum() const {
+    S s = at(0);
+    DALEMBERT_UNROLL for (int i = 1; i < N; ++i) s += at(i);
+    return s;
+  }
 
-   private:
-    template <class T, int M>
-    friend struct VecOf;
-    DALEMBERT_INLINE S& at(Eigen::Index i) { return this->data()[i]; }
-    DALEMBERT_INLINE const S& at(Eigen::Index i) const { return this->data()[i]; }
+ private:
+  template <class T, int M>
+  friend struct VecOf;
+  DALEMBERT_INLINE S& at(Eigen::Index i) { return this->data()[i]; }
+  DALEMBERT_INLINE const S& at(Eigen::Index i) const { return this->data()[i]; }
 };
 
 /// @{

@@ -12,6 +12,14 @@ namespace dalembert::detail {
 /// which clang 14 answers with an error.)
 template <class D>
 struct Arithmetic {
+  /// Whether value and gradient are finite.
+  [[nodiscard]] bool finite() const {
+    const D& a = static_cast<const D&>(*this);
+    double zero = 0.0 * a.value;
+    for (int i = 0; i < D::directions; ++i) zero += 0.0 * a.z[i];
+    return zero == 0.0;
+  }
+
   DALEMBERT_INLINE friend D operator+(const D& a) { return a; }
   DALEMBERT_INLINE friend D operator-(const D& a) { return D::scaled(-1.0, a); }
 

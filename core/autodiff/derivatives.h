@@ -113,12 +113,6 @@ struct Dual : detail::Arithmetic<Dual<K>> {
     a.value = value;
     return a;
   }
-  /// Whether value and gradient are finite.
-  [[nodiscard]] bool finite() const {
-    double zero = 0.0 * value;
-    for (int i = 0; i < K; ++i) zero += 0.0 * z[i];
-    return zero == 0.0;
-  }
 };
 
 /// A value with its derivatives in K directions, and its first and second one along the motion:
@@ -165,12 +159,6 @@ struct Jet : detail::Arithmetic<Jet<K>> {
   [[nodiscard]] DALEMBERT_INLINE static Jet with_value(Jet a, double value) {
     a.value = value;
     return a;
-  }
-  /// Whether value and gradient are finite.
-  [[nodiscard]] bool finite() const {
-    double zero = 0.0 * value;
-    for (int i = 0; i < K; ++i) zero += 0.0 * z[i];
-    return zero == 0.0;
   }
 };
 
@@ -225,11 +213,6 @@ struct HyperDual : detail::Arithmetic<HyperDual<K>> {
   [[nodiscard]] DALEMBERT_INLINE static HyperDual with_value(HyperDual a, double value) {
     a.value = value;
     return a;
-  }
-  [[nodiscard]] bool finite() const {
-    double zero = 0.0 * value;
-    for (int i = 0; i < K; ++i) zero += 0.0 * z[i];
-    return zero == 0.0;
   }
 };
 

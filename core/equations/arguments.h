@@ -187,14 +187,6 @@ void for_each_moving_point(const Element& element, const F& f) {
   std::apply([&visit](const auto&... point) { (visit(point), ...); }, element.points());
 }
 
-/// The entries of q that an element reads, PointFacts::coordinates of them.
-template <class Element>
-void read_coordinates(const Element& element, std::span<int> coordinates) {
-  auto next = coordinates.begin();
-  for_each_moving_point(element,
-                        [&next](const auto& point) { next = std::ranges::copy(point.reads(), next).out; });
-}
-
 /// The inputs of an element out of q, or their rates out of v.
 template <class Element>
 [[nodiscard]] Vec<PointFacts<Element>::inputs> gather_inputs(const Element& element,

@@ -1,6 +1,7 @@
 #include "dalembert/core/points/points.h"
 
 #include <dalembert/core/equations/arguments.h>
+#include <dalembert/core/equations/elements.h>
 
 #include <gtest/gtest.h>
 
@@ -37,7 +38,8 @@ TEST(Points, OnlyParticlesAreInputs) {
 
 TEST(Points, TheCoordinatesReadAreThoseOfTheParticlesInOrder) {
   std::array<int, 4> coordinates{};
-  detail::read_coordinates(Pair<Particle<2>, Particle<2>>{{1, 2, 1}, {0, 0, 1}}, coordinates);
+  const Pair<Particle<2>, Particle<2>> pair{{1, 2, 1}, {0, 0, 1}};
+  detail::read_places<Pair<Particle<2>, Particle<2>>>(&pair, coordinates.data());
   EXPECT_EQ(coordinates, (std::array<int, 4>{2, 3, 0, 1}));
 }
 
