@@ -20,7 +20,7 @@ case ${1:-} in
   *) echo "usage: bench/run.sh [--quick]" >&2 && exit 2 ;;
 esac
 
-cmake/dependencies.sh gnuplot-nox libbenchmark-dev python3-jinja2
+cmake/dependencies.sh gnuplot-nox libbenchmark-dev libmimalloc-dev python3-jinja2
 cmake --preset release
 cmake --build --preset release --target dalembert-benchmarks dalembert-fuzz
 

@@ -19,6 +19,11 @@ constexpr const char* mpirun = MPIRUN;
 #else
 constexpr const char* mpirun = "";
 #endif
+#ifdef MIMALLOC
+constexpr const char* mimalloc = MIMALLOC;
+#else
+constexpr const char* mimalloc = "";
+#endif
 
 [[noreturn]] void become(std::vector<std::string> words) {
   std::vector<char*> arguments;
@@ -32,7 +37,9 @@ constexpr const char* mpirun = "";
 
 bool has_mpirun() { return access(mpirun, X_OK) == 0; }
 
-Child::Child(const std::vector<std::string>& arguments, int ranks, Errors errors, Caches caches) {
+bool has(Allocator allocator) { return allocator == Allocator::glibc || access(mimalloc, R_OK) == 0; }
+
+Child::Child(const std::vector<std::string>& arguments, int ranks, Errors errors, Allocator allocator) {
   std::vector<std::string> words;
   if (ranks > 0)
     for (const std::string& word :
@@ -52,7 +59,8 @@ Child::Child(const std::vector<std::string>& arguments, int ranks, Errors errors
   setpgid(0, 0);
   setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);  // in a container there is nobody else
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
-  if (caches == Caches::large) setenv("GLIBC_TUNABLES", "glibc.malloc.tcache_count=127", 1);
+  setenv("OMPI_MCA_pml", "ob1", 1);  // else OpenMPI looks for fast networks for 0.2 s
+  if (allocator == Allocator::mimalloc) setenv("LD_PRELOAD", mimalloc, 1);
   dup2(ends[1], STDOUT_FILENO);
   if (errors == Errors::hidden) dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
   become(std::move(words));

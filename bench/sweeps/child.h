@@ -10,9 +10,9 @@ namespace dalembert::bench {
 /// Whether what a process says on stderr is seen: mpirun tells of kills at length.
 enum class Errors { shown, hidden };
 
-/// How many free blocks of each size a thread of glibc's allocator keeps for itself: 7, or 127. Beyond these
-/// it takes a lock.
-enum class Caches { small, large };
+/// What a process takes its memory from. glibc's takes a lock for all but the first seven free blocks of each
+/// size as soon as there is a second thread.
+enum class Allocator { glibc, mimalloc };
 
 /// This program once more, as a process of its own, perhaps by mpirun; in a group of its own, so that it can
 /// be killed with all that belongs to it.
@@ -20,7 +20,7 @@ class Child {
  public:
   /// `ranks` 0: without mpirun.
   Child(const std::vector<std::string>& arguments, int ranks, Errors errors = Errors::shown,
-        Caches caches = Caches::small);
+        Allocator allocator = Allocator::glibc);
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
   ~Child();
@@ -42,5 +42,7 @@ class Child {
 
 /// Whether there is an mpirun.
 [[nodiscard]] bool has_mpirun();
+/// Whether the allocator is on this machine.
+[[nodiscard]] bool has(Allocator allocator);
 
 }  // namespace dalembert::bench

@@ -53,7 +53,7 @@ struct Case {
   std::size_t rows;
   int threads, ranks;  ///< 0 threads: the bare loop, -1: beside an idle thread; 0 ranks: without mpirun
   std::size_t bad = 0;
-  Caches caches = Caches::small;
+  Allocator allocator = Allocator::glibc;
 
   [[nodiscard]] std::vector<std::string> arguments(const std::string& file) const {
     return {"case",      example,
@@ -72,7 +72,7 @@ struct Measured {
 };
 
 Measured run(const Case& one, const std::string& file) {
-  Child child(one.arguments(file), one.ranks, Errors::shown, one.caches);
+  Child child(one.arguments(file), one.ranks, Errors::shown, one.allocator);
   if (!child.wait()) throw Error("sweep: the case " + one.name + " failed");
   Measured measured;
   std::istringstream(child.output()) >> measured.seconds >> measured.failed >> measured.memory;
@@ -145,15 +145,24 @@ bool same_numbers(const std::string& dataset, const std::string& bare) {
   return numbers == bytes_of(bare);
 }
 
-/// The timed cases in turn, round after round; each is compared with the bare loop of its own round.
+/// The timed cases in turn, round after round; each is compared with the bare loop of its own round that has
+/// the same allocator.
 void timed(const SweepTable& options, const Folder& folder, Report& report) {
-  std::vector<Case> cases{{"bare-loop", "pendulums", options.rows, 0, 0},
-                          {"beside-an-idle-thread", "pendulums", options.rows, -1, 0}};
-  for (const Caches caches : {Caches::small, Caches::large}) {
-    const std::string with = caches == Caches::large ? "-large-caches" : "";
-    cases.push_back({"1-thread" + with, "pendulums", options.rows, 1, 0, 0, caches});
-    cases.push_back({"2-threads" + with, "pendulums", options.rows, 2, 0, 0, caches});
-    if (has_mpirun()) cases.push_back({"2-ranks" + with, "pendulums", options.rows, 1, 2, 0, caches});
+  std::vector<Case> cases;
+  std::vector<std::size_t> loop;
+  for (const Allocator allocator : {Allocator::glibc, Allocator::mimalloc}) {
+    if (!has(allocator)) continue;
+    const std::size_t first = cases.size();
+    const auto add = [&](const std::string& name, int threads, int ranks) {
+      const std::string with = allocator == Allocator::mimalloc ? "-mimalloc" : "";
+      cases.push_back({name + with, "pendulums", options.rows, threads, ranks, 0, allocator});
+      loop.push_back(first);
+    };
+    add("bare-loop", 0, 0);
+    add("beside-an-idle-thread", -1, 0);
+    add("1-thread", 1, 0);
+    add("2-threads", 2, 0);
+    if (has_mpirun()) add("2-ranks", 1, 2);
   }
   constexpr std::size_t first_sweep = 2;
   std::vector<std::vector<double>> seconds(cases.size()), efficiency(cases.size());
@@ -168,7 +177,7 @@ void timed(const SweepTable& options, const Folder& folder, Report& report) {
       remove(file);
       last[i] = run(cases[i], file);
       seconds[i].push_back(last[i].seconds);
-      efficiency[i].push_back(seconds[0].back() / (last[i].seconds * cases[i].workers()));
+      efficiency[i].push_back(seconds[loop[i]].back() / (last[i].seconds * cases[i].workers()));
       if (is_sweep)
         same[i] = same[i] != 0 && same_numbers(file, folder / "bare") &&
                   bytes_of(file) == bytes_of(folder / "whole.h5");
