@@ -5,6 +5,7 @@
 #include <dalembert/bench/progress.h>
 #include <dalembert/bench/table.h>
 #include <dalembert/bench/work_precision.h>
+#include <dalembert/models/lecture_scenes.h>
 #include <dalembert/view/write_html.h>
 
 #include <algorithm>
@@ -116,6 +117,15 @@ void write_event_model(const models::EventModel& model, const Pages& options) {
   }
 }
 
+template <int D>
+void write_scene(const Scene<D>& scene, double t_end, const Pages& options) {
+  const auto certificate = certify(scene, {.t_end = t_end,
+                                           .samples = options.samples,
+                                           .tolerance = options.tolerance,
+                                           .stepper = options.stepper});
+  write_html(certificate, options.directory + '/' + scene.name() + ".html", {.title = scene.name()});
+}
+
 }  // namespace
 
 void pages(const Pages& options) {
@@ -139,6 +149,8 @@ void pages(const Pages& options) {
   if (std::ranges::find(options.models, "all") == options.models.end()) return;
   for (const models::EventModel& model : models_of_events())
     (void)outcome_of(model.name, [&] { write_event_model(model, options); });
+  for (const auto& [scene, t_end] : models::lecture_scenes())
+    std::visit([&, end = t_end](const auto& own) { write_scene(own, end, options); }, scene);
 }
 
 }  // namespace dalembert::bench

@@ -20,7 +20,7 @@ struct Pages {
 /// point and axis; forceK and forceK.reference; and the largest errors over points and forces, true and
 /// estimated, relative to the model's length and force: error_position, estimated_position, error_force,
 /// estimated_force (inf where the certificate says nothing).
-/// With "all" also a page for each model of events, without a comparison.
+/// With "all" also a page for each model of events and each scene of the lecture, without a comparison.
 /// models.csv lists what was run: model, notes, reference, t_end, stepper, tolerance, outcome.
 /// Throws Error if a file cannot be written. A run that is refused is a row of models.csv.
 void pages(const Pages& options);
