@@ -11,6 +11,7 @@ Statement faster(const Draft<D>& draft, int way, double rate, double length) {
   other.axis = way / 2;
   other.more_spin = way % 2 == 0 ? rate : -rate;
   other.more_speed = other.more_spin * length;
+  other.drive = other.more_spin;
   return other;
 }
 
@@ -144,7 +145,8 @@ std::string difference(const Comparison<D>& runs, const std::vector<Distances>& 
 
 /// Where the two are too far apart, what the scene makes of early errors counts as well: some enlarge them,
 /// and no stepper can help that. It is how far a run is from itself begun with speeds that differ by what is
-/// allowed, along each axis both ways: what returns to a contact at rest strikes it or does not.
+/// allowed, along each axis both ways, and gaining or losing as large a part of them in the scene's time:
+/// what returns to a contact at rest strikes it or does not, even where an impact has taken other speeds.
 template <int D>
 std::string fault_of_comparison(const Run<D>& one, const Run<D>& two, const Run<D>& own,
                                 const Measure& measure, std::string& detail) {

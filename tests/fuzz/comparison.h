@@ -27,7 +27,7 @@ struct Ending {
 template <int D>
 [[nodiscard]] Ending<D> run_of(const Draft<D>& draft);
 
-/// A scene's statement with velocities that differ along one axis, in one of 2 D ways.
+/// A scene's statement with velocities that differ along one axis and go on to, in one of 2 D ways.
 template <int D>
 [[nodiscard]] Statement faster(const Draft<D>& draft, int way, double rate, double length);
 

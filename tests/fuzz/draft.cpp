@@ -57,7 +57,9 @@ Place<D> Draft<D>::new_particle(const Vec<D>& r) {
   attempt(place.text + " = add_particle({" + write(state.mass) + ", " + write<D>(state.position) + ", " +
               write<D>(state.velocity) + "})",
           [&] {
-            place.point = scene.add_particle(state, name());
+            const auto particle = scene.add_particle(state, name());
+            drive(particle, state.mass);
+            place.point = particle;
             particles_.push_back(place);
           });
   spare_.push_back(D);
@@ -100,6 +102,7 @@ void Draft<D>::add_body() {
        << ", angular velocity " << state.angular_velocity << ", axes " << axes << ')';
   attempt(text.str(), [&] {
     const auto body = dalembert::add_body(scene, state, body_name());
+    drive(body.point(Vec<D>::Zero()), state.mass);
     bodies_.push_back({body, state.centre, state.velocity, axes, owner});
   });
 }

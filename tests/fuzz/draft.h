@@ -36,6 +36,7 @@ struct Statement {
   bool regularised = false;  ///< Coulomb's friction by a law that is smooth at rest
   double more_speed = 0.0;   ///< added to every initial velocity along `axis` [length / time]
   double more_spin = 0.0;    ///< to every angular velocity [1 / time]
+  double drive = 0.0;        ///< times mass and velocity is a force on every particle and body [1 / time]
   int axis = 0;
 };
 /// Which statements an element belongs to.
@@ -137,6 +138,12 @@ class Draft {
     return point_at(body, plan.length * random.vector<D>());
   }
   [[nodiscard]] Particle<D> handle(Particle<D> meant);
+  /// With the statement's force.
+  void drive(const auto& point, double mass) {
+    if (statement_.drive == 0.0) return;
+    scene.add(force_law(dalembert::points(point),
+                        [k = statement_.drive * mass](const auto&, const auto& v) { return k * v; }));
+  }
 
   Random start_;
   Statement statement_;
