@@ -187,6 +187,11 @@ class Approach {
     return 2.0 * better_.record->statistics.accuracy <= TwoRuns::most_of_better * claim;
   }
 
+  /// Whether a run at this tolerance should meet the request.
+  [[nodiscard]] bool is_expected_at(double tolerance) const {
+    return excess_ * std::pow(tolerance / options_.tolerance, power()) <= 1.0;
+  }
+
   /// The next runs; false if there are none more accurate.
   bool refine() {
     const double of_better = better_.record->tolerance;
@@ -205,7 +210,7 @@ class Approach {
     if (better_.stopped.empty() && serves_at(next)) {
       options_.tolerance = next;  // the more accurate run still is
       run_of_first_ = count(finish(run_, options_));
-    } else if (next >= of_better && better_.stopped.empty()) {
+    } else if (better_.stopped.empty() && (next >= of_better || is_expected_at(of_better))) {
       options_.tolerance = of_better;
       run_of_first_ = std::exchange(better_, count(finish(run_, certifying(options_))));
     } else {

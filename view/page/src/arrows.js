@@ -142,6 +142,13 @@ export class Arrows {
       one.material.opacity = (this.selected && !selected ? 0.35 : 1) * (unique ? 1 : 0.45);
     }
   }
+  // Lets a box grow to the tips, but of the few that are much longer than all others.
+  reach(frame, box) {
+    this.update(frame);
+    for (const one of this.all) {
+      if (one.group.visible && one.tip.distanceTo(one.tail) < 0.34 * this.size) box.expandByPoint(one.tip);
+    }
+  }
   unique(constraint, row) {
     return !constraint.unique || constraint.unique.every((column) => this.run.at(column, row) !== 0);
   }

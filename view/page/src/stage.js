@@ -227,11 +227,20 @@ export class Stage {
     }
     this.controls.addEventListener("change", () => this.onView?.());
   }
-  // All of the motion in view, with room for arrows.
+  // All of the motion, and where its arrows reach.
+  boxWithArrows() {
+    const box = this.box.clone(), { rows, times } = this.run, every = Math.max(1, Math.floor(rows / 600));
+    for (let row = 0; row < rows; row += every) {
+      this.past.set(times[row], row);
+      this.arrows.reach(this.past, box);
+    }
+    return box;
+  }
   fit() {
-    const centre = this.box.getCenter(new Vector3()), extent = this.box.getSize(new Vector3());
+    this.whole ??= this.boxWithArrows();
+    const centre = this.whole.getCenter(new Vector3()), extent = this.whole.getSize(new Vector3());
     const width = this.canvas.clientWidth || 1, height = this.canvas.clientHeight || 1, aspect = width / height;
-    const room = this.arrows.all.length > 0 ? 0.16 * this.size : 0.06 * this.size;
+    const room = 0.06 * this.size;
     this.controls.target.copy(centre);
     if (this.camera.isOrthographicCamera) {
       const half = Math.max(extent.y / 2 + room, (extent.x / 2 + room) / aspect);
