@@ -18,8 +18,8 @@ namespace {
 /// lambda three; smooth laws converge quadratically.
 constexpr int most_newton_steps = 30;
 
-/// Newton's iteration stops when the forces are those that the last slope predicted, to some hundred
-/// roundings of the user's law.
+/// Some hundred roundings. Newton's iteration stops when the forces are those that the last slope predicted,
+/// to so many of the user's law; a multiplier of so many of the forces that it balances is 0.
 constexpr double same = 1e-13;
 
 }  // namespace
@@ -69,12 +69,30 @@ bool FrictionSolver::begin(std::span<const double> w, std::span<const double> s)
   without_.assign(given_.begin(), given_.end());
   matrix_.solve(without_);
   std::ranges::fill(lambda_, 0.0);
-  spread(without_);
+  read_multipliers(w, without_);
   return std::ranges::all_of(without_, [](double value) { return std::isfinite(value); });
 }
 
-void FrictionSolver::spread(std::span<const double> x) {
-  for (std::size_t r = 0; r < rows_.rows.size(); ++r) lambda_[rows_.rows[r]] = x[force_.size() + r];
+/// The multipliers of a solution. One that is the rounding of what its row balances is 0: it has no sign that
+/// a law could read.
+void FrictionSolver::read_multipliers(std::span<const double> w, std::span<double> x) {
+  const auto columns = system_->w_columns();
+  const auto masses = system_->masses();
+  const auto own = x.subspan(force_.size());
+  std::vector<double> forces(force_.size());
+  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] = std::abs(given_[i]);
+  for (std::size_t j = 0; j < own.size(); ++j)
+    for (const std::size_t k : system_->row(rows_.rows[j])) forces[columns[k]] += std::abs(w[k] * own[j]);
+  for (std::size_t j = 0; j < own.size(); ++j) {
+    double balanced = std::abs(given_[force_.size() + j]), inverse_mass = 0.0;
+    for (const std::size_t k : system_->row(rows_.rows[j])) {
+      const std::size_t i = columns[k];
+      balanced += std::abs(w[k]) * (forces[i] - std::abs(w[k] * own[j])) / masses[i];
+      inverse_mass += w[k] * w[k] / masses[i];
+    }
+    if (std::abs(own[j]) * inverse_mass <= same * balanced) own[j] = 0.0;
+    lambda_[rows_.rows[j]] = own[j];
+  }
 }
 
 FrictionSolver::Outcome FrictionSolver::iterate(const Instant& at, std::span<const double> w,
@@ -94,7 +112,7 @@ FrictionSolver::Outcome FrictionSolver::iterate(const Instant& at, std::span<con
     for (std::size_t i = 0; i < n; ++i) x[i] += predicted_[i];
     matrix_.solve_refined(x);
     if (!std::ranges::all_of(x, [](double value) { return std::isfinite(value); })) return Outcome::singular;
-    spread(x);
+    read_multipliers(w, x);
     add_slope(1.0, lambda_, predicted_);
     std::ranges::fill(force_, 0.0);
     system_->add_friction(at, lambda_, force_);

@@ -62,7 +62,7 @@ class FrictionSolver {
                                 std::span<double> x);
   [[nodiscard]] Outcome iterate_from_last(const Instant& at, std::span<const double> w,
                                           std::span<const double> s, std::span<double> x);
-  void spread(std::span<const double> x);
+  void read_multipliers(std::span<const double> w, std::span<double> x);
   [[nodiscard]] bool mirrored_slope(const Instant& at);
   void require_regular(bool regular, double t);
 

@@ -131,7 +131,8 @@ std::string difference(const Comparison<D>& runs, const std::vector<Distances>& 
                        const Measure& measure, std::string& detail) {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Distances d = runs.at(i);
-    std::string fault = too_far("positions", runs.time(i), d.q, allowed[i].q + measure.coarse, detail);
+    std::string fault =
+        too_far("positions", runs.time(i), d.q, allowed[i].q + measure.coarse / runs.unit().length, detail);
     if (fault.empty() && measure.velocities)
       fault = too_far("velocities", runs.time(i), d.v, allowed[i].v, detail);
     if (fault.empty() && measure.forces)

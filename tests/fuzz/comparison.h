@@ -36,7 +36,7 @@ struct Measure {
   std::string of;       ///< what the second is
   bool forces = false;  ///< net forces of constraint, too
   bool velocities = true;
-  double coarse = 0.0;    ///< what positions may differ by beside errors, in the scene's length
+  double coarse = 0.0;    ///< what positions may differ by beside errors [length]
   std::size_t first = 0;  ///< the sample of the first run that is the first of the second
 };
 

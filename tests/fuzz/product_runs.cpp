@@ -40,22 +40,27 @@ std::string restarted(const Draft<D>& draft, const Ending<D>& one, std::string& 
                                 detail);
 }
 
-/// How far the last positions are from those of a run begun with velocities that differ by what one may err
-/// by: contacts that are grazed enlarge errors to their root.
+/// How far positions come from those of runs begun with velocities that differ by what one may err by, in all
+/// and as lengths: contacts that are grazed enlarge errors to their root.
 template <int D>
-double growth(const Draft<D>& draft, const Ending<D>& one, std::size_t i) {
+double growth(const Draft<D>& draft, const Ending<D>& one, const std::vector<double>& scale) {
   const Statistics s = one.run->statistics();
-  double most = 0.0;
+  double sum = 0.0;
   for (int way = 0; way < 2 * D; ++way) {
     Draft<D> otherwise =
         draft.again(draft.plan, faster(draft, way, error_of_run * s.accuracy / s.time, s.length));
     fill(otherwise);
     const Ending<D> other = run_of(otherwise);
     if (!other.run || other.run->size() != one.run->size()) continue;
-    const std::size_t last = one.run->size() - 1;
-    most = std::max(most, std::abs(other.run->sample(last).flat().q[i] - one.run->sample(last).flat().q[i]));
+    double most = 0.0;
+    for (std::size_t k = 0; k < one.run->size(); ++k) {
+      const FlatSample a = one.run->sample(k).flat(), b = other.run->sample(k).flat();
+      for (std::size_t i = 0; i < scale.size(); ++i)
+        most = std::max(most, std::abs(a.q[i] - b.q[i]) / scale[i]);
+    }
+    sum += most;
   }
-  return most;
+  return sum;
 }
 
 /// By steps of its own choice and jumps, as a program with a display would.
@@ -75,7 +80,7 @@ std::string step_by_step(Draft<D>& draft, const Ending<D>& one) {
   for (std::size_t i = 0; i < now.q.size(); ++i) {
     const double apart = std::abs(now.q[i] - last.q[i]);
     double bound = error_of_run * s.accuracy * scale[i];
-    if (apart > bound) bound += growth(draft, one, i);
+    if (apart > bound) bound += growth(draft, one, scale) * scale[i];
     if (!(apart > bound)) continue;
     std::ostringstream what;
     what << "step by step it ends " << apart << " from there, bound " << bound;
@@ -120,9 +125,10 @@ std::string twins(const Draft<D>& draft, const Ending<D>& one, std::string& deta
   if (fault.empty() && plan.has(Feature::compliant))
     fault = against(draft, one, plan, {.springs = true}, {.of = "with springs as forces"}, detail);
   if (fault.empty() && plan.has(Feature::rough)) {
-    fault = against(draft, one, plan, {.regularised = true},
-                    {.of = "with regularised friction", .velocities = false, .coarse = regularised_within},
-                    detail);
+    fault = against(
+        draft, one, plan, {.regularised = true},
+        {.of = "with regularised friction", .velocities = false, .coarse = regularised_within * plan.length},
+        detail);
   }
   return fault;
 }

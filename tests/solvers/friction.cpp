@@ -93,6 +93,26 @@ TEST_P(Sliding, BesideABodyLeavesNewtonsEquationsRightToRoundOff) {
 
 TEST_P(Sliding, DownARoughInclineIsUniformlyAccelerated) { expect_slides_down(options(1.0), 0.0); }
 
+// What is pulled along a table without weight presses on it by round-off, of either sign, which |N| must not
+// hear: the motion is that of the pull, and can be read between samples, in whatever direction.
+TEST_P(Sliding, OnATableThatItDoesNotPressIsWithoutFriction) {
+  const double m = 1.3, f = 2.0, v0 = 0.7, t = 0.37;
+  for (int k = 0; k < 40; ++k) {
+    const double angle = 0.16 * k;
+    const Vec<2> normal(std::cos(angle), std::sin(angle)), along(-normal.y(), normal.x());
+    Scene<2> scene;
+    const auto bead = scene.add_particle({.mass = m, .velocity = v0 * along});
+    const auto table = scene.add(OnCurve{bead, Plane<2>{Vec<2>::Zero(), normal}}, "table");
+    scene.add(PointGravity{bead, m, f / m * along}, "pull");
+    scene.add(friction_law(table, points(bead), coulomb(0.3)), "rough");
+    Options dense = options(1.0);
+    dense.dense = true;
+    const auto run = simulate(scene, dense);
+    EXPECT_NEAR(run.at({t}).position(bead, 0).dot(along), v0 * t + 0.5 * f / m * t * t, error);
+    EXPECT_NEAR(run.at({t}).multiplier(table, 0), 0.0, f * rounding);
+  }
+}
+
 TEST_P(Sliding, DownAYieldingInclineIsTheSame) { expect_slides_down(options(1.0), 1e-3); }
 
 // Without gravity N = m v^2 / R and m v' = -mu N: v = v0 / (1 + mu v0 t / R),
