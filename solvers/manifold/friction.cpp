@@ -47,7 +47,8 @@ FrictionSolver::FrictionSolver(const Problem& problem, const ActiveRows& rows)
       slope_(system_->friction_pattern().size()),
       slope_mirrored_(slope_.size()),
       force_(system_->coordinates()),
-      predicted_(force_.size()) {}
+      predicted_(force_.size()),
+      balanced_(force_.size()) {}
 
 void FrictionSolver::add_slope(double factor, std::span<const double> x, std::span<double> y) const {
   for (std::size_t k = 0; k < slope_.size(); ++k) {
@@ -69,29 +70,30 @@ bool FrictionSolver::begin(std::span<const double> w, std::span<const double> s)
   without_.assign(given_.begin(), given_.end());
   matrix_.solve(without_);
   std::ranges::fill(lambda_, 0.0);
-  read_multipliers(w, without_);
+  read_multipliers(w, s, without_);
   return std::ranges::all_of(without_, [](double value) { return std::isfinite(value); });
 }
 
 /// The multipliers of a solution. One that is the rounding of what its row balances is 0: it has no sign that
 /// a law could read.
-void FrictionSolver::read_multipliers(std::span<const double> w, std::span<double> x) {
+void FrictionSolver::read_multipliers(std::span<const double> w, std::span<const double> s,
+                                      std::span<double> x) {
   const auto columns = system_->w_columns();
   const auto masses = system_->masses();
   const auto own = x.subspan(force_.size());
-  std::vector<double> forces(force_.size());
-  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] = std::abs(given_[i]);
+  for (std::size_t i = 0; i < balanced_.size(); ++i) balanced_[i] = std::abs(given_[i]);
   for (std::size_t j = 0; j < own.size(); ++j)
-    for (const std::size_t k : system_->row(rows_.rows[j])) forces[columns[k]] += std::abs(w[k] * own[j]);
+    for (const std::size_t k : system_->row(rows_.rows[j])) balanced_[columns[k]] += std::abs(w[k] * own[j]);
   for (std::size_t j = 0; j < own.size(); ++j) {
-    double balanced = std::abs(given_[force_.size() + j]), inverse_mass = 0.0;
-    for (const std::size_t k : system_->row(rows_.rows[j])) {
+    const std::size_t row = rows_.rows[j];
+    double balanced = std::abs(given_[force_.size() + j]), diagonal = s.empty() ? 0.0 : s[row];
+    for (const std::size_t k : system_->row(row)) {
       const std::size_t i = columns[k];
-      balanced += std::abs(w[k]) * (forces[i] - std::abs(w[k] * own[j])) / masses[i];
-      inverse_mass += w[k] * w[k] / masses[i];
+      balanced += std::abs(w[k]) * (balanced_[i] - std::abs(w[k] * own[j])) / masses[i];
+      diagonal += w[k] * w[k] / masses[i];
     }
-    if (std::abs(own[j]) * inverse_mass <= same * balanced) own[j] = 0.0;
-    lambda_[rows_.rows[j]] = own[j];
+    if (std::abs(own[j]) * diagonal <= same * balanced) own[j] = 0.0;
+    lambda_[row] = own[j];
   }
 }
 
@@ -112,7 +114,7 @@ FrictionSolver::Outcome FrictionSolver::iterate(const Instant& at, std::span<con
     for (std::size_t i = 0; i < n; ++i) x[i] += predicted_[i];
     matrix_.solve_refined(x);
     if (!std::ranges::all_of(x, [](double value) { return std::isfinite(value); })) return Outcome::singular;
-    read_multipliers(w, x);
+    read_multipliers(w, s, x);
     add_slope(1.0, lambda_, predicted_);
     std::ranges::fill(force_, 0.0);
     system_->add_friction(at, lambda_, force_);

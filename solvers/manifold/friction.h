@@ -62,7 +62,7 @@ class FrictionSolver {
                                 std::span<double> x);
   [[nodiscard]] Outcome iterate_from_last(const Instant& at, std::span<const double> w,
                                           std::span<const double> s, std::span<double> x);
-  void read_multipliers(std::span<const double> w, std::span<double> x);
+  void read_multipliers(std::span<const double> w, std::span<const double> s, std::span<double> x);
   [[nodiscard]] bool mirrored_slope(const Instant& at);
   void require_regular(bool regular, double t);
 
@@ -71,7 +71,7 @@ class FrictionSolver {
   SaddleMatrix matrix_;
   bool begun_ = false;  // lambda_ solved (1) the last time
   std::vector<double> given_, without_, lambda_, mirrored_, slope_, slope_mirrored_;
-  std::vector<double> force_, predicted_;
+  std::vector<double> force_, predicted_, balanced_;
   std::vector<char> reads_;  // per entry of the slope; empty until it is asked for
 };
 
