@@ -167,6 +167,8 @@ struct DALEMBERT_HIDDEN Integrator::State {
       f();
     } catch (const StepFailure& failure) {
       throw stop(failure.what, failure.time);
+    } catch (const EquationFault& fault) {
+      throw stop(fault.what(), reached(), false);
     } catch (const Error& fault) {
       throw stop(fault.what(), reached());
     } catch (...) {
@@ -175,7 +177,8 @@ struct DALEMBERT_HIDDEN Integrator::State {
     }
   }
 
-  const IntegrationFailure& stop(const std::string& why, double time) {
+  /// What also may be amiss is said where a step failed, not where an equation did.
+  const IntegrationFailure& stop(const std::string& why, double time, bool of_step = true) {
     const std::string suspect = stepping.unbounded_multiplier();
     auto kept = std::make_shared<Record>(record);
     kept->statistics = statistics();
@@ -186,7 +189,7 @@ struct DALEMBERT_HIDDEN Integrator::State {
     what.precision(10);
     what << "Scene \"" << system->layout()->scene << "\" stopped at t = " << time << ": " << why;
     for (const auto& more : {suspect, coarse_time(stepping.start().scales, time), kept->statistics.advice})
-      if (!more.empty()) what << "; " << more;
+      if (of_step && !more.empty()) what << "; " << more;
     return stopped.emplace(what.str(), time, std::move(kept));
   }
 

@@ -12,10 +12,11 @@ namespace dalembert {
 namespace {
 
 void check(const LaminaState& s, const std::string& name) {
-  const auto require = [&name](bool good, const char* what) {
+  const auto require = [&name](bool good, const std::string& what) {
     if (!good) throw InvalidScene("Lamina \"" + name + "\": " + what);
   };
-  require(std::isfinite(s.mass) && s.mass > 0.0, "mass must be finite and > 0");
+  require(std::isfinite(s.mass) && s.mass > 0.0,
+          "mass = " + detail::text(s.mass) + ", must be finite and > 0");
   require(s.inertia.allFinite() && s.inertia.minCoeff() > 0.0,
           "each moment of inertia in the plane must be finite and > 0; a thin rod is a ThinRod");
   require(detail::orthonormal(s.axes), "axes must be right-handed and of unit length");

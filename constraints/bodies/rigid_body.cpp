@@ -12,7 +12,7 @@ namespace dalembert {
 
 namespace {
 
-void require(bool good, const std::string& name, const char* what) {
+void require(bool good, const std::string& name, const std::string& what) {
   if (!good) throw InvalidScene("Body \"" + name + "\": " + what);
 }
 
@@ -117,7 +117,8 @@ typename RigidBody<D>::Axes RigidBody<D>::axes(const Sample<D>& sample) const {
 
 template <int D>
 RigidBody<D> add_body(Scene<D>& scene, const BodyState<D>& state, const std::string& name) {
-  require(std::isfinite(state.mass) && state.mass > 0.0, name, "mass must be finite and > 0");
+  require(std::isfinite(state.mass) && state.mass > 0.0, name,
+          "mass = " + detail::text(state.mass) + ", must be finite and > 0");
   const Eigen::Matrix<double, D, D> axes = axes_of(state);
   require(detail::orthonormal(axes), name, "axes must be right-handed and of unit length");
   RigidBody<D> body;

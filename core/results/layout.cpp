@@ -14,10 +14,11 @@ const Layout::Particle* Layout::particle_at(int coordinate) const {
 }
 
 void Layout::refuse(std::uint64_t other) const {
-  throw InvalidArgument("This handle is not one of scene \"" + scene + "\": " +
-                        (other == id && id != 0 ? "it was added after the run was made"
-                                                : "it belongs to another scene or to none") +
-                        "; use the handles that this scene returned, or its original before the copy");
+  throw InvalidArgument(
+      "This handle is not one of scene \"" + scene + "\": " +
+      (other == id && id != 0 ? "it was added after the run was made"
+                              : "it belongs to another scene or to none") +
+      "; use those that this scene returned, or that its original returned before it was copied");
 }
 
 }  // namespace dalembert

@@ -94,8 +94,8 @@ Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, d
     c.gradient = gradient;
     if (gap >= -allowed) continue;
     std::ostringstream what;
-    what << stated_->row_label(c.row) << " is violated by the initial positions: distance " << -gap / gradient
-         << " on the forbidden side, at t = " << start.t << "; correct the positions";
+    what << stated_->row_label(c.row) << " is violated by the initial positions: by a distance of "
+         << -gap / gradient << " on the forbidden side at t = " << start.t << "; correct the positions";
     throw InconsistentStart(what.str());
   }
   settle();

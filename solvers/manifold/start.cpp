@@ -63,16 +63,16 @@ void require_near_origin(const Scales& scales, std::span<const double> q) {
 
 enum class Level { position, velocity };
 
-/// The residual as the equation is stated, besides its size as a distance or speed: what its author looks
-/// for.
+/// The residual as the equation is stated, which its author looks for, and its size as a distance or speed.
 [[noreturn]] void refuse(const System& system, const Violation& violation, const System::Evaluation& e,
-                         Level level, double t, const char* quantity, const char* remedy) {
+                         Level level, double t, const char* fault, const char* remedy) {
   const bool of_position = level == Level::position;
   const bool rate = !of_position && violation.row < system.holonomic_rows();
   std::ostringstream what;
-  what << system.row_label(violation.row) << ' ' << quantity << ' ' << violation.size << " at t = " << t
-       << ", where " << (rate ? "the rate of its equation is " : "its equation gives ")
-       << (of_position ? e.g : e.psi)[violation.row] << "; " << remedy;
+  what << system.row_label(violation.row) << ' ' << fault << ": at t = " << t
+       << (rate ? " the rate of its equation is " : " its equation gives ")
+       << (of_position ? e.g : e.psi)[violation.row] << " in place of 0, off by a "
+       << (of_position ? "distance" : "speed") << " of " << violation.size << "; " << remedy;
   throw InconsistentStart(what.str());
 }
 
@@ -120,11 +120,9 @@ double speed_of(const System& system, const System::Evaluation& e, const Start& 
 
 /// After projection: what is left is a contradiction.
 void require_satisfied(const System& system, const Violation& left, const System::Evaluation& e, Level level,
-                       double bound, double t, const char* what) {
+                       double bound, double t) {
   if (left.size <= bound) return;
-  const std::string quantity =
-      std::string("cannot be satisfied together with the other constraints: remaining ") + what;
-  refuse(system, left, e, level, t, quantity.c_str(),
+  refuse(system, left, e, level, t, "cannot be satisfied together with the other constraints",
          "check lengths and fixed points, or start closer to the intended configuration");
 }
 
@@ -136,8 +134,7 @@ void start_positions(const Problem& problem, Start& start, const System::Evaluat
   const double bound = rounding_of_the_user * L + start.scales.rounding(start.q);
   const Violation given = position_violation(system, e, lengths);
   if (given.size > bound && !options.assemble) {
-    refuse(system, given, e, Level::position, options.t_start,
-           "is violated by the initial positions: distance",
+    refuse(system, given, e, Level::position, options.t_start, "is violated by the initial positions",
            "correct the positions, or set the option assemble to have them moved");
   }
   // Rows are told apart only as well as the given state is known: rows that depend on each other on
@@ -145,14 +142,14 @@ void start_positions(const Problem& problem, Start& start, const System::Evaluat
   const double known = std::max(rank_threshold, std::min(10.0 * given.size / L, 1e-3));
   Manifold manifold(problem, independent_rows(system, e.w, known), lengths);
   const Violation left = manifold.project_positions(options.t_start, start.q, start.v, converged_to * L);
-  require_satisfied(system, left, manifold.equations(), Level::position, bound, options.t_start, "distance");
+  require_satisfied(system, left, manifold.equations(), Level::position, bound, options.t_start);
 }
 
 void start_velocities(const System& system, const Start& start, const System::Evaluation& e,
                       const Options& options) {
   const Violation given = velocity_violation(system, e, start.scales.lengths());
   if (given.size > rounding_of_the_user * speed_of(system, e, start) && !options.assemble) {
-    refuse(system, given, e, Level::velocity, options.t_start, "is violated by the initial velocities: speed",
+    refuse(system, given, e, Level::velocity, options.t_start, "is violated by the initial velocities",
            "correct the velocities, or set the option assemble to have them changed");
   }
 }
@@ -209,7 +206,7 @@ Start consistent_start(const Problem& problem, std::span<const double> q, std::s
       violation = left();
     }
     require_satisfied(system, violation, manifold.equations(), Level::velocity,
-                      rounding_of_the_user * speed_of(system, manifold.equations(), start), t, "speed");
+                      rounding_of_the_user * speed_of(system, manifold.equations(), start), t);
     require_regular(problem, start, t);
     require_consistent_accelerations(system, manifold, start, v, t);
     start.scales.time = time_scale(system, manifold.equations(), start, duration);

@@ -102,6 +102,11 @@ Verdict judge_draft(Draft<D>& draft) {
     v.outcome = "InvalidArgument";
     v.message = error.what();
     v.fault = unless_sensible(draft.plan, error.what());
+  } catch (const EquationFault& error) {
+    v.outcome = "EquationFault";
+    v.message = error.what();
+    if (!draft.plan.has(Feature::dense))  // only what lies between samples may be refused like this
+      v.fault = std::string("an EquationFault outside of a result: ") + error.what();
   } catch (const Error& error) {
     v.outcome = "Error";
     v.message = error.what();

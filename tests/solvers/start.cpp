@@ -31,7 +31,7 @@ TEST(Start, APositionOffAConstraintIsAnError) {
   EXPECT_THAT(
       [&] { (void)simulate(scene, {.t_end = 1.0}); },
       ThrowsMessage<InconsistentStart>(AllOf(HasSubstr("Distance \"rod\""), HasSubstr("initial positions"),
-                                             HasSubstr("distance 0.25"), HasSubstr("assemble"))));
+                                             HasSubstr("distance of 0.25"), HasSubstr("assemble"))));
 }
 
 TEST(Start, WhatIsWrongIsSaidAlsoAsTheEquationHasIt) {
@@ -41,7 +41,7 @@ TEST(Start, WhatIsWrongIsSaidAlsoAsTheEquationHasIt) {
   scene.add(Distance{a, b, 600.0}, "rope");  // each end is as near to it as 594 m over the root of 2
   EXPECT_THAT(
       [&] { (void)simulate(scene, {.t_end = 1.0}); },
-      ThrowsMessage<InconsistentStart>(AllOf(HasSubstr("Distance \"rope\""), HasSubstr("distance 420.02"),
+      ThrowsMessage<InconsistentStart>(AllOf(HasSubstr("Distance \"rope\""), HasSubstr("distance of 420.02"),
                                              HasSubstr("its equation gives -594"))));
 }
 
@@ -52,16 +52,16 @@ TEST(Start, AVelocityAgainstAConstraintIsAnError) {
   EXPECT_THAT(
       [&] { (void)simulate(scene, {.t_end = 1.0}); },
       ThrowsMessage<InconsistentStart>(AllOf(HasSubstr("Distance \"rod\""), HasSubstr("initial velocities"),
-                                             HasSubstr("speed 0.5"), HasSubstr("assemble"))));
+                                             HasSubstr("speed of 0.5"), HasSubstr("assemble"))));
 }
 
 TEST(Start, AVelocityAgainstANonholonomicConstraintIsAnError) {
   Scene<2> scene;
   const auto skate = scene.add_particle({.mass = 1.0, .velocity = {1.0, 0.5}});
   scene.add(nonholonomic(points(skate), [](auto, auto v) { return v.y(); }), "blade");
-  EXPECT_THAT(
-      [&] { (void)simulate(scene, {.t_end = 1.0}); },
-      ThrowsMessage<InconsistentStart>(AllOf(HasSubstr("Nonholonomic \"blade\""), HasSubstr("speed 0.5"))));
+  EXPECT_THAT([&] { (void)simulate(scene, {.t_end = 1.0}); },
+              ThrowsMessage<InconsistentStart>(
+                  AllOf(HasSubstr("Nonholonomic \"blade\""), HasSubstr("speed of 0.5"))));
 }
 
 // The driven pivot moves at 2 along the rod; a bob at rest violates the rod by that speed.
