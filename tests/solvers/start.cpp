@@ -69,8 +69,9 @@ TEST(Start, ABobThatDoesNotFollowItsDrivenPivotIsAnError) {
   Scene<2> scene;
   const auto bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
   scene.add(Distance{driven([](auto t) { return vec(2.0 * t, 0.0); }), bob, 1.0}, "rod");
-  EXPECT_THAT([&] { (void)simulate(scene, {.t_end = 1.0}); },
-              ThrowsMessage<InconsistentStart>(AllOf(HasSubstr("Distance \"rod\""), HasSubstr("speed 2"))));
+  EXPECT_THAT(
+      [&] { (void)simulate(scene, {.t_end = 1.0}); },
+      ThrowsMessage<InconsistentStart>(AllOf(HasSubstr("Distance \"rod\""), HasSubstr("speed of 2"))));
 }
 
 // 1e200^2/2 is more than the largest double, though the speed itself is not.
