@@ -18,6 +18,9 @@ namespace dalembert::bench {
 
 namespace {
 
+/// All models are in these.
+const PageOptions::Units units{"m", "s", "N"};
+
 void write_table(const std::string& path, const Table& table) {
   std::ofstream file(path);
   table.write_csv(file);
@@ -99,7 +102,7 @@ void write_model(const models::Model<D>& model, const Pages& options) {
                                                     .stepper = options.stepper});
   const std::string path = options.directory + '/' + model.name;
   write_table(path + "-motion.csv", Motion<D>(model, observed, certificate).table());
-  write_html(certificate, path + ".html", {.title = model.name});
+  write_html(certificate, path + ".html", {.title = model.name, .units = units});
 }
 
 /// A run whose events have times in closed form.
@@ -111,9 +114,9 @@ void write_event_model(const models::EventModel& model, const Pages& options) {
                       .samples = options.samples});
   const std::string path = options.directory + '/' + model.name + ".html";
   if (runs->run()->layout->dimension == 2) {
-    write_html(Certificate<2>(*runs), path, {.title = model.name});
+    write_html(Certificate<2>(*runs), path, {.title = model.name, .units = units});
   } else {
-    write_html(Certificate<3>(*runs), path, {.title = model.name});
+    write_html(Certificate<3>(*runs), path, {.title = model.name, .units = units});
   }
 }
 
@@ -123,7 +126,8 @@ void write_scene(const Scene<D>& scene, double t_end, const Pages& options) {
                                            .samples = options.samples,
                                            .tolerance = options.tolerance,
                                            .stepper = options.stepper});
-  write_html(certificate, options.directory + '/' + scene.name() + ".html", {.title = scene.name()});
+  write_html(certificate, options.directory + '/' + scene.name() + ".html",
+             {.title = scene.name(), .units = units});
 }
 
 }  // namespace

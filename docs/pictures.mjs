@@ -12,8 +12,12 @@ const browser = await Browser.start(executable, { width: 640, height: 640 });
 for (const file of readdirSync(pages).filter((name) => name.endsWith(".html") && name !== "index.html")) {
   await browser.open(`file://${resolve(pages)}/${file}`);
   const clip = await browser.evaluate(`(() => {
-    const { player, run } = window.dalembert;
-    player.seek(run.start + 0.37 * (run.end - run.start));
+    const page = window.dalembert, { player, run, stage } = page;
+    const seek = (part) => { player.seek(run.start + part * (run.end - run.start)); page.update(); };
+    const arrows = () => stage.arrows.all.filter((one) => one.group.visible).reduce((sum, one) => sum + one.tip.distanceTo(one.tail), 0);
+    // In the middle of the run, where the forces are larger than at three of four instants.
+    const instants = Array.from({ length: 31 }, (_, k) => 0.2 + 0.02 * k).map((part) => { seek(part); return [arrows(), part]; });
+    seek(instants.sort(([a], [b]) => a - b)[23][1]);
     document.getElementById("view-buttons").style.visibility = "hidden";
     const { x, y, width, height } = document.getElementById("stage").getBoundingClientRect();
     return { x, y, width, height, scale: 1 };

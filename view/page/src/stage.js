@@ -243,7 +243,10 @@ export class Stage {
     const room = 0.06 * this.size;
     this.controls.target.copy(centre);
     if (this.camera.isOrthographicCamera) {
-      const half = Math.max(extent.y / 2 + room, (extent.x / 2 + room) / aspect);
+      const legend = 40 / Math.max(200, height); // the part of the height that it takes, at the bottom
+      const half = Math.max((extent.y / 2 + room) / (1 - legend), (extent.x / 2 + room) / aspect);
+      centre.y -= legend * half;
+      this.controls.target.copy(centre);
       this.halfHeight = half;
       this.camera.zoom = 1;
       this.camera.position.set(centre.x, centre.y, this.size);
