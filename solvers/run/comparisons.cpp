@@ -117,6 +117,11 @@ void Comparisons::list_margins() {
   for (std::vector<double>* all : {&motion_.q, &motion_.v}) all->resize(a_.size());
 }
 
+int Comparisons::side_of(const Margin& of, const Branches::Sides& heard) {
+  if (of.batch >= heard.size() || of.comparison >= heard[of.batch].size()) return of.side;
+  return heard[of.batch][of.comparison].side;
+}
+
 /// How far what was heard is from leaving its side: negative behind.
 double Comparisons::margin(const Margin& of, const Branches::Sides& heard) {
   if (of.batch >= heard.size() || of.comparison >= heard[of.batch].size()) return unknown;
@@ -253,6 +258,14 @@ double Comparisons::rounding(std::size_t k, const Motion& at) {
   return most;
 }
 
+/// The sides where a switch has been left.
+bool Comparisons::hear_behind(Switch& one) {
+  move(one.at, one.ahead, other_);
+  return hear(other_.instant(), nullptr, one.behind);
+}
+
+/// The motion behind has left its side: a difference that is 0 there, as of multipliers that are round-off,
+/// is not behind yet.
 Comparisons::Switch Comparisons::behind(const Root& root, double step) {
   Switch one{};
   one.margin = root.margin;
@@ -261,14 +274,14 @@ Comparisons::Switch Comparisons::behind(const Root& root, double step) {
   one.at = motion_;
   if (!accelerate(one.at, held_)) throw linearly_dependent(root.t);
   one.distance = std::max(one.distance, rounding(root.margin, one.at));
+  const Margin& its = margins_[root.margin];
   one.ahead = 16.0 * epsilon * std::max(std::abs(root.t), scales_.time);
-  while (one.ahead < 1e-3 * step) {
+  for (; one.ahead < 1e-3 * step; one.ahead *= 2.0) {
     const double margin = margin_ahead(root.margin, one.at, one.ahead);
-    if (margin < 0.0 && (margins_[root.margin].side == 0 || -margin >= clearly * one.distance)) break;
-    one.ahead *= 2.0;
+    const bool clear = its.side == 0 || -margin >= clearly * one.distance;
+    if (margin < 0.0 && clear && hear_behind(one) && side_of(its, one.behind) != 0) return one;
   }
-  move(one.at, one.ahead, other_);
-  if (!hear(other_.instant(), nullptr, one.behind)) {
+  if (!hear_behind(one)) {
     const Branches anywhere(nullptr, nullptr);
     system_->evaluate(other_.instant(), e_);  // throws what fails there
     one.behind = held_;

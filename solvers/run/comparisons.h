@@ -79,6 +79,8 @@ class Comparisons {
   [[nodiscard]] bool accelerate(Motion& at, const Branches::Sides& held);
   void list_margins();
   [[nodiscard]] static double margin(const Margin& of, const Branches::Sides& heard);
+  [[nodiscard]] static int side_of(const Margin& of, const Branches::Sides& heard);
+  [[nodiscard]] bool hear_behind(Switch& one);
   [[nodiscard]] bool hear_step(double t, bool sketched);
   void find_margins(double t, bool sketched, std::vector<double>& all);
   [[nodiscard]] double margin_at(std::size_t k, double t);

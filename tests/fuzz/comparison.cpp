@@ -37,6 +37,8 @@ struct Motion {
 struct Units {
   double length, time;
   explicit Units(const Statistics& s) : length(s.length), time(s.time) {}
+  /// Those of the faster of two runs: in a part that rests there is no speed.
+  Units(const Statistics& a, const Statistics& b) : Units(a.length * b.time > b.length * a.time ? a : b) {}
 };
 
 Motion motion_of(const System& system, const FlatSample& sample, const Units& unit) {
@@ -84,7 +86,7 @@ class Comparison {
         b_(b.draft.scene.system()),
         x_(*a.ending.run),
         y_(*b.ending.run),
-        unit_(y_.statistics()),
+        unit_(x_.statistics(), y_.statistics()),
         measure_(measure),
         steps_(full_steps(a.draft, a.ending) + full_steps(b.draft, b.ending)) {}
 
