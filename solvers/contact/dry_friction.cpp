@@ -180,14 +180,17 @@ SlipCoupling DryFriction::released(const std::vector<std::size_t>& which,
   return {*stated_, with_modes(out), rows, scales_.lengths(), at, tolerance_};
 }
 
-void DryFriction::require_no_impulse(std::span<const double> impulses, double t) const {
+/// Directions are known to the rounding of the positions, over the scene's length.
+void DryFriction::require_no_impulse(std::span<const double> impulses, const Instant& at) const {
+  const double of_directions = scales_.rounding(at.q) / (epsilon * scales_.length);
+  const double none = round_off() * std::max(1.0, of_directions) * largest(impulses);
   for (const Rough& r : all_) {
-    if (std::abs(impulses[r.pressing_row]) <= round_off() * largest(impulses)) continue;
+    if (std::abs(impulses[r.pressing_row]) <= none) continue;
     throw StepFailure{
         stated_->row_label(r.row) + " is loaded by an impact through " + stated_->row_label(r.pressing_row) +
             ", whose frictional impulse Coulomb's law does not determine; end the run before, or leave "
             "friction out",
-        t};
+        at.t};
   }
 }
 

@@ -55,7 +55,7 @@ class DryFriction {
   std::vector<Happening> settle(const std::vector<std::size_t>& open, const Instant& at,
                                 std::optional<std::size_t> fallen = {});
   /// Throws StepFailure if an impact has loaded any of them.
-  void require_no_impulse(std::span<const double> impulses, double t) const;
+  void require_no_impulse(std::span<const double> impulses, const Instant& at) const;
   /// The system with what sticks and what slides.
   [[nodiscard]] const std::shared_ptr<const System>& system() const { return system_; }
 

@@ -1,7 +1,7 @@
-#include <dalembert/solvers/contact/complementarity.h>
 #include <dalembert/solvers/contact/contacts.h>
 #include <dalembert/solvers/contact/coupling.h>
 #include <dalembert/solvers/contact/round_off.h>
+#include <dalembert/solvers/linear/complementarity.h>
 #include <dalembert/solvers/linear/dense.h>
 #include <dalembert/solvers/manifold/start.h>
 

@@ -35,7 +35,7 @@ void Transitions::add(const std::vector<Contacts::Happening>& contacts,
 
 /// What contacts did, and its effect on friction.
 Transitions::Change Transitions::settle(Contacts::Change contacts, const Instant& at) {
-  friction_.require_no_impulse(contacts.impulses, at.t);
+  friction_.require_no_impulse(contacts.impulses, at);
   Change change{std::move(contacts.v_before), std::move(contacts.v), std::move(contacts.impulses)};
   add(contacts.what, friction_.settle(contacts_.open(), {at.t, at.q, change.v}), change.what);
   return change;
@@ -55,7 +55,7 @@ Transitions::Change Transitions::pass(const FlatSample& at, std::size_t function
 Transitions::Change Transitions::restate(const std::shared_ptr<const System>& stated, const Instant& at,
                                          std::span<const double> impulses) {
   friction_.restate(stated);
-  friction_.require_no_impulse(impulses, at.t);
+  friction_.require_no_impulse(impulses, at);
   const auto touching =
       contacts_.restate(std::make_shared<const System>(stated->without(stated->rough())), at);
   return settle(contacts_.pass(at, touching), at);

@@ -49,13 +49,21 @@ bool is_singular_position(const System& system, const RotatingFrame& frame, cons
   const MatrixXd N = orthogonal_complement(W.transpose()), dependences = orthogonal_complement(W);
   std::vector<double> mu(system.rows(), 0.0);
   const MatrixXd without = stiffness(system, frame, at, mu);
-  // Positions are known to rank_threshold at best, and so is the residue of a sum that is 0.
+  Eigen::VectorXd curvature(W.rows());  // of each row of unit length
+  for (Index k = 0; k < W.rows(); ++k) {
+    double& own = mu[rigid[static_cast<std::size_t>(k)]];
+    own = 1.0 / length[k];
+    curvature[k] = (stiffness(system, frame, at, mu) - without).norm();
+    own = 0.0;
+  }
+  // Positions are known to rank_threshold at best, and so is the residue of a sum that is 0; dependences are
+  // known to rank_threshold, also of rows that have no part in them.
   const double known = std::sqrt(rank_threshold);
   for (const auto dependence : dependences.colwise()) {
     for (Index k = 0; k < W.rows(); ++k) mu[rigid[static_cast<std::size_t>(k)]] = dependence[k] / length[k];
     const MatrixXd K = stiffness(system, frame, at, mu) - without;
     const MatrixXd left = N.transpose() * K * N;
-    if (left.norm() > known * K.norm()) return true;
+    if (left.norm() > known * dependence.cwiseAbs().cwiseMax(rank_threshold).dot(curvature)) return true;
   }
   return false;
 }

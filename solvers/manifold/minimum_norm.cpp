@@ -1,6 +1,7 @@
 #include "dalembert/solvers/manifold/minimum_norm.h"
 
 #include <dalembert/solvers/base/numbers.h>
+#include <dalembert/solvers/linear/complementarity.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,9 @@ namespace {
 
 /// The worst change of the positions is some times worse than the one that is tried.
 constexpr double margin = 10.0;
+/// What one-sided constraints pull by that cannot all push is as small as can be to this part: so little do
+/// forces jump where they cease to push, and the inverse times round-off is lost.
+constexpr double as_little = 1e-10;
 
 std::vector<Eigen::Index> others(const System& system, const ActiveRows& active) {
   std::vector<Eigen::Index> dropped;
@@ -70,6 +74,11 @@ void MinimumNorm::place(const System& system) {
     }
     first += static_cast<Eigen::Index>(c->rows) * c->inputs;
   }
+  for (const std::size_t number : system.conditional()) {
+    const auto& c = system.layout()->constraints[number];
+    if (c.holds.contact && system.in_force(c.own_rows().front()))
+      one_sided_.push_back({c.first_row, c.holds.contact->sign()});
+  }
   for (const Eigen::Index r : dropped_) unique_[static_cast<std::size_t>(r)] = 0;
   const auto d = static_cast<Eigen::Index>(dropped_.size());
   const auto m = static_cast<Eigen::Index>(system.rows());
@@ -97,6 +106,7 @@ void MinimumNorm::spread(const Solve& solve, const Instant& at, const System::Ev
   lambda_ = all;
   minimise();
   all.noalias() += N_ * z_;
+  keep_pushing(lambda);
   shares_.spread(N_, unique_, lambda);
 }
 
@@ -186,6 +196,30 @@ void MinimumNorm::minimise() {
   qr_.setThreshold(zero);
   qr_.compute(DN_);
   z_ = -qr_.solve(right_).cwiseProduct(scale_);
+}
+
+/// (4). Of what neither pushes nor pulls the force is 0 exactly.
+void MinimumNorm::keep_pushing(std::span<double> lambda) const {
+  const auto n = static_cast<Eigen::Index>(one_sided_.size());
+  Eigen::Map<Eigen::VectorXd> all(lambda.data(), N_.rows());
+  Eigen::MatrixXd A(n, N_.cols());
+  Eigen::VectorXd p(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto [row, sign] = one_sided_[static_cast<std::size_t>(i)];
+    A.row(i) = sign * N_.row(row);
+    p[i] = sign * all[row];
+  }
+  if (n == 0 || p.minCoeff() >= 0.0) return;
+  const Eigen::MatrixXd P = scale_.asDiagonal() * qr_.pseudoInverse();
+  const Eigen::MatrixXd response = P * P.transpose() * A.transpose();
+  Eigen::MatrixXd M = A * response;
+  const auto push = complementary_solution(M, p);
+  if (!push) M.diagonal() *= 1.0 + as_little;
+  const auto y = push ? push : complementary_solution(M, p);
+  if (!y) return;
+  all.noalias() += N_ * (response * *y);
+  for (Eigen::Index i = 0; push && i < n; ++i)
+    if ((*push)[i] > 0.0) all[one_sided_[static_cast<std::size_t>(i)].row] = 0.0;
 }
 
 }  // namespace dalembert

@@ -24,6 +24,14 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// nothing for the rods inside bodies. So the forces of the stated constraints are those of least norm, and
 /// neither the choice of a, nor how equations are scaled, nor what bodies are made of shows in them.
 ///
+/// One-sided constraints do not pull if some z lets all push: then (3) is that of least norm among these.
+/// With A their rows of N, in the direction in which they push, p what they push by (3), and P the
+/// pseudo-inverse of D N, the conditions of Karush, Kuhn and Tucker are
+///
+///   z += P P^T A^T y,   w = A P P^T A^T y + p >= 0,   y >= 0,   w^T y = 0.                     (4)
+///
+/// If there is no such z, as where one is about to open, they pull as little as can be.
+///
 /// Those of dry friction that sticks are then moved within their bounds, see FrictionShares.
 ///
 /// A multiplier is determined by the motion if its row of N is zero, which is asked as exactly as the
@@ -59,11 +67,17 @@ class MinimumNorm {
   void mark_unique();
   void weigh(const Eigen::MatrixXd& multipliers, Eigen::MatrixXd& forces) const;
   void minimise();
+  void keep_pushing(std::span<double> lambda) const;
 
   const System* system_;
   std::vector<double> lengths_;
   std::vector<Eigen::Index> active_, dropped_;
   std::vector<Stated> stated_;
+  struct OneSided {
+    Eigen::Index row;
+    double sign;
+  };
+  std::vector<OneSided> one_sided_;
   std::vector<char> unique_;
   std::vector<double> x_, U_, nudge_, q_nearby_;
   System::Evaluation nearby_;

@@ -1,4 +1,4 @@
-#include <dalembert/solvers/contact/complementarity.h>
+#include <dalembert/solvers/linear/complementarity.h>
 #include <dalembert/tests/solvers/with_events.h>
 
 #include <gmock/gmock.h>

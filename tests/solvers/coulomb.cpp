@@ -296,6 +296,30 @@ TEST_P(CoulombFriction, WithoutForceDoesNotChatter) {
   EXPECT_TRUE(run.events().empty());
 }
 
+// A ball slides 0.3 down a slope of 0.3 rad, with a = G (sin 0.3 - 0.2 cos 0.3), and strikes one that sticks,
+// without restitution: P = m_1 m_2/(m_1 + m_2) v. Floors are across the impact, also where the rounding of
+// positions turns their normals by 1e-11.
+TEST(Coulomb, TakesNoImpulseAlongASlopeFarAway) {
+  constexpr double G = 10.0, slope = 0.3;
+  const Vec<2> down(std::cos(slope), -std::sin(slope)), up(std::sin(slope), std::cos(slope));
+  for (const auto& [far, stepper] : {std::pair(0.0, Stepper::ida), std::pair(1e5, Stepper::ida),
+                                     std::pair(0.0, Stepper::erk), std::pair(1e5, Stepper::erk)}) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -G}});
+    const Vec<2> start(far, -far);
+    const auto first = scene.add_particle({.mass = 1.0, .position = start, .velocity = down}),
+               second = scene.add_particle({.mass = 2.0, .position = start + 0.5 * down});
+    const Plane<2> plane{start, up};
+    for (const auto& [ball, mu] : {std::pair(first, 0.2), std::pair(second, 4.0)})
+      scene.add(coulomb(scene.add(OnCurve{ball, plane}), Slip{ball, plane}, mu));
+    const auto hit = scene.add(unilateral(Distance{first, second, 0.2}, {.restitution = 0.0}));
+    const auto run = simulate(scene, {.t_end = 1.0, .tolerance = 1e-6, .stepper = stepper, .assemble = true});
+    const double v = std::sqrt(1.0 + 2.0 * 0.3 * G * (std::sin(slope) - 0.2 * std::cos(slope)));
+    ASSERT_FALSE(run.events().empty());
+    EXPECT_NEAR(run.impulse(hit, 0), 2.0 / 3.0 * v, 1e-4);  // 100 tolerances
+  }
+}
+
 TEST(Coulomb, RefusesWhatItIsNotFor) {
   Incline scene(0.0, 0.0, 0.1, 0.2);
   const auto add = [&scene](double mu, double mu_static) {

@@ -514,5 +514,15 @@ TEST(NormalModes, AreRefusedWhereConstraintsTouch) {
               10 * rounding);
 }
 
+// Planes have no curvature, so the rod's part in their dependence is round-off: no singular position.
+TEST(NormalModes, OfAPendulumWhosePlaneIsStatedTwice) {
+  Scene<3> scene("pendulum");
+  scene.add(UniformGravity<3>{{0.0, 0.0, -10.0}});
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {0.6, 0.0, -0.8}});
+  scene.add(Distance{Fixed<3>{}, bob, 1.0});
+  for (int i = 0; i < 2; ++i) scene.add(OnSurface{bob, Plane<3>{.normal = {0.0, 1.0, 0.0}}});
+  EXPECT_NEAR(normal_modes(scene, equilibrium(scene)).frequency(0), std::sqrt(10.0), 1e-9);
+}
+
 }  // namespace
 }  // namespace dalembert::normal_modes_test

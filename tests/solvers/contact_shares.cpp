@@ -1,0 +1,111 @@
+#include "../both_steppers.h"
+#include <dalembert/dalembert.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tuple>
+#include <vector>
+
+/// Loads that several one-sided contacts share.
+namespace dalembert::contact_shares_test {
+namespace {
+
+constexpr double g = 10.0;
+/// What a few solves of a few unknowns leave of forces up to 100.
+constexpr double rounding = 1e-11;
+
+class ContactShares : public testing::TestWithParam<std::tuple<Stepper, double>> {
+ protected:
+  [[nodiscard]] static Options options(double t_end, int samples) {
+    const auto [stepper, tolerance] = GetParam();
+    return {.t_end = t_end, .samples = samples, .tolerance = tolerance, .stepper = stepper};
+  }
+};
+INSTANTIATE_TEST_SUITE_P(BothSteppers, ContactShares,
+                         testing::Combine(both_steppers, testing::Values(1e-6, 1e-9)), [](const auto& info) {
+                           return std::string(name(std::get<0>(info.param))) + std::to_string(info.index);
+                         });
+
+/// A beam on three props at -1, 0 and 1.
+struct Beam {
+  Scene<2> scene{"beam"};
+  RigidBody<2> body;
+  std::vector<Constraint<1>> props;
+
+  Beam(double mass, double centre) {
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    body = add_body(scene, BodyState<2>{.mass = mass, .inertia = 2.0, .centre = {centre, 0.0}}, "beam");
+    for (const double x : {-1.0, 0.0, 1.0})
+      props.push_back(scene.add(unilateral(OnCurve{body.point_at({x, 0.0}), Plane<2>{}})));
+  }
+  /// Of forces `half`(t) up at -1 and down at 1: 2 half clockwise.
+  void add_couple(auto half) {
+    scene.add(force_law(points(body.point({-1.0, 0.0}), body.point({1.0, 0.0})),
+                        [half](auto t, auto r, auto, auto, auto) {
+                          const auto f = half(t) + 0.0 * r.x();
+                          return std::make_tuple(vec(0.0 * f, f), vec(0.0 * f, -f));
+                        }));
+  }
+};
+
+// N = (n, 6 - 2 n, 54 + n) for any n between 0 and 3; the least sum of squares is at n = 0.
+TEST_P(ContactShares, OfABeamOnThreePropsPush) {
+  const Beam beam(6.0, 0.9);
+  const auto run = simulate(beam.scene, options(1.0, 3));
+  const double by_hand[] = {0.0, 6.0, 54.0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(run.multiplier(beam.props[k], 2), by_hand[k], rounding);
+    EXPECT_GE(run.multiplier(beam.props[k], 2), 0.0);
+    EXPECT_FALSE(run.is_unique(beam.props[k], 2));
+  }
+  EXPECT_TRUE(run.events().empty());
+}
+
+// N = (17.5 - n, 2.5 + n, n, 80 - n) for any n between 0 and 17.5; the least sum of squares is at n = 17.5.
+TEST_P(ContactShares, OfATableOnFourLegsPush) {
+  Scene<3> scene("table");
+  scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
+  const auto table = add_body(
+      scene, BodyState<3>{.mass = 10.0, .inertia = {2.0, 2.0, 3.0}, .centre = {0.6, 0.65, 0.5}}, "table");
+  std::vector<Constraint<1>> legs;
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0})
+      legs.push_back(scene.add(unilateral(OnSurface{table.point_at({x, y, 0.0}), Plane<3>{}})));
+  const auto run = simulate(scene, options(1.0, 3));
+  const double by_hand[] = {0.0, 20.0, 17.5, 62.5};
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(run.multiplier(legs[k], 2), by_hand[k], rounding);
+}
+
+// N1 + N2 + N3 = 10, N3 - N1 = 8 sin 3t: a couple of 10 would tip it.
+TEST_P(ContactShares, OfABeamUnderAVaryingCoupleBalanceIt) {
+  Beam beam(1.0, 0.0);
+  beam.add_couple([](auto t) { return 4.0 * sin(3.0 * t); });
+  const auto run = simulate(beam.scene, options(4.0, 41));
+  EXPECT_TRUE(run.events().empty());
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const auto N = [&](std::size_t k) { return run.multiplier(beam.props[k], i); };
+    EXPECT_GE(std::min({N(0), N(1), N(2)}), 0.0);
+    EXPECT_NEAR(N(0) + N(1) + N(2), g, rounding);
+    EXPECT_NEAR(N(2) - N(0), 8.0 * std::sin(3.0 * run.times()[i]), rounding);
+  }
+}
+
+// It tips over the last prop when the couple 20 t passes 10, at t = 1/2; about that prop the moment of
+// inertia is 3, and 3 omega' = -(20 t - 10) for small angles. The contacts that open say so once.
+TEST_P(ContactShares, OfABeamThatTipsEndWhereItDoes) {
+  Beam beam(1.0, 0.0);
+  beam.add_couple([](auto t) { return 10.0 * t; });
+  const auto run = simulate(beam.scene, options(0.6, 3));
+  ASSERT_EQ(run.events().size(), 2U);
+  const double tolerance = std::get<1>(GetParam());
+  for (const auto& event : run.events()) {
+    EXPECT_EQ(event.what, Happened::opened);
+    EXPECT_NEAR(event.time, 0.5, 10.0 * tolerance);
+  }
+  // The angle stays below 1.2e-3, of which the equation neglects the square.
+  EXPECT_NEAR(angular_velocity(run.sample(2), beam.body), -10.0 * 0.1 * 0.1 / 3.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace dalembert::contact_shares_test
