@@ -3,7 +3,7 @@
 set -euo pipefail
 command -v dpkg-query >/dev/null || exit 0 # elsewhere CMake says what is missing
 
-needed=(git g++ cmake ninja-build libeigen3-dev libsundials-dev libsuitesparse-dev
+needed=(git g++ cmake make ninja-build libeigen3-dev libsundials-dev libsuitesparse-dev
   libboost-dev libcli11-dev libgtest-dev libgmock-dev
   libhdf5-dev libtbb-dev libopenmpi-dev openmpi-bin python3-h5py "$@")
 missing=()
