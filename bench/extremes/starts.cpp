@@ -13,11 +13,11 @@ constexpr double rounding_of_the_user = 1e-8;
 /// Distances and speeds are printed with six digits.
 constexpr double printed = 1e-5;
 
-/// The number after `word` in a message, NaN without.
+/// The number after `word of` in a message, NaN without.
 double number_after(const std::string& said, const std::string& word) {
-  const std::size_t at = said.find(word + ' ');
+  const std::size_t at = said.find(word + " of ");
   if (at == std::string::npos) return std::numeric_limits<double>::quiet_NaN();
-  return std::strtod(said.c_str() + at + word.size() + 1, nullptr);
+  return std::strtod(said.c_str() + at + word.size() + 4, nullptr);
 }
 
 /// A refusal that must name `culprit` and, after `word`, the distance or speed d.
