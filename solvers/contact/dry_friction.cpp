@@ -112,8 +112,12 @@ double DryFriction::switching(std::size_t function, const FlatSample& now) const
   const double lambda = now.lambda[r.pressing_row];
   if (watched == sign) return r.mode == Mode::slides && !r.one_sided ? r.sign * lambda + force : 1.0;
   if (r.mode == Mode::absent) return 1.0;
-  if (r.mode == Mode::sticks && watched == mode)
-    return (r.mu_static * std::abs(lambda) - part(r, now.lambda).norm()) + force;
+  if (r.mode == Mode::sticks && watched == mode) {
+    // The difference of squares is smooth: where the normal force passes 0 the bound itself has a corner,
+    // whose tip would pass between the times that are looked at.
+    const double bound = r.mu_static * std::abs(lambda) + force;
+    return bound * bound - part(r, now.lambda).squaredNorm();
+  }
   const bool slow = r.mode == Mode::slides && r.pace != Pace::fast;
   if (watched == speed && !slow && !r.shared) return 1.0;
   if (slip_at_ != now.time) find_slip({now.time, now.q, now.v});

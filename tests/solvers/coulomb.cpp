@@ -296,6 +296,35 @@ TEST_P(CoulombFriction, WithoutForceDoesNotChatter) {
   EXPECT_TRUE(run.events().empty());
 }
 
+// On a wire that presses to either side, N = k (t - t0), a force f along it has to be held by mu |N|: it
+// slides from t0 - a on, a = f/(mu k), until t0 + (1 + root of 2) a. With s = (t - t0)/a
+//
+//   v = f a/m [(s + 1) - (1 + sgn(s) s^2)/2],   x = f a^2/m (1 + 2/3 root of 2) in all.
+//
+// The larger k, the narrower is the corner of the bound, down to 1e-5 of a run that moves at no other time.
+TEST(Coulomb, LetsGoWhereTheNormalForcePassesZero) {
+  constexpr double f = 1.0, mu = 0.5, t0 = 0.37, root = std::numbers::sqrt2;
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk})
+    for (const double tolerance : {1e-6, 1e-9})
+      for (const double k : {1e2, 1e3, 1e4, 1e5}) {
+        const double a = f / (mu * k);
+        Scene<2> scene;
+        const auto bead = scene.add_particle({.mass = 1.0});
+        const auto wire = scene.add(OnCurve{bead, Plane<2>{}});
+        scene.add(coulomb(wire, Slip{bead, Plane<2>{}}, mu));
+        scene.add(force_law(points(bead), [=](auto t, auto, auto v) {
+          return vec(f + 0.0 * v.x(), k * (t - t0) + 0.0 * v.x());
+        }));
+        const auto run =
+            simulate(scene, {.t_end = 1.0, .samples = 3, .tolerance = tolerance, .stepper = stepper});
+        ASSERT_EQ(run.events().size(), 2U);
+        EXPECT_NEAR(run.events()[0].time, t0 - a, tolerance);
+        EXPECT_NEAR(run.events()[1].time, t0 + (1.0 + root) * a, tolerance);
+        const double x = f * a * a * (1.0 + 2.0 / 3.0 * root);
+        EXPECT_NEAR(run.position(bead, 2).x(), x, 1000.0 * tolerance * x);  // as all models keep to
+      }
+}
+
 // A ball slides 0.3 down a slope of 0.3 rad, with a = G (sin 0.3 - 0.2 cos 0.3), and strikes one that sticks,
 // without restitution: P = m_1 m_2/(m_1 + m_2) v. Floors are across the impact, also where the rounding of
 // positions turns their normals by 1e-11.
