@@ -26,6 +26,14 @@ std::vector<Eigen::Index> others(const System& system, const ActiveRows& active)
   return dropped;
 }
 
+/// Whether dry friction reads a contact's force.
+bool presses_rough(const System& system, std::size_t contact) {
+  return std::ranges::any_of(system.rough(), [&](std::size_t number) {
+    const auto& law = *system.layout()->constraints[number].holds.roughness;
+    return static_cast<std::size_t>(law.pressed_by) == contact;
+  });
+}
+
 /// Numbers between -1 and 1 without a pattern, which a scene might share.
 std::vector<double> irregular(std::size_t count) {
   std::minstd_rand generator;
@@ -76,7 +84,7 @@ void MinimumNorm::place(const System& system) {
   }
   for (const std::size_t number : system.conditional()) {
     const auto& c = system.layout()->constraints[number];
-    if (c.holds.contact && system.in_force(c.own_rows().front()))
+    if (c.holds.contact && system.in_force(c.own_rows().front()) && !presses_rough(system, number))
       one_sided_.push_back({c.first_row, c.holds.contact->sign()});
   }
   for (const Eigen::Index r : dropped_) unique_[static_cast<std::size_t>(r)] = 0;

@@ -77,6 +77,32 @@ TEST_P(ContactShares, OfATableOnFourLegsPush) {
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(run.multiplier(legs[k], 2), by_hand[k], rounding);
 }
 
+// The same on rough legs, pushed along the floor by less than 0.3 times its weight of 100: it stands, and one
+// leg may carry nothing.
+TEST_P(ContactShares, OfARoughTableHoldIt) {
+  Scene<3> scene("table");
+  scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
+  const auto table = add_body(
+      scene, BodyState<3>{.mass = 10.0, .inertia = {2.0, 2.0, 3.0}, .centre = {0.6, 0.65, 0.5}}, "table");
+  std::vector<Constraint<1>> legs;
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0}) {
+      const auto foot = table.point_at({x, y, 0.0});
+      legs.push_back(scene.add(unilateral(OnSurface{foot, Plane<3>{}})));
+      scene.add(coulomb(legs.back(), Slip{foot, Plane<3>{}}, 0.3));
+    }
+  scene.add(PointGravity{table.point_at({0.6, 0.65, 0.0}), 1.0, Vec<3>(28.0, 0.0, 0.0)});
+  const auto run = simulate(scene, options(1.0, 3));
+  EXPECT_TRUE(run.events().empty());
+  EXPECT_NEAR(run.position(table.centre(), 2).x(), 0.6, rounding);
+  double sum = 0.0;
+  for (const auto leg : legs) {
+    EXPECT_GE(run.multiplier(leg, 2), 0.0);
+    sum += run.multiplier(leg, 2);
+  }
+  EXPECT_NEAR(sum, 10.0 * g, rounding);
+}
+
 // N1 + N2 + N3 = 10, N3 - N1 = 8 sin 3t: a couple of 10 would tip it.
 TEST_P(ContactShares, OfABeamUnderAVaryingCoupleBalanceIt) {
   Beam beam(1.0, 0.0);
