@@ -9,6 +9,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <set>
 
 /// Contacts at an instant at which they change: impacts, and what is closed after them.
 namespace dalembert {
@@ -67,21 +68,26 @@ void Contacts::solve_impact(const Coupling& coupling, const std::vector<std::siz
   coupling.apply_impulses(P, change.v, change.impulses);
 }
 
-/// Notes the impacts; the islands where they accumulate, and when they end there.
+/// Notes the impacts; the islands where they accumulate, and when they end there: where all that was struck
+/// has no way left. What has no restitution has none at once, beside others that still bounce.
 std::vector<Contacts::Limit> Contacts::limits_of_impacts(const Change& change, const Instant& at) {
   const double t = at.t;
   find_gaps(at);
   std::vector<Limit> limits;
+  std::set<std::size_t> bouncing;
   for (const Happening& happening : change.what) {
     Contact& c = contacts_[happening.contact];
     Accumulation& impacts = c.impacts;
     impacts.add(t);
-    const bool ends = std::abs(psi_[c.row]) * impacts.left() <= tolerance_ * scales_.length * c.gradient;
+    const double rate = std::abs(psi_[c.row]);
+    const bool ends = rate <= still(c) || rate * impacts.left() <= tolerance_ * scales_.length * c.gradient;
+    if (!ends) bouncing.insert(c.island);
     if (!std::isfinite(impacts.limit()) || !ends) continue;
     auto limit = std::ranges::find(limits, c.island, &Limit::island);
     if (limit == limits.end()) limit = limits.insert(limit, {c.island, t, impacts.interval()});
     limit->time = std::max(limit->time, impacts.limit());
   }
+  std::erase_if(limits, [&](const Limit& one) { return bouncing.contains(one.island); });
   return limits;
 }
 

@@ -133,5 +133,31 @@ TEST_P(ContactShares, OfABeamThatTipsEndWhereItDoes) {
   EXPECT_NEAR(angular_velocity(run.sample(2), beam.body), -10.0 * 0.1 * 0.1 / 3.0, 1e-6);
 }
 
+// A bead slides along a floor without restitution and bounces off a wall that leans over it, so that both are
+// struck at once. Along the floor it falls with a: impacts follow in 2 e^k v/a, v^2 = 2 a d, and end after
+// 2 v e/(a (1 - e)). The floor is at rest all the while, which must not end the bounces.
+TEST_P(ContactShares, OfAFloorUnderAWallLetTheWallBounce) {
+  constexpr double a = 4.0, d = 0.5, e = 0.3;
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{a, -g}});
+  const auto bead = scene.add_particle({.mass = 1.0});
+  scene.add(unilateral(OnCurve{bead, Plane<2>{}}, {.restitution = 0.0}), "floor");
+  scene.add(unilateral(OnCurve{bead, Plane<2>{{d, 0.0}, {-0.8, -0.6}}}, {.restitution = e}), "wall");
+  const double v = std::sqrt(2.0 * a * d), first = v / a;
+  double flight = 2.0 * e * v / a, begins = first;
+  for (int k = 1; k < 4; ++k) {
+    begins += flight;
+    flight *= e;
+  }
+  Options own = options(2.0, 2);
+  own.times = {begins + flight / 2.0, 2.0};  // the top of the fourth flight
+  const auto run = simulate(scene, own);
+  const double height = a * flight * flight / 8.0, error = 1000.0 * std::get<1>(GetParam());
+  EXPECT_NEAR(d - run.position(bead, 0).x(), height, error * d);
+  EXPECT_NEAR(run.position(bead, 1).x(), d, error * d);
+  EXPECT_EQ(run.events().back().what, Happened::rested);
+  EXPECT_NEAR(run.events().back().time, first + 2.0 * v * e / (a * (1.0 - e)), error * first);
+}
+
 }  // namespace
 }  // namespace dalembert::contact_shares_test
