@@ -14,8 +14,8 @@ namespace dalembert {
 
 namespace {
 
-/// Explicit runs of the catalogue err by up to 700 tolerances in force, one in five by more than this. Twice as
-/// many, or half, cost a sixth more or less where the first runs serve.
+/// Explicit runs of the catalogue err by up to 700 tolerances in force, one in five by more than this. Twice
+/// as many, or half, cost a sixth more or less where the first runs serve.
 constexpr double usual_error = 50.0;
 constexpr double loosest = 1e-2;
 /// What a tolerance is chosen for, as a part of the request: errors follow it to a factor of 2.
