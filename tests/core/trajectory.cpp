@@ -124,8 +124,9 @@ TEST_F(TwoSamples, RefuseAForeignHandle) {
   Scene<2> other;
   const auto foreign = other.add_particle({.mass = 1.0});
   const auto foreign_rod = other.add(Distance{Fixed<2>{}, foreign, 1.0});
-  const auto refused = ThrowsMessage<InvalidArgument>(
-      AllOf(HasSubstr("\"dumbbell\""), HasSubstr("another scene"), HasSubstr("use those that this scene returned")));
+  const auto refused =
+      ThrowsMessage<InvalidArgument>(AllOf(HasSubstr("\"dumbbell\""), HasSubstr("another scene"),
+                                           HasSubstr("use those that this scene returned")));
   EXPECT_THAT([&] { (void)run.position(foreign, 0); }, refused);
   EXPECT_THAT([&] { (void)run.velocity(foreign, 0); }, refused);
   EXPECT_THAT([&] { (void)run.constraint_force(foreign, 0); }, refused);
