@@ -87,8 +87,9 @@ class Contacts {
   /// With friction accelerations are not those of (2): what touches and does not separate is closed then,
   /// what has fallen open, and `open_pulling` finds what else opens.
   Change pass(const Instant& at, const std::vector<std::size_t>& fallen);
-  /// Where the forces of closed contacts are not determined the smallest ones may pull, though others, those
-  /// of (2), push: opens the contacts without a force by these; with friction the one that pulls most.
+  /// Where the forces of closed contacts are not determined those of least norm may pull, where dry friction
+  /// reads them or all cannot push, though others, those of (2), push: opens the contacts without a force by
+  /// these; with friction the one that pulls most.
   /// Returns whether there was any, and adds those closed before.
   [[nodiscard]] bool open_pulling(const FlatSample& now, std::vector<Happening>& what);
   /// The numbers in the layout of those that are open.

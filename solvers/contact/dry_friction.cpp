@@ -116,7 +116,7 @@ double DryFriction::switching(std::size_t function, const FlatSample& now) const
     // The difference of squares is smooth: where the normal force passes 0 the bound itself has a corner,
     // whose tip would pass between the times that are looked at.
     const double bound = r.mu_static * std::abs(lambda) + force;
-    return bound * bound - part(r, now.lambda).squaredNorm();
+    return bound * bound - part(r, now.lambda).squaredNorm() + std::numeric_limits<double>::min();
   }
   const bool slow = r.mode == Mode::slides && r.pace != Pace::fast;
   if (watched == speed && !slow && !r.shared) return 1.0;

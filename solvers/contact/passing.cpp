@@ -80,7 +80,8 @@ std::vector<Contacts::Limit> Contacts::limits_of_impacts(const Change& change, c
     Accumulation& impacts = c.impacts;
     impacts.add(t);
     const double rate = std::abs(psi_[c.row]);
-    const bool ends = rate <= still(c) || rate * impacts.left() <= tolerance_ * scales_.length * c.gradient;
+    const bool ends = (c.closed && !c.moved) || rate <= still(c) ||
+                      rate * impacts.left() <= tolerance_ * scales_.length * c.gradient;
     if (!ends) bouncing.insert(c.island);
     if (!std::isfinite(impacts.limit()) || !ends) continue;
     auto limit = std::ranges::find(limits, c.island, &Limit::island);

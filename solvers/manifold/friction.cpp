@@ -70,6 +70,7 @@ bool FrictionSolver::begin(std::span<const double> w, std::span<const double> s)
   without_.assign(given_.begin(), given_.end());
   matrix_.solve(without_);
   std::ranges::fill(lambda_, 0.0);
+  std::ranges::fill(force_, 0.0);
   read_multipliers(w, s, without_);
   return std::ranges::all_of(without_, [](double value) { return std::isfinite(value); });
 }
@@ -81,7 +82,7 @@ void FrictionSolver::read_multipliers(std::span<const double> w, std::span<const
   const auto columns = system_->w_columns();
   const auto masses = system_->masses();
   const auto own = x.subspan(force_.size());
-  for (std::size_t i = 0; i < balanced_.size(); ++i) balanced_[i] = std::abs(given_[i]);
+  for (std::size_t i = 0; i < balanced_.size(); ++i) balanced_[i] = std::abs(given_[i]) + std::abs(force_[i]);
   for (std::size_t j = 0; j < own.size(); ++j)
     for (const std::size_t k : system_->row(rows_.rows[j])) balanced_[columns[k]] += std::abs(w[k] * own[j]);
   for (std::size_t j = 0; j < own.size(); ++j) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace dalembert {
 
@@ -32,6 +33,20 @@ bool presses_rough(const System& system, std::size_t contact) {
     const auto& law = *system.layout()->constraints[number].holds.roughness;
     return static_cast<std::size_t>(law.pressed_by) == contact;
   });
+}
+
+/// The groups of a symmetric matrix that have nothing to do with each other.
+std::vector<std::vector<Eigen::Index>> connected(const Eigen::MatrixXd& M) {
+  std::vector<std::vector<Eigen::Index>> groups;
+  std::vector<char> met(static_cast<std::size_t>(M.rows()), 0);
+  for (Eigen::Index first = 0; first < M.rows(); ++first) {
+    if (std::exchange(met[static_cast<std::size_t>(first)], 1)) continue;
+    auto& group = groups.emplace_back(1, first);
+    for (std::size_t k = 0; k < group.size(); ++k)
+      for (Eigen::Index j = 0; j < M.rows(); ++j)
+        if (M(group[k], j) != 0.0 && !std::exchange(met[static_cast<std::size_t>(j)], 1)) group.push_back(j);
+  }
+  return groups;
 }
 
 /// Numbers between -1 and 1 without a pattern, which a scene might share.
@@ -206,28 +221,34 @@ void MinimumNorm::minimise() {
   z_ = -qr_.solve(right_).cwiseProduct(scale_);
 }
 
-/// (4). Of what neither pushes nor pulls the force is 0 exactly.
+/// (4), for those that share with each other. Of what neither pushes nor pulls the force is 0 exactly.
 void MinimumNorm::keep_pushing(std::span<double> lambda) const {
-  const auto n = static_cast<Eigen::Index>(one_sided_.size());
+  std::vector<OneSided> sharing;
+  for (const OneSided& one : one_sided_)
+    if (!unique_[static_cast<std::size_t>(one.row)]) sharing.push_back(one);
+  const auto n = static_cast<Eigen::Index>(sharing.size());
   Eigen::Map<Eigen::VectorXd> all(lambda.data(), N_.rows());
   Eigen::MatrixXd A(n, N_.cols());
   Eigen::VectorXd p(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const auto [row, sign] = one_sided_[static_cast<std::size_t>(i)];
+    const auto [row, sign] = sharing[static_cast<std::size_t>(i)];
     A.row(i) = sign * N_.row(row);
     p[i] = sign * all[row];
   }
   if (n == 0 || p.minCoeff() >= 0.0) return;
   const Eigen::MatrixXd P = scale_.asDiagonal() * qr_.pseudoInverse();
-  const Eigen::MatrixXd response = P * P.transpose() * A.transpose();
-  Eigen::MatrixXd M = A * response;
-  const auto push = complementary_solution(M, p);
-  if (!push) M.diagonal() *= 1.0 + as_little;
-  const auto y = push ? push : complementary_solution(M, p);
-  if (!y) return;
-  all.noalias() += N_ * (response * *y);
-  for (Eigen::Index i = 0; push && i < n; ++i)
-    if ((*push)[i] > 0.0) all[one_sided_[static_cast<std::size_t>(i)].row] = 0.0;
+  const Eigen::MatrixXd response = P * P.transpose() * A.transpose(), M = A * response;
+  for (const auto& group : connected(M)) {
+    Eigen::MatrixXd own = M(group, group);
+    const auto push = complementary_solution(own, p(group));
+    if (!push) own.diagonal() *= 1.0 + as_little;
+    const auto y = push ? push : complementary_solution(own, p(group));
+    if (!y) continue;
+    all.noalias() += N_ * (response(Eigen::all, group) * *y);
+    for (std::size_t i = 0; push && i < group.size(); ++i)
+      if ((*push)[static_cast<Eigen::Index>(i)] > 0.0)
+        all[sharing[static_cast<std::size_t>(group[i])].row] = 0.0;
+  }
 }
 
 }  // namespace dalembert

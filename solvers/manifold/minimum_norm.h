@@ -33,7 +33,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// If there is no such z, as where one is about to open, they pull as little as can be. Contacts that dry
 /// friction reads are not among them: what carries nothing has no friction, so one that pulls has to open.
 ///
-/// Those of dry friction that sticks are then moved within their bounds, see FrictionShares.
+/// Those of dry friction that sticks are then moved within their bounds, see FrictionShares, and with them
+/// what shares with them.
 ///
 /// A multiplier is determined by the motion if its row of N is zero, which is asked as exactly as the
 /// positions are known: (1) is corrected by what is left of W^T N a rounding of the positions away, and
@@ -46,7 +47,7 @@ class MinimumNorm {
   MinimumNorm(const System& system, const ActiveRows& active, std::vector<double> lengths);
 
   [[nodiscard]] bool needed() const { return !dropped_.empty(); }
-  /// Spreads lambda (one per row of the system, zero for dropped ones) by (1)-(3); `e` holds the equations
+  /// Spreads lambda (one per row of the system, zero for dropped ones) by (1)-(4); `e` holds the equations
   /// at the state, `solve` solves [M -W^T; W 0] of the active rows there in place. Throws EquationFault.
   void spread(const Solve& solve, const Instant& at, const System::Evaluation& e, std::span<double> lambda);
   /// Per row of the system, after `spread`: 1 if its multiplier is determined by the motion.

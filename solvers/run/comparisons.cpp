@@ -117,9 +117,10 @@ void Comparisons::list_margins() {
   for (std::vector<double>* all : {&motion_.q, &motion_.v}) all->resize(a_.size());
 }
 
+/// What is no longer compared has left its side.
 int Comparisons::side_of(const Margin& of, const Branches::Sides& heard) {
-  if (of.batch >= heard.size() || of.comparison >= heard[of.batch].size()) return of.side;
-  return heard[of.batch][of.comparison].side;
+  const bool is_made = of.batch < heard.size() && of.comparison < heard[of.batch].size();
+  return is_made ? heard[of.batch][of.comparison].side : -1;
 }
 
 /// How far what was heard is from leaving its side: negative behind.
