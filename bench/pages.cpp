@@ -154,7 +154,11 @@ void pages(const Pages& options) {
   for (const models::EventModel& model : models_of_events())
     (void)outcome_of(model.name, [&] { write_event_model(model, options); });
   for (const auto& [scene, t_end] : models::lecture_scenes())
-    std::visit([&, end = t_end](const auto& own) { write_scene(own, end, options); }, scene);
+    std::visit(
+        [&, end = t_end](const auto& own) {
+          (void)outcome_of(own.name(), [&] { write_scene(own, end, options); });
+        },
+        scene);
 }
 
 }  // namespace dalembert::bench

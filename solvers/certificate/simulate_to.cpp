@@ -198,11 +198,6 @@ class Approach {
     return 2.0 * better_.record->statistics.accuracy <= TwoRuns::most_of_better * claim;
   }
 
-  /// Whether a run at this tolerance should meet the request, if errors follow this power of it.
-  [[nodiscard]] bool is_expected_at(double tolerance, double power) const {
-    return excess_ * std::pow(tolerance / options_.tolerance, power) <= 1.0;
-  }
-
   /// The next runs; false if there are none more accurate.
   bool refine() {
     const double of_better = better_.record->tolerance;
@@ -213,15 +208,15 @@ class Approach {
       return true;
     }
     if (options_.tolerance <= least) return false;
-    const double p = power();
-    const double wanted = std::isfinite(excess_) ? std::max(std::pow(aim / excess_, 1.0 / p), 1e-4) : 1e-2;
+    const double wanted =
+        std::isfinite(excess_) ? std::max(std::pow(aim / excess_, 1.0 / power()), 1e-4) : 1e-2;
     excess_before_ = excess_;
     tolerance_before_ = options_.tolerance;
     const double next = std::max(wanted * options_.tolerance, least);
     if (better_.stopped.empty() && serves_at(next)) {
       options_.tolerance = next;  // the more accurate run still is
       run_of_first_ = count(finish(run_, options_));
-    } else if (better_.stopped.empty() && (next >= of_better || is_expected_at(of_better, p))) {
+    } else if (next >= of_better && better_.stopped.empty()) {
       options_.tolerance = of_better;
       run_of_first_ = std::exchange(better_, count(finish(run_, certifying(options_))));
     } else {

@@ -14,9 +14,6 @@ namespace {
 
 /// The worst change of the positions is some times worse than the one that is tried.
 constexpr double margin = 10.0;
-/// What one-sided constraints pull by that cannot all push is as small as can be to this part: so little do
-/// forces jump where they cease to push, and the inverse times round-off is lost.
-constexpr double as_little = 1e-10;
 
 std::vector<Eigen::Index> others(const System& system, const ActiveRows& active) {
   std::vector<Eigen::Index> dropped;
@@ -47,6 +44,23 @@ std::vector<std::vector<Eigen::Index>> connected(const Eigen::MatrixXd& M) {
         if (M(group[k], j) != 0.0 && !std::exchange(met[static_cast<std::size_t>(j)], 1)) group.push_back(j);
   }
   return groups;
+}
+
+/// y of (4) where no z lets all push: by the proximal point method, M y_(k+1) + E (y_(k+1) - y_k) + p = w
+/// with a small E, whose steps tend to the least pull. What is left of the first falls by E/M in each; y
+/// grows as 1/E.
+Eigen::VectorXd least_pull(const Eigen::MatrixXd& M, const Eigen::VectorXd& p) {
+  constexpr double small = 1e-6;  // 1e-4 and 1e-8 pass the same tests
+  constexpr int steps = 3;
+  const Eigen::VectorXd E = small * M.diagonal();
+  const Eigen::MatrixXd regular = M + Eigen::MatrixXd(E.asDiagonal());
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(p.size());
+  for (int k = 0; k < steps; ++k) {
+    const auto next = complementary_solution(regular, p - E.cwiseProduct(y));
+    if (!next) break;
+    y = *next;
+  }
+  return y;
 }
 
 /// Numbers between -1 and 1 without a pattern, which a scene might share.
@@ -239,15 +253,11 @@ void MinimumNorm::keep_pushing(std::span<double> lambda) const {
   const Eigen::MatrixXd P = scale_.asDiagonal() * qr_.pseudoInverse();
   const Eigen::MatrixXd response = P * P.transpose() * A.transpose(), M = A * response;
   for (const auto& group : connected(M)) {
-    Eigen::MatrixXd own = M(group, group);
-    const auto push = complementary_solution(own, p(group));
-    if (!push) own.diagonal() *= 1.0 + as_little;
-    const auto y = push ? push : complementary_solution(own, p(group));
-    if (!y) continue;
-    all.noalias() += N_ * (response(Eigen::all, group) * *y);
+    const auto push = complementary_solution(M(group, group), p(group));
+    const Eigen::VectorXd y = push ? *push : least_pull(M(group, group), p(group));
+    all.noalias() += N_ * (response(Eigen::all, group) * y);
     for (std::size_t i = 0; push && i < group.size(); ++i)
-      if ((*push)[static_cast<Eigen::Index>(i)] > 0.0)
-        all[sharing[static_cast<std::size_t>(group[i])].row] = 0.0;
+      if (y[static_cast<Eigen::Index>(i)] > 0.0) all[sharing[static_cast<std::size_t>(group[i])].row] = 0.0;
   }
 }
 
