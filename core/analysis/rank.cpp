@@ -124,7 +124,8 @@ std::vector<std::size_t> independent_among(Columns columns, const std::vector<ch
   return chosen;
 }
 
-/// Holonomic rows first: of a rod's equation and its derivative the rod is kept.
+/// Holonomic rows first: of a rod's equation and its derivative the rod is kept. Where these come so close to
+/// dependent that more rows of velocities than before seem independent, `like` stays.
 std::vector<std::size_t> independent(const System& system, const Columns& columns, double threshold,
                                      const ActiveRows* like) {
   const std::size_t holonomic = system.holonomic_rows();
@@ -141,7 +142,7 @@ std::vector<std::size_t> independent(const System& system, const Columns& column
   for (const std::size_t r :
        independent_among(columns, velocity_level, wanted(like != nullptr ? like->size() : 0)))
     chosen.push_back(r);
-  return chosen;
+  return like != nullptr && chosen.size() != like->size() ? like->rows : chosen;
 }
 
 /// Compliant rows among `active` that depend on others, rigid ones first of all.

@@ -88,10 +88,13 @@ VectorXd DryFriction::slip(const Rough& rough) const { return part(rough, u_); }
 /// tolerance.
 double DryFriction::no_slip() const { return std::min(round_off(), 0.1 * tolerance_) * scales_.speed(); }
 
-/// Round-off of the forces on what it acts on, of inertia and its own; never 0.
+/// Round-off of the forces on what it acts on, of inertia and its own, and of what it shares with others;
+/// never 0.
 double DryFriction::round_off_of(const Rough& rough, std::span<const double> a,
                                  std::span<const double> lambda) const {
   double force = std::abs(lambda[rough.pressing_row]);
+  for (const Rough& other : all_)
+    if (rough.shared && other.shared) force = std::max(force, std::abs(lambda[other.pressing_row]));
   for (std::size_t k = 0; k < rough.rows; ++k) {
     force = std::max(force, std::abs(lambda[rough.row + k]));
     for (const std::size_t j : stated_->row(rough.row + k)) {

@@ -170,8 +170,8 @@ void DryFriction::decide(const std::vector<std::size_t>& open, const Instant& at
     if (r.reached) require_own_share(r, at.t);
   }
   const Motion held = solve(open, at);
-  if (sticks(at, held)) return;
   mark_shared(held);
+  if (sticks(at, held)) return;
   std::vector<std::size_t> which;
   std::vector<AtRest> rest;
   for (std::size_t i = 0; i < all_.size(); ++i) {
@@ -206,7 +206,7 @@ bool DryFriction::release_most_exceeded(const Motion& motion, double t) {
     by = own;
   }
   if (most == nullptr) return false;
-  if (shared(*most, motion.unique)) refuse(t);
+  if (shared(*most, motion.unique)) throw StepFailure{stated_->row_label(most->row) + shares, t};
   if (!most->one_sided) most->sign = motion.lambda[most->pressing_row] < 0.0 ? -1.0 : 1.0;
   start_sliding(*most, -part(*most, motion.lambda).normalized());
   return true;

@@ -18,6 +18,8 @@ using Eigen::VectorXd;
 
 /// Normal forces that the motion does not determine either change with the shares.
 constexpr int most_iterations = 10;
+/// Some hundred roundings.
+constexpr double rounding = 1e-13;
 
 /// Orthonormal columns that span those x for which A x is not 0.
 MatrixXd row_space(const MatrixXd& A) {
@@ -64,35 +66,49 @@ std::vector<FrictionShares::Rough> FrictionShares::shared(std::span<const char> 
   return chosen;
 }
 
-void FrictionShares::spread(const MatrixXd& N, std::span<const char> unique, std::span<double> lambda) const {
-  const auto chosen = shared(unique);
+VectorXd FrictionShares::bounds(const std::vector<Rough>& of, const Forces& lambda) {
+  VectorXd each(static_cast<Index>(of.size()));
+  for (std::size_t i = 0; i < of.size(); ++i)
+    each[static_cast<Index>(i)] = of[i].mu_static * std::abs(lambda[of[i].pressing_row]);
+  return each;
+}
+
+MatrixXd FrictionShares::leave_to_others(const MatrixXd& N, std::vector<Rough>& chosen, Forces lambda) {
+  const double none = rank_threshold * bounds(chosen, lambda).maxCoeff();
+  const auto carries = [&](const Rough& r) { return r.mu_static * std::abs(lambda[r.pressing_row]) > none; };
+  const auto idle = std::ranges::stable_partition(chosen, carries);
+  std::vector<Index> rows;
+  for (const Rough& r : idle)
+    for (Index k = 0; k < r.rows; ++k) rows.push_back(r.row + k);
+  chosen.erase(idle.begin(), idle.end());
+  if (rows.empty()) return N;
+  const MatrixXd A = N(rows, Eigen::all);
+  lambda -= N * dense::least_squares(A, lambda(rows), rank_threshold);
+  if (lambda(rows).norm() <= rounding * lambda.norm()) lambda(rows).setZero();
+  return N * dense::kernel(A, rank_threshold);
+}
+
+void FrictionShares::spread(const MatrixXd& basis, std::span<const char> unique,
+                            std::span<double> lambda) const {
+  auto chosen = shared(unique);
   if (chosen.empty()) return;
+  Forces all(lambda.data(), basis.rows());
+  const MatrixXd N = leave_to_others(basis, chosen, all);
   std::vector<Index> first{0};
   for (const Rough& r : chosen) first.push_back(first.back() + r.rows);
-  Eigen::Map<VectorXd> all(lambda.data(), N.rows());
-  const auto normals = [&] {
-    VectorXd each(static_cast<Index>(chosen.size()));
-    for (std::size_t i = 0; i < chosen.size(); ++i)
-      each[static_cast<Index>(i)] = chosen[i].mu_static * std::abs(all[chosen[i].pressing_row]);
-    return each;
-  };
-  VectorXd normal = normals();
-  for (int k = 0; k < most_iterations; ++k) {
-    if (normal.isZero(0.0)) return;
+  for (int k = 0; k < most_iterations && !chosen.empty(); ++k) {
+    const VectorXd bound = bounds(chosen, all);
     MatrixXd A(first.back(), N.cols());
     VectorXd a(first.back());
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       const Rough& r = chosen[i];
-      const double bound = std::max(normal[static_cast<Index>(i)], rank_threshold * normal.maxCoeff());
-      A.middleRows(first[i], r.rows) = N.middleRows(r.row, r.rows) / bound;
-      a.segment(first[i], r.rows) = all.segment(r.row, r.rows) / bound;
+      A.middleRows(first[i], r.rows) = N.middleRows(r.row, r.rows) / bound[static_cast<Index>(i)];
+      a.segment(first[i], r.rows) = all.segment(r.row, r.rows) / bound[static_cast<Index>(i)];
     }
     const MatrixXd Z = row_space(A);
     if (Z.cols() == 0) return;
     all += N * (Z * least_largest(A * Z, a, first));
-    const VectorXd before = normal;
-    normal = normals();
-    if ((normal - before).norm() <= rank_threshold * normal.norm()) return;
+    if ((bounds(chosen, all) - bound).norm() <= rank_threshold * bound.norm()) return;
   }
 }
 

@@ -15,8 +15,9 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///
 ///   lambda = lambda_0 + N z,   max |sigma_i| / (mu_static |N_i|) = min                                (1)
 ///
-/// over what leaves normal forces as they are. So all of it is within its bounds as long as any shares are
-/// (limit analysis), and what would begin to slide is at its bound where none is.
+/// over what leaves normal forces as they are; what carries nothing has none. So all of it is within its
+/// bounds as long as any shares are (limit analysis), and what would begin to slide is at its bound where
+/// none is.
 class FrictionShares {
  public:
   explicit FrictionShares(const System& system);
@@ -30,6 +31,11 @@ class FrictionShares {
     double mu_static;
   };
   [[nodiscard]] std::vector<Rough> shared(std::span<const char> unique) const;
+  using Forces = Eigen::Map<Eigen::VectorXd>;
+  [[nodiscard]] static Eigen::VectorXd bounds(const std::vector<Rough>& of, const Forces& lambda);
+  /// Takes from `chosen` what carries nothing, and its friction from lambda; returns what may still change.
+  [[nodiscard]] static Eigen::MatrixXd leave_to_others(const Eigen::MatrixXd& N, std::vector<Rough>& chosen,
+                                                       Forces lambda);
 
   std::vector<Rough> all_;  // that stick
 };

@@ -24,14 +24,6 @@ std::vector<Eigen::Index> others(const System& system, const ActiveRows& active)
   return dropped;
 }
 
-/// Whether dry friction reads a contact's force.
-bool presses_rough(const System& system, std::size_t contact) {
-  return std::ranges::any_of(system.rough(), [&](std::size_t number) {
-    const auto& law = *system.layout()->constraints[number].holds.roughness;
-    return static_cast<std::size_t>(law.pressed_by) == contact;
-  });
-}
-
 /// The groups of a symmetric matrix that have nothing to do with each other.
 std::vector<std::vector<Eigen::Index>> connected(const Eigen::MatrixXd& M) {
   std::vector<std::vector<Eigen::Index>> groups;
@@ -113,7 +105,7 @@ void MinimumNorm::place(const System& system) {
   }
   for (const std::size_t number : system.conditional()) {
     const auto& c = system.layout()->constraints[number];
-    if (c.holds.contact && system.in_force(c.own_rows().front()) && !presses_rough(system, number))
+    if (c.holds.contact && system.in_force(c.own_rows().front()))
       one_sided_.push_back({c.first_row, c.holds.contact->sign()});
   }
   for (const Eigen::Index r : dropped_) unique_[static_cast<std::size_t>(r)] = 0;

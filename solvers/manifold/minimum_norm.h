@@ -30,8 +30,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///
 ///   z += P P^T A^T y,   w = A P P^T A^T y + p >= 0,   y >= 0,   w^T y = 0.                     (4)
 ///
-/// If there is no such z, as where one is about to open, they pull as little as can be. Contacts that dry
-/// friction reads are not among them: what carries nothing has no friction, so one that pulls has to open.
+/// If there is no such z, as where one is about to open, they pull as little as can be.
 ///
 /// Those of dry friction that sticks are then moved within their bounds, see FrictionShares, and with them
 /// what shares with them.

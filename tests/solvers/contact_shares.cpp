@@ -68,7 +68,9 @@ struct Table {
   Scene<3> scene{"table"};
   RigidBody<3> body;
   std::vector<Constraint<1>> legs;
+  std::vector<Constraint<2>> frictions;
 
+  /// The feet are at height 0, the centre is at 1/2.
   explicit Table(double mu) {
     scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
     const BodyState<3> state{.mass = 10.0, .inertia = {2.0, 2.0, 3.0}, .centre = {0.6, 0.65, 0.5}};
@@ -77,7 +79,7 @@ struct Table {
       for (const double y : {-1.0, 1.0}) {
         const auto foot = body.point_at({x, y, 0.0});
         legs.push_back(scene.add(unilateral(OnSurface{foot, Plane<3>{}})));
-        if (mu > 0.0) scene.add(coulomb(legs.back(), Slip{foot, Plane<3>{}}, mu));
+        if (mu > 0.0) frictions.push_back(scene.add(coulomb(legs.back(), Slip{foot, Plane<3>{}}, mu)));
       }
   }
 };
@@ -93,20 +95,41 @@ TEST_P(ContactShares, OfATableOnFourLegsPush) {
   }
 }
 
-// The same on rough legs, pushed along the floor by less than 0.3 times its weight of 100: it stands, and one
-// leg may carry nothing.
+// The same on rough legs, pushed along the floor by less than 0.3 times its weight of 100: friction in proportion
+// to the normal forces holds it, of 28/30 of the bound at each leg; where nothing presses there is none.
 TEST_P(ContactShares, OfARoughTableHoldIt) {
   Table table(0.3);
   table.scene.add(PointGravity{table.body.point_at({0.6, 0.65, 0.0}), 1.0, Vec<3>(28.0, 0.0, 0.0)});
   const auto run = simulate(table.scene, options(1.0, 3));
   EXPECT_TRUE(run.events().empty());
   EXPECT_NEAR(run.position(table.body.centre(), 2).x(), 0.6, rounding);
-  double sum = 0.0;
-  for (const auto leg : table.legs) {
-    EXPECT_GE(run.multiplier(leg, 2), 0.0);
-    sum += run.multiplier(leg, 2);
+  const double by_hand[] = {0.0, 20.0, 17.5, 62.5};
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(run.multiplier(table.legs[k], 2), by_hand[k], rounding);
+    EXPECT_FALSE(run.is_unique(table.legs[k], 2));
+    EXPECT_NEAR(run.multiplier(table.frictions[k], 2)[0], -0.28 * by_hand[k], rounding);
+    EXPECT_NEAR(run.multiplier(table.frictions[k], 2)[1], 0.0, rounding);
   }
-  EXPECT_NEAR(sum, 10.0 * g, rounding);
+}
+
+// Pulled along x by P = 20 sin t at the height of its centre, so that N1 + N2 = 20 - P/4: friction holds it.
+TEST_P(ContactShares, OfARoughTableUnderAVaryingPullHoldIt) {
+  Table table(0.3);
+  table.scene.add(force_law(points(table.body.centre()), [](auto t, auto r, auto) {
+    const auto zero = 0.0 * r.x();
+    return std::make_tuple(vec(20.0 * sin(t) + zero, zero, zero));
+  }));
+  const auto run = simulate(table.scene, options(2.0, 21));
+  EXPECT_TRUE(run.events().empty());
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const double P = 20.0 * std::sin(run.times()[i]);
+    const auto N = [&](std::size_t k) { return run.multiplier(table.legs[k], i); };
+    const auto T = [&](std::size_t k) { return run.multiplier(table.frictions[k], i); };
+    EXPECT_NEAR(N(0) + N(1) + N(2) + N(3), 10.0 * g, rounding);
+    EXPECT_NEAR(N(0) + N(1), 20.0 - P / 4.0, rounding);
+    EXPECT_NEAR(T(0)[0] + T(1)[0] + T(2)[0] + T(3)[0], -P, rounding);
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_LE(T(k).norm(), 0.3 * N(k) + rounding);
+  }
 }
 
 // Beside a bead that leaves a ball at cos = 2/3: where the one contact ceases to push, the beam's shares
