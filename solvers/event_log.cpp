@@ -168,7 +168,11 @@ void EventLog::begin_anew(double t, Stepping& stepping) {
     return;
   }
   if (transitions_ == nullptr) return;
-  if (const auto function = transitions_->approaching()) change_ = {asked_for_ + *function, t};
+  if (const auto function = transitions_->approaching()) {
+    change_ = {asked_for_ + *function, t};
+  } else if (const auto fallen = watch_.fallen_at_start(asked_for_, transitions_->contacts())) {
+    change_ = {*fallen, t};
+  }
 }
 
 /// Throws StepFailure where changes of one kind accumulate within the run, as impacts do (see Accumulation):

@@ -174,7 +174,11 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
   for (std::size_t k = 0; k < touched.size(); ++k) {
     const Contact& c = contacts_[touched[k]];
     double& rate = U[static_cast<Index>(k)];
-    if ((c.closed && !c.moved) || (known_roughly && std::abs(rate) <= still(c))) rate = 0.0;
+    // What has not left the surface, within the error of a step, and no longer leaves it, rests.
+    const bool returns = among(fallen, touched[k]) && !c.parted && c.opened_at != at.t &&
+                         std::abs(rate) <= tolerance_ * scales_.speed() * c.gradient;
+    const bool slow = known_roughly && std::abs(rate) <= still(c);
+    if ((c.closed && !c.moved) || returns || slow) rate = 0.0;
   }
   if (U.minCoeff() < 0.0) {
     solve_impact(*coupling, touched, at.t, U, change);

@@ -32,6 +32,8 @@ class Transitions {
   }
   /// Switching functions, which fall through 0 where something changes, and what each belongs to.
   [[nodiscard]] std::size_t functions() const { return contacts_.size() + friction_.functions(); }
+  /// Of contacts, which come first.
+  [[nodiscard]] std::size_t contacts() const { return contacts_.size(); }
   [[nodiscard]] std::string label(std::size_t function) const;
   [[nodiscard]] double switching(std::size_t function, const FlatSample& now) const;
   /// Its derivative by time; NaN where it is not known.

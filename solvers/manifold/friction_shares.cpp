@@ -94,9 +94,10 @@ void FrictionShares::spread(const MatrixXd& basis, std::span<const char> unique,
   if (chosen.empty()) return;
   Forces all(lambda.data(), basis.rows());
   const MatrixXd N = leave_to_others(basis, chosen, all);
+  if (chosen.empty() || N.cols() == 0) return;
   std::vector<Index> first{0};
   for (const Rough& r : chosen) first.push_back(first.back() + r.rows);
-  for (int k = 0; k < most_iterations && !chosen.empty(); ++k) {
+  for (int k = 0; k < most_iterations; ++k) {
     const VectorXd bound = bounds(chosen, all);
     MatrixXd A(first.back(), N.cols());
     VectorXd a(first.back());

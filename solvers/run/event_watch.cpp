@@ -60,6 +60,12 @@ void EventWatch::begin_anew(const Beginning& beginning) {
   }
 }
 
+std::optional<std::size_t> EventWatch::fallen_at_start(std::size_t first, std::size_t count) const {
+  for (std::size_t e = first; e < first + count; ++e)
+    if (at_from_[e] < 0.0) return e;
+  return std::nullopt;
+}
+
 /// What the last step would have come to behind a change has never been.
 void EventWatch::forget_behind(std::size_t event, double t) {
   largest_[event] = largest_before_[event];

@@ -66,6 +66,9 @@ class EventWatch {
   /// long as it does not leave it has none. Throws StepFailure where changes of an event accumulate: what one
   /// turned back no longer shows how it leaves.
   void begin_anew(const Beginning& beginning);
+  /// The first of `count` functions from this one on, of contacts, that is negative there: no crossing shows
+  /// it.
+  [[nodiscard]] std::optional<std::size_t> fallen_at_start(std::size_t first, std::size_t count) const;
   /// Throws StepFailure: the changes of an event accumulate.
   [[noreturn]] void chatters(std::size_t event, double t) const;
   [[nodiscard]] const FlatEvent& event(std::size_t number) const { return events_[number]; }

@@ -132,6 +132,25 @@ TEST_P(ContactShares, OfARoughTableUnderAVaryingPullHoldIt) {
   }
 }
 
+// Only one of two blocks that a rod joins presses the floor: that one's friction balances the push of 2.
+TEST_P(ContactShares, OfBlocksOnARodAreThoseOfTheOneThatPresses) {
+  Scene<2> scene("blocks");
+  std::vector<Constraint<1>> frictions;
+  std::vector<Particle<2>> blocks;
+  for (const double x : {0.0, 1.0}) {
+    const auto block = scene.add_particle({.mass = 1.0, .position = {x, 0.0}});
+    const auto floor = scene.add(unilateral(OnCurve{block, Plane<2>{}}));
+    frictions.push_back(scene.add(coulomb(floor, Slip{block, Plane<2>{}}, 0.3)));
+    blocks.push_back(block);
+  }
+  scene.add(Distance{blocks[0], blocks[1], 1.0});
+  scene.add(PointGravity{blocks[0], 1.0, Vec<2>(2.0, -g)});
+  const auto run = simulate(scene, options(1.0, 3));
+  EXPECT_NEAR(run.multiplier(frictions[0], 2), -2.0, rounding);
+  EXPECT_NEAR(run.multiplier(frictions[1], 2), 0.0, rounding);
+  EXPECT_NEAR(run.position(blocks[1], 2).x(), 1.0, rounding);
+}
+
 // Beside a bead that leaves a ball at cos = 2/3: where the one contact ceases to push, the beam's shares
 // stay.
 TEST_P(ContactShares, StayWhereAnotherContactOpens) {
