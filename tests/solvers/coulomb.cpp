@@ -349,6 +349,32 @@ TEST(Coulomb, TakesNoImpulseAlongASlopeFarAway) {
   }
 }
 
+// A block of 1 kg slides down a slope of 0.2 and strikes one of 2 kg at rest, with e = 1/2: of its speed w it
+// keeps none, the other has w/2 and slides w^2/(8 b) until it sticks. So the next w is sqrt(2 a/(8 b)) as
+// large, and they come to rest. The second bounce rises by 1e-10.
+TEST(Coulomb, LetsBlocksOnASlopeComeToRestByImpacts) {
+  constexpr double G = 10.0, slope = 0.2;
+  const double a = G * (std::sin(slope) - 0.2 * std::cos(slope)),
+               b = G * (4.0 * std::cos(slope) - std::sin(slope));
+  const double square = 1.0 + 2.0 * 0.3 * a, ratio = 2.0 * a / (8.0 * b);  // of speeds, squared
+  const double x = 0.3 + square / (8.0 * b) / (1.0 - ratio);
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk})
+    for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {
+      Scene<2> scene;
+      scene.add(UniformGravity<2>{{G * std::sin(slope), -G * std::cos(slope)}});
+      const auto upper = scene.add_particle({.mass = 1.0, .velocity = {1.0, 0.0}}),
+                 lower = scene.add_particle({.mass = 2.0, .position = {0.5, 0.0}});
+      for (const auto& [block, mu] : {std::pair(upper, 0.2), std::pair(lower, 4.0)})
+        scene.add(coulomb(scene.add(OnCurve{block, Plane<2>{}}), Slip{block, Plane<2>{}}, mu));
+      scene.add(unilateral(Distance{upper, lower, 0.2}, {.restitution = 0.5}));
+      const auto run =
+          simulate(scene, {.t_end = 1.0, .samples = 3, .tolerance = tolerance, .stepper = stepper});
+      EXPECT_NEAR(run.position(upper, 2).x(), x, 10.0 * tolerance);
+      EXPECT_NEAR(run.position(lower, 2).x(), x + 0.2, 10.0 * tolerance);
+      EXPECT_NEAR(run.velocity(upper, 2).x(), 0.0, tolerance);
+    }
+}
+
 TEST(Coulomb, RefusesWhatItIsNotFor) {
   Incline scene(0.0, 0.0, 0.1, 0.2);
   const auto add = [&scene](double mu, double mu_static) {
