@@ -84,9 +84,9 @@ void EventLog::look(Stepping& stepping) {
     return one.event >= asked_for_ || watch_.event(one.event).change;
   };
   const auto first = std::ranges::find_if(found, changes);
-  // At the time of a change all that is due there: what was asked for before what follows from the motion.
-  const double until =
-      first == found.end() ? stepping.time() : first->time + same_time(first->time, stepping);
+  // At the time of a change, or of an end, all that is due there: what was asked for before what follows from
+  // the motion.
+  double until = first == found.end() ? stepping.time() : first->time + same_time(first->time, stepping);
   for (const Occurrence& one : found) {
     if (one.time > until) break;
     if (changes(one)) {
@@ -94,14 +94,14 @@ void EventLog::look(Stepping& stepping) {
       continue;
     }
     list(one, stepping);
-    if (!watch_.event(one.event).ends) continue;
+    if (!watch_.event(one.event).ends || end_) continue;
     end_ = one.time;
-    due_.clear();
-    return;
+    until = std::min(until, one.time + same_time(one.time, stepping));
   }
-  if (first != found.end()) {
+  if (first != found.end() && first->time <= until) {
     change_ = due_.empty() ? *first : due_.front();
     if (!due_.empty()) due_.erase(due_.begin());
+    if (end_) change_->time = *end_;
   }
   left_.clear();
   std::ranges::copy_if(all, std::back_inserter(left_),

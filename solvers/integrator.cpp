@@ -139,7 +139,8 @@ struct DALEMBERT_HIDDEN Integrator::State {
   /// What changes where the run ends is carried out, though no step follows; not before all of the last step
   /// has been read.
   void finish() {
-    while (log && log->pending() && now.t >= options.t_end) log->carry_out(stepping);
+    const auto at_end = [this] { return now.t >= options.t_end || (ended() && now.t >= reached()); };
+    while (log && log->pending() && at_end()) log->carry_out(stepping);
   }
 
   template <class Observe>

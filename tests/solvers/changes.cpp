@@ -169,6 +169,26 @@ TEST_P(Changes, AtOneTimeAreAllCarriedOutAndListed) {
   with_end[2].ends = true;
   const auto ended = simulate(scene, options(1.0), with_end);
   EXPECT_NEAR(ended.times().back(), 0.5, bound);
+  ASSERT_EQ(ended.events().size(), 3U);
+  EXPECT_NEAR(ended.sample_after(2).velocity(ball).x(), 4.0, bound);
+}
+
+// A ball falls 1/2 onto a floor without restitution; where it strikes, at sqrt(1/g), the user ends the run.
+TEST_P(Changes, AndImpactsWhereAnEventEndsTheRunAreCarriedOut) {
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto ball = scene.add_particle({.mass = 1.0, .position = {0.0, 0.5}});
+  const auto floor = scene.add(unilateral(OnCurve{ball, Plane<2>{}}));
+  const auto run = simulate(scene, options(1.0),
+                            {{.name = "down",
+                              .function = [ball](const auto& now) { return now.position(ball).y(); },
+                              .ends = true}});
+  EXPECT_NEAR(run.times().back(), std::sqrt(1.0 / g), bound);
+  ASSERT_EQ(run.events().size(), 2U);
+  EXPECT_EQ(run.events()[1].what, Happened::struck);
+  EXPECT_NEAR(run.impulse(floor, 1), std::sqrt(g), 10.0 * bound);
+  EXPECT_NEAR(run.event_sample(1).velocity(ball).y(), -std::sqrt(g), 10.0 * bound);
+  EXPECT_NEAR(run.sample_after(1).velocity(ball).y(), 0.0, bound);
 }
 
 // The last step reaches from several samples to the change at its end: they are of the motion before it.
