@@ -28,7 +28,7 @@ struct Event {
   std::string name;                                  ///< for errors
   std::function<double(const Sample<D>&)> function;  ///< is 0 where it happens
   Crossing crossing = Crossing::either;              ///< which zeros count
-  bool ends = false;                                 ///< the run ends there, with a last sample, of before what is due there
+  bool ends = false;                                 ///< the run ends there, with a last sample at that time
   /// Changes the scene there; empty if it does not. The scene has the state of that instant as its initial
   /// one: `replace` states parameters anew, and with particles masses and velocities; `release` and `impose`
   /// take constraints out of force and back. The run goes on with that, from velocities projected onto the

@@ -95,8 +95,9 @@ TEST_P(ContactShares, OfATableOnFourLegsPush) {
   }
 }
 
-// The same on rough legs, pushed along the floor by less than 0.3 times its weight of 100: friction in proportion
-// to the normal forces holds it, of 28/30 of the bound at each leg; where nothing presses there is none.
+// The same on rough legs, pushed along the floor by less than 0.3 times its weight of 100: friction in
+// proportion to the normal forces holds it, of 28/30 of the bound at each leg; where nothing presses there is
+// none.
 TEST_P(ContactShares, OfARoughTableHoldIt) {
   Table table(0.3);
   table.scene.add(PointGravity{table.body.point_at({0.6, 0.65, 0.0}), 1.0, Vec<3>(28.0, 0.0, 0.0)});
