@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace dalembert {
 
@@ -76,11 +77,10 @@ VectorXd FrictionShares::bounds(const std::vector<Rough>& of, const Forces& lamb
 MatrixXd FrictionShares::leave_to_others(const MatrixXd& N, std::vector<Rough>& chosen, Forces lambda) {
   const double none = rank_threshold * bounds(chosen, lambda).maxCoeff();
   const auto carries = [&](const Rough& r) { return r.mu_static * std::abs(lambda[r.pressing_row]) > none; };
-  const auto idle = std::ranges::stable_partition(chosen, carries);
   std::vector<Index> rows;
-  for (const Rough& r : idle)
-    for (Index k = 0; k < r.rows; ++k) rows.push_back(r.row + k);
-  chosen.erase(idle.begin(), idle.end());
+  for (const Rough& r : chosen)
+    for (Index k = 0; k < r.rows && !carries(r); ++k) rows.push_back(r.row + k);
+  std::erase_if(chosen, std::not_fn(carries));
   if (rows.empty()) return N;
   const MatrixXd A = N(rows, Eigen::all);
   lambda -= N * dense::least_squares(A, lambda(rows), rank_threshold);
