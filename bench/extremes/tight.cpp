@@ -77,7 +77,8 @@ Case sample_at_singular() {
 }
 
 /// How far the errors of a model rise above the best so far, over falling tolerances down to what double
-/// precision holds. An error within the tolerance is no rise above one that happened to be much smaller.
+/// precision holds. An error within the tolerance, or what the run says of its accuracy, is no rise above one
+/// that happened to be much smaller.
 template <int D>
 Result rise(const models::Model<D>& model, Stepper stepper) {
   Result result{.error = 0.0};
@@ -98,7 +99,8 @@ Result rise(const models::Model<D>& model, Stepper stepper) {
     const double error = std::max(m.error_position, m.error_force);
     // Below this the rounding of sums over the steps decides.
     const double rounding = 10.0 * epsilon * static_cast<double>(m.statistics.steps);
-    result.error = larger(result.error, error / std::max({best, rounding, 0.1 * tolerance}));
+    result.error =
+        larger(result.error, error / std::max({best, rounding, 0.1 * tolerance, m.statistics.accuracy}));
     best = std::min(best, error);
     result.statistics = m.statistics;
   }

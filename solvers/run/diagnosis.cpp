@@ -126,7 +126,7 @@ std::string turning_gradient(const System& system, const Scales& scales, const I
   system.linearise_constraints(moved, std::vector<double>(system.rows()), change);
   double most = unexplained;
   std::optional<std::size_t> row;
-  for (std::size_t r = 0; r < system.holonomic_rows(); ++r) {
+  for (std::size_t r = 0; r < system.rows(); ++r) {
     double gradient = 0.0, turn = 0.0;
     for (const std::size_t k : system.row(r)) {
       const double of_length = 1.0 / lengths[system.w_columns()[k]];
