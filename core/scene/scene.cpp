@@ -36,6 +36,16 @@ Scene<D>::Scene(std::string name) {
   layout_.scene = std::move(name);
   layout_.dimension = D;
 }
+template <int D>
+Scene<D>::~Scene() = default;
+template <int D>
+Scene<D>::Scene(const Scene&) = default;
+template <int D>
+Scene<D>::Scene(Scene&&) noexcept = default;
+template <int D>
+Scene<D>& Scene<D>::operator=(const Scene&) = default;
+template <int D>
+Scene<D>& Scene<D>::operator=(Scene&&) noexcept = default;
 
 template <int D>
 std::string Scene<D>::Label::text() const {

@@ -50,6 +50,12 @@ class Scene {
 
   /// The name appears in errors and output.
   explicit Scene(std::string name = "scene");
+  // These are compiled once, in the library.
+  ~Scene();
+  Scene(const Scene& other);                 ///< shares nothing with it
+  Scene(Scene&& other) noexcept;             ///< leaves it without parts
+  Scene& operator=(const Scene& other);      ///< shares nothing with it
+  Scene& operator=(Scene&& other) noexcept;  ///< leaves it without parts
 
   /// Throws InvalidScene unless mass, position and velocity are finite and the mass is positive.
   Particle<D> add_particle(const ParticleState<D>& state, const std::string& name = {});
