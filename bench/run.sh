@@ -22,7 +22,7 @@ esac
 
 cmake/dependencies.sh gnuplot-nox libbenchmark-dev libmimalloc-dev python3-jinja2
 cmake --preset release
-cmake --build --preset release --target dalembert-benchmarks dalembert-fuzz
+cmake --build --preset release --target dalembert-bench
 
 bench=build/release/bench/dalembert-bench
 report=build/report
@@ -37,6 +37,11 @@ measure() {
   "$@" || failed=$?
   ((failed == 0)) || { status=$failed && echo "${1##*/} ${2:-} ended with status $failed" >>$report/failures.txt; }
 }
+# Compiles a program just before it is measured: the first figures do not wait for it, and nothing is measured while
+# something compiles.
+compile() { measure cmake --build --preset release --target "$1"; }
+# Whether CMake has found what a program needs.
+has() { cmake --build --preset release --target help | grep "^$1: " >/dev/null; }
 # Draws a chart, if its table is there: what is missing is named in the report.
 draw() { # table, script, definitions
   [[ ! -e $report/$1 ]] || measure gnuplot -e "report='$report'; ${3:-}" "bench/charts/$2.gp"
@@ -61,19 +66,24 @@ draw certificates.csv certificates
 measure $bench requests --csv $report/requests.csv "${requests[@]}"
 measure $bench diagrams --directory $report "${chart[@]}"
 draw kapitza-boundary.csv diagrams
+compile dalembert-sensitivity
 measure $bench sensitivity --csv $report/sensitivity.csv "${sensitivity[@]}"
 measure $bench own-constraint --csv $report/own-constraint.csv
 measure $bench leave-out --stepper ida,erk --csv $report/leave-out.csv "${leave_out[@]}"
 
-if [[ -x build/release/bench/dalembert-sweeps ]]; then # not built where HDF5 is not found
+if has dalembert-sweeps; then
+  compile dalembert-sweeps
   measure $bench sweep --csv $report/sweep.csv --directory $report "${sweep[@]}"
   side() { echo "sqrt($(stat -c %s "$report/$1") / 4)"; } # of a square of 4-byte numbers
   draw governors.csv sweeps "flips=$(side flips.bin); kapitza=$(side kapitza-runs.bin)"
 fi
 
-kernels_bench=build/release/bench/dalembert-kernels # not built where Google Benchmark is not found
-[[ ! -x $kernels_bench ]] ||
-  measure $kernels_bench --benchmark_out=$report/kernels.json --benchmark_out_format=json "${kernels[@]}"
+if has dalembert-kernels; then
+  compile dalembert-kernels
+  measure build/release/bench/dalembert-kernels --benchmark_out=$report/kernels.json --benchmark_out_format=json \
+    "${kernels[@]}"
+fi
+compile dalembert-fuzz
 measure build/release/tests/dalembert-fuzz --family products --scenes $products --pairs $report/pairs.csv
 
 commit=$(git describe --always --dirty 2>/dev/null || echo unknown)

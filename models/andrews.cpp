@@ -65,7 +65,7 @@ VecOf<Real, 13> solve_motion(const Andrews& a, const State& y) {
   for (std::size_t k = 0; k < count; ++k) {
     const AndrewsLink& link = a.links[k];
     const PointMotion centre = motion(a, k, link.centre, y);
-    K.topLeftCorner<7, 7>() += link.mass * centre.slope.transpose() * centre.slope;
+    K.topLeftCorner<7, 7>() += centre.slope.transpose() * (link.mass * centre.slope);
     K(static_cast<int>(k), static_cast<int>(k)) += link.inertia;
     b.head<7>() -= link.mass * centre.slope.transpose() * centre.bias;
   }

@@ -5,6 +5,21 @@
 namespace dalembert {
 
 template <int D>
+Simulation<D>::Simulation(const Scene<D>& scene, const Options& options)
+    : integrator_(scene.system(), scene.initial_positions(), scene.initial_velocities(), options) {}
+template <int D>
+Simulation<D>::Simulation(const Scene<D>& scene, const Sample<D>& start, const Options& options)
+    : integrator_((scene.require_state(start), scene.system()), start.flat().q, start.flat().v,
+                  starting_at(start.time(), options)) {}
+template <int D>
+Simulation<D>::Simulation(const Scene<D>& scene, const Options& options, const std::vector<Event<D>>& events)
+    : integrator_(watching(scene, options, events)) {}
+template <int D>
+Simulation<D>::Simulation(Simulation&&) noexcept = default;
+template <int D>
+Simulation<D>::~Simulation() = default;
+
+template <int D>
 Integrator Simulation<D>::watching(const Scene<D>& scene, const Options& options,
                                    const std::vector<Event<D>>& events) {
   System system = scene.system();

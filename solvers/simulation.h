@@ -15,18 +15,16 @@ template <int D>
 class Simulation : public Readings<D, Simulation<D>> {
  public:
   /// Throws InvalidScene, InvalidArgument, InconsistentStart.
-  Simulation(const Scene<D>& scene, const Options& options)
-      : integrator_(scene.system(), scene.initial_positions(), scene.initial_velocities(), options) {}
+  Simulation(const Scene<D>& scene, const Options& options);
   /// From a sample of a run of this scene, or of a copy of it with other parameters, at the time of the
   /// sample; the option t_start is that, or left out. Throws InvalidArgument also if the sample belongs to
   /// something else.
-  Simulation(const Scene<D>& scene, const Sample<D>& start, const Options& options)
-      : integrator_((scene.require_state(start), scene.system()), start.flat().q, start.flat().v,
-                    starting_at(start.time(), options)) {}
-
+  Simulation(const Scene<D>& scene, const Sample<D>& start, const Options& options);
   /// With events; one that ends the run ends `step`, `advance_to` and `run`.
-  Simulation(const Scene<D>& scene, const Options& options, const std::vector<Event<D>>& events)
-      : integrator_(watching(scene, options, events)) {}
+  Simulation(const Scene<D>& scene, const Options& options, const std::vector<Event<D>>& events);
+  /// Moved, not copied.
+  Simulation(Simulation&& other) noexcept;
+  ~Simulation();
 
   /// See Integrator.
   void step() { integrator_.step(); }

@@ -1,5 +1,7 @@
 #include "dalembert/constraints/bodies/motion.h"
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 
 namespace dalembert {

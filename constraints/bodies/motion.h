@@ -4,7 +4,7 @@
 #include <dalembert/constraints/bodies/rigid_body.h>
 #include <dalembert/constraints/bodies/thin_rod.h>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
 #include <type_traits>
 
@@ -26,11 +26,11 @@ template <int D>
 /// Of the rod's direction from start to end.
 [[nodiscard]] double angle(const Sample<2>& sample, const ThinRod<2>& rod);
 
-/// The rotation from the axes of space to those of the body, as a unit quaternion with w >= 0. (As a matrix
-/// it is `body.axes(sample)`.)
-[[nodiscard]] Eigen::Quaterniond quaternion(const Sample<3>& sample, const RigidBody<3>& body);
+/// The rotation from the axes of space to those of the body, as a unit quaternion with w >= 0. As a matrix
+/// it is `body.axes(sample)`. Who calls it includes <Eigen/Geometry>: most programs do without.
+[[nodiscard]] Eigen::Quaternion<double> quaternion(const Sample<3>& sample, const RigidBody<3>& body);
 /// Likewise.
-[[nodiscard]] Eigen::Quaterniond quaternion(const Sample<3>& sample, const Lamina& body);
+[[nodiscard]] Eigen::Quaternion<double> quaternion(const Sample<3>& sample, const Lamina& body);
 
 /// [rad / time], in space along the axes of space; along those of the body it is `body.axes(sample)^T` times
 /// that. A ThinRod in space has no turn about itself: what is given is across it.

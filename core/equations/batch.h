@@ -1,8 +1,12 @@
 #pragma once
 
+#include <dalembert/core/equations/contact.h>
 #include <dalembert/core/equations/differentiated.h>
+#include <dalembert/core/equations/sketch.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -136,16 +140,52 @@ class ForceBatch {
   [[nodiscard]] virtual double energy(const Instant& /*at*/) const { return 0.0; }
 };
 
-/// The batch for one type of element, as a scene makes and fills it, in the one place that instantiates
-/// its code (batch_of.h). Declared `extern template` where an element's code is compiled once, in the
-/// library: naming such an element costs its user nothing, as no derivative of it is compiled again.
+namespace detail {
+
+/// Is told of an element that a scene is to take what could be wrong with it, in this order, and throws what
+/// is.
+class Admission {
+ public:
+  virtual void fault(const std::string& of_parameters) = 0;  ///< empty if there is none
+  virtual void compliance(double value) = 0;
+  virtual void reads(int constraint, std::uint64_t scene, int rows) = 0;  ///< its multipliers
+  virtual void moves(const Particle<2>& point) = 0;
+  virtual void moves(const Particle<3>& point) = 0;
+  virtual void moves(const Rotor& point) = 0;
+  virtual void stands(const Vec<2>& point) = 0;
+  virtual void stands(const Vec<3>& point) = 0;
+  virtual void follows(std::function<Vec<2>(double)> path) = 0;
+  virtual void follows(std::function<Vec<3>(double)> path) = 0;
+
+ protected:
+  ~Admission() = default;
+};
+
+/// What a scene calls of one type of constraints or forces. It knows elements by their address alone, so that
+/// what it does with one is compiled once.
+template <class Batch>
+struct ElementTable {
+  std::string_view kind;
+  std::string_view meaning;  ///< of the multipliers of a constraint
+  void (*tell)(const void* element, Admission& to);
+  Condition (*condition)(const void* constraint);  ///< null of a force
+  std::shared_ptr<const Drawing> (*drawing)(const void* element);
+  std::unique_ptr<Batch> (*empty)();
+  /// Adds the element if the batch is of its type, else returns false.
+  bool (*add)(Batch& batch, const void* element);
+  /// Puts the element in the place of number `i` if the batch is of its type, else returns false.
+  bool (*replace)(Batch& batch, std::size_t i, const void* element);
+};
+
+}  // namespace detail
+
+/// All that a scene calls of one type of element, made in the one place that instantiates its code
+/// (batch_of.h). Declared `extern template` where an element's code is compiled once, in the library: naming
+/// such an element costs its user nothing, as neither a derivative of it nor how a scene takes it is compiled
+/// again.
 template <class Batch, class Element>
 struct BatchOf {
-  [[nodiscard]] static std::unique_ptr<Batch> empty();
-  /// Adds the element if the batch is of its type, else returns false.
-  static bool add(Batch& batch, const Element& element);
-  /// Puts the element in the place of number `i` if the batch is of its type, else returns false.
-  static bool replace(Batch& batch, std::size_t i, const Element& element);
+  [[nodiscard]] static const detail::ElementTable<Batch>& table();
 };
 
 }  // namespace dalembert

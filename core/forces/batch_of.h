@@ -55,11 +55,6 @@ template <class Element, class Batch>
 template <class E>
 concept AnyForce = PotentialForce<E> || LawForce<E> || FrictionForce<E> || HasOwnBatch<E>;
 
-template <AnyForce E>
-[[nodiscard]] constexpr std::string_view kind_of_force() {
-  return kind_of<E>(PotentialForce<E> ? "Potential" : LawForce<E> ? "ForceLaw" : "Friction");
-}
-
 /// What Scene asks of the equation of a force.
 template <AnyForce E>
 constexpr void require_forces() {
@@ -79,25 +74,72 @@ constexpr void require_forces() {
   }
 }
 
+template <Point P>
+void tell_point(const P& point, Admission& to) {
+  using Place = Vec<P::dimension>;
+  if constexpr (OfParticles<P>) {
+    for (const auto& particle : point.particles) to.moves(particle);
+  } else if constexpr (P::coordinates > 0) {
+    to.moves(point);
+  } else if constexpr (P::driven) {
+    to.follows(std::function<Place(double)>(
+        [path = point.path](double t) { return Place(path(t).template cast<double>()); }));
+  } else {
+    to.stands(Place(point.position));
+  }
+}
+
+template <class Element>
+void tell(const void* element, Admission& to) {
+  const auto& its = *static_cast<const Element*>(element);
+  if constexpr (requires { its.fault(); }) to.fault(its.fault());
+  if constexpr (HasCompliance<Element>) to.compliance(its.compliance);
+  if constexpr (ReadsMultiplier<Element>) {
+    const auto read = its.constraint();
+    to.reads(read.index, read.scene, rows_read<Element>);
+  }
+  std::apply([&to](const auto&... point) { (tell_point(point, to), ...); }, its.points());
+}
+
+template <class Batch, class Element>
+[[nodiscard]] constexpr ElementTable<Batch> make_element_table() {
+  ElementTable<Batch> its{
+      .kind = {},
+      .meaning = {},
+      .tell = &tell<Element>,
+      .condition = nullptr,
+      .drawing = [](const void* element) { return drawing_of(*static_cast<const Element*>(element)); },
+      .empty = []() -> std::unique_ptr<Batch> { return BatchFor<Element>::empty(); },
+      .add =
+          [](Batch& batch, const void* element) {
+            auto* const same = batch_for<Element>(batch);
+            if (same != nullptr) same->add(element);
+            return same != nullptr;
+          },
+      .replace =
+          [](Batch& batch, std::size_t i, const void* element) {
+            auto* const same = batch_for<Element>(batch);
+            if (same != nullptr) same->replace(i, element);
+            return same != nullptr;
+          }};
+  if constexpr (AnyConstraint<Element>) {
+    its.kind = constraint_type<Element>.kind;
+    its.meaning = meaning_of<Element>();
+    its.condition = [](const void* element) { return condition_of(*static_cast<const Element*>(element)); };
+  } else {
+    its.kind = kind_of<Element>(PotentialForce<Element> ? "Potential"
+                                : LawForce<Element>     ? "ForceLaw"
+                                                        : "Friction");
+  }
+  return its;
+}
+
 }  // namespace detail
 
 template <class Batch, class Element>
-std::unique_ptr<Batch> BatchOf<Batch, Element>::empty() {
-  return detail::BatchFor<Element>::empty();
-}
-
-template <class Batch, class Element>
-bool BatchOf<Batch, Element>::add(Batch& batch, const Element& element) {
-  auto* const same = detail::batch_for<Element>(batch);
-  if (same != nullptr) same->add(&element);
-  return same != nullptr;
-}
-
-template <class Batch, class Element>
-bool BatchOf<Batch, Element>::replace(Batch& batch, std::size_t i, const Element& element) {
-  auto* const same = detail::batch_for<Element>(batch);
-  if (same != nullptr) same->replace(i, &element);
-  return same != nullptr;
+const detail::ElementTable<Batch>& BatchOf<Batch, Element>::table() {
+  static constexpr auto its = detail::make_element_table<Batch, Element>();
+  return its;
 }
 
 }  // namespace dalembert

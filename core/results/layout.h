@@ -89,7 +89,11 @@ struct Layout {
   }
   template <int Rows>
   [[nodiscard]] bool has(const dalembert::Constraint<Rows>& c) const {
-    return has_entry(constraints, c) && constraints[static_cast<std::size_t>(c.index)].rows == Rows;
+    return has_constraint(c.index, c.scene, Rows);
+  }
+  [[nodiscard]] bool has_constraint(int index, std::uint64_t id_of_scene, int rows) const {
+    return has_entry(constraints, dalembert::Constraint<1>{index, id_of_scene}) &&
+           constraints[static_cast<std::size_t>(index)].rows == rows;
   }
   [[nodiscard]] bool has(const dalembert::Force& f) const { return has_entry(forces, f); }
 

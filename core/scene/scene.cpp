@@ -36,6 +36,16 @@ Scene<D>::Scene(std::string name) {
   layout_.scene = std::move(name);
   layout_.dimension = D;
 }
+template <int D>
+Scene<D>::~Scene() = default;
+template <int D>
+Scene<D>::Scene(const Scene&) = default;
+template <int D>
+Scene<D>::Scene(Scene&&) noexcept = default;
+template <int D>
+Scene<D>& Scene<D>::operator=(const Scene&) = default;
+template <int D>
+Scene<D>& Scene<D>::operator=(Scene&&) noexcept = default;
 
 template <int D>
 std::string Scene<D>::Label::text() const {
@@ -229,6 +239,116 @@ void Scene<D>::require_compliance(double compliance, const Label& label) {
   std::ostringstream what;
   what << label.text() << ": compliance = " << compliance << ", must be finite and >= 0; 0 is rigid";
   throw InvalidScene(what.str());
+}
+
+template <int D>
+class Scene<D>::Admitting final : public detail::Admission {
+ public:
+  Admitting(const Scene& scene, const Label& label) : scene_(scene), label_(label) {}
+
+  void fault(const std::string& of_parameters) override {
+    if (!of_parameters.empty()) throw InvalidScene(label_.text() + ": " + of_parameters);
+  }
+  void compliance(double value) override { require_compliance(value, label_); }
+  void reads(int constraint, std::uint64_t scene, int rows) override {
+    if (!scene_.layout_.has_constraint(constraint, scene, rows)) scene_.refuse_constraint(scene, label_);
+  }
+  void moves(const Particle<2>& point) override { require_own(point); }
+  void moves(const Particle<3>& point) override { require_own(point); }
+  void moves(const Rotor& point) override { require_own(point); }
+  // Those of the other dimension: the compiler has refused an element with such points.
+  void stands(const Vec<2>& point) override { keep(point); }
+  void stands(const Vec<3>& point) override { keep(point); }
+  void follows(std::function<Vec<2>(double)> path) override { keep(std::move(path)); }
+  void follows(std::function<Vec<3>(double)> path) override { keep(std::move(path)); }
+
+  [[nodiscard]] Surroundings of(const auto& type, const void* element) && {
+    type.tell(element, *this);
+    return std::move(around_);
+  }
+
+ private:
+  void require_own(const auto& point) const {
+    if (!scene_.layout_.has(point)) scene_.refuse_point(point.scene, label_);
+  }
+  void keep(const Vec<D>& point) {
+    admit_fixed(point, label_);
+    around_.fixed.push_back(point);
+  }
+  void keep(Path&& path) { around_.paths.push_back(std::move(path)); }
+  void keep(const auto& /*of_the_other_dimension*/) {}
+
+  const Scene& scene_;
+  const Label& label_;
+  Surroundings around_;
+};
+
+template <int D>
+int Scene<D>::add_any(const detail::ElementTable<ConstraintBatch>& type, const void* constraint,
+                      const std::string& name) {
+  const std::string own = unique_name(type.kind, name, layout_.constraints.size());
+  Surroundings around = Admitting(*this, {type.kind, own}).of(type, constraint);
+  const Place place = put(constraints_, type, constraint, layout_.constraints.size());
+  return enter(place, own, std::move(around), type.condition(constraint), type.meaning,
+               type.drawing(constraint));
+}
+
+template <int D>
+Force Scene<D>::add_any(const detail::ElementTable<ForceBatch>& type, const void* force,
+                        const std::string& name) {
+  const std::string own = unique_name(type.kind, name, layout_.forces.size() - gravities_.size());
+  Surroundings around = Admitting(*this, {type.kind, own}).of(type, force);
+  const Place place = put(forces_, type, force, layout_.forces.size());
+  return enter_force(place, type.kind, own, std::move(around), type.drawing(force));
+}
+
+template <int D>
+void Scene<D>::replace_any(int handle, const detail::ElementTable<ConstraintBatch>& type,
+                           const void* constraint) {
+  const auto number = static_cast<std::size_t>(handle);
+  Layout::Constraint& its = layout_.constraints[number];
+  const bool released = its.holds.released;
+  Surroundings around = Admitting(*this, {its.kind, its.name}).of(type, constraint);
+  exchange(constraints_, type, constraint, constraint_places_[number], number, its.label(),
+           std::move(around));
+  its.holds = type.condition(constraint);
+  its.holds.released = released;
+  its.drawing = type.drawing(constraint);
+}
+
+template <int D>
+void Scene<D>::replace_any(int handle, const detail::ElementTable<ForceBatch>& type, const void* force) {
+  const auto number = static_cast<std::size_t>(handle);
+  Layout::Force& its = layout_.forces[number];
+  Surroundings around = Admitting(*this, {its.kind, its.name}).of(type, force);
+  exchange(forces_, type, force, force_places_[number], number, its.label(), std::move(around));
+  its.drawing = type.drawing(force);
+}
+
+template <int D>
+template <class Batch>
+typename Scene<D>::Place Scene<D>::put(std::vector<Group<Batch>>& groups,
+                                       const detail::ElementTable<Batch>& type, const void* element,
+                                       std::size_t number) {
+  std::size_t g = 0;
+  while (g < groups.size() && !type.add(*groups[g].batch, element)) ++g;
+  if (g == groups.size()) {
+    groups.push_back({detail::Owned<Batch>(type.empty()), {}});
+    type.add(*groups[g].batch, element);
+  }
+  groups[g].numbers.push_back(static_cast<int>(number));
+  return {g, groups[g].numbers.size() - 1};
+}
+
+template <int D>
+template <class Batch>
+void Scene<D>::exchange(std::vector<Group<Batch>>& groups, const detail::ElementTable<Batch>& type,
+                        const void* element, Place& place, std::size_t number, const std::string& label,
+                        Surroundings around) {
+  const bool among_them = place.group < groups.size() && place.element < groups[place.group].numbers.size() &&
+                          groups[place.group].numbers[place.element] == static_cast<int>(number);
+  if (!among_them || !type.replace(*groups[place.group].batch, place.element, element)) refuse_type(label);
+  place.around = std::move(around);
 }
 
 template <int D>

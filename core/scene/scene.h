@@ -50,6 +50,12 @@ class Scene {
 
   /// The name appears in errors and output.
   explicit Scene(std::string name = "scene");
+  // These are compiled once, in the library.
+  ~Scene();
+  Scene(const Scene& other);                 ///< shares nothing with it
+  Scene(Scene&& other) noexcept;             ///< leaves it without parts
+  Scene& operator=(const Scene& other);      ///< shares nothing with it
+  Scene& operator=(Scene&& other) noexcept;  ///< leaves it without parts
 
   /// Throws InvalidScene unless mass, position and velocity are finite and the mass is positive.
   Particle<D> add_particle(const ParticleState<D>& state, const std::string& name = {});
@@ -65,13 +71,8 @@ class Scene {
   template <detail::AnyConstraint C>
   Constraint<rows_of_constraint<C>> add(C constraint, const std::string& name = {}) {
     detail::require_equations<C>();
-    const std::string_view kind = detail::kind_of<C>(HolonomicConstraint<C> ? "Holonomic" : "Nonholonomic");
-    const std::string own = unique_name(kind, name, layout_.constraints.size());
-    Surroundings around = admit(constraint, {kind, own});
-    const Place place = put(constraints_, constraint, layout_.constraints.size());
-    return {enter(place, own, std::move(around), detail::condition_of(constraint), detail::meaning_of<C>(),
-                  detail::drawing_of(constraint)),
-            identity_.number()};
+    require_points<C>();
+    return {add_any(BatchOf<ConstraintBatch, C>::table(), &constraint, name), identity_.number()};
   }
 
   /// Adds a force; throws like a constraint. One that reads a multiplier throws InvalidArgument also if the
@@ -79,11 +80,8 @@ class Scene {
   template <detail::AnyForce E>
   Force add(E force, const std::string& name = {}) {
     detail::require_forces<E>();
-    const std::string_view kind = detail::kind_of_force<E>();
-    const std::string own = unique_name(kind, name, layout_.forces.size() - gravities_.size());
-    Surroundings around = admit(force, {kind, own});
-    const Place place = put(forces_, force, layout_.forces.size());
-    return enter_force(place, kind, own, std::move(around), detail::drawing_of(force));
+    require_points<E>();
+    return add_any(BatchOf<ForceBatch, E>::table(), &force, name);
   }
 
   /// States a constraint or force anew: one of the same type with other parameters, or points; a lambda is of
@@ -93,26 +91,17 @@ class Scene {
   template <detail::AnyConstraint C>
   void replace(Constraint<rows_of_constraint<C>> handle, C constraint) {
     detail::require_equations<C>();
+    require_points<C>();
     layout_.require(handle);
-    const auto number = static_cast<std::size_t>(handle.index);
-    Layout::Constraint& its = layout_.constraints[number];
-    const bool released = its.holds.released;
-    Surroundings around = admit(constraint, {its.kind, its.name});
-    exchange(constraints_, constraint, constraint_places_[number], number, its.label(), std::move(around));
-    its.holds = detail::condition_of(constraint);
-    its.holds.released = released;
-    its.drawing = detail::drawing_of(constraint);
+    replace_any(handle.index, BatchOf<ConstraintBatch, C>::table(), &constraint);
   }
   /// The same for a force.
   template <detail::AnyForce E>
   void replace(Force handle, E force) {
     detail::require_forces<E>();
+    require_points<E>();
     layout_.require(handle);
-    const auto number = static_cast<std::size_t>(handle.index);
-    Layout::Force& its = layout_.forces[number];
-    Surroundings around = admit(force, {its.kind, its.name});
-    exchange(forces_, force, force_places_[number], number, its.label(), std::move(around));
-    its.drawing = detail::drawing_of(force);
+    replace_any(handle.index, BatchOf<ForceBatch, E>::table(), &force);
   }
   /// The same for gravity.
   void replace(Force handle, const UniformGravity<D>& gravity);
@@ -228,36 +217,15 @@ class Scene {
                   "at least one point of a constraint or force must be able to move");
   }
 
+  // Of elements whose type is known to their table alone.
+  int add_any(const detail::ElementTable<ConstraintBatch>& type, const void* constraint,
+              const std::string& name);
+  Force add_any(const detail::ElementTable<ForceBatch>& type, const void* force, const std::string& name);
+  void replace_any(int handle, const detail::ElementTable<ConstraintBatch>& type, const void* constraint);
+  void replace_any(int handle, const detail::ElementTable<ForceBatch>& type, const void* force);
+
   /// Checks an element's parameters and points. What is refused leaves no trace.
-  template <class Element>
-  [[nodiscard]] Surroundings admit(const Element& element, const Label& label) const {
-    require_points<Element>();
-    if constexpr (requires { element.fault(); }) {
-      const std::string fault = element.fault();
-      if (!fault.empty()) throw InvalidScene(label.text() + ": " + fault);
-    }
-    if constexpr (HasCompliance<Element>) require_compliance(element.compliance, label);
-    if constexpr (ReadsMultiplier<Element>) {
-      if (!layout_.has(element.constraint())) refuse_constraint(element.constraint().scene, label);
-    }
-    Surroundings around;
-    std::apply([&](const auto&... point) { (admit_point(point, label, around), ...); }, element.points());
-    return around;
-  }
-  template <Point P>
-  void admit_point(const P& point, const Label& label, Surroundings& around) const {
-    if constexpr (detail::OfParticles<P>) {
-      for (const auto& particle : point.particles) admit_point(particle, label, around);
-    } else if constexpr (P::coordinates > 0) {
-      if (!layout_.has(point)) refuse_point(point.scene, label);
-    } else if constexpr (P::driven) {
-      around.paths.push_back(
-          [path = point.path](double t) { return Vec<D>(path(t).template cast<double>()); });
-    } else {
-      admit_fixed(point.position, label);
-      around.fixed.push_back(point.position);
-    }
-  }
+  class Admitting;
   [[noreturn]] void refuse_point(std::uint64_t scene, const Label& label) const;
   [[noreturn]] void refuse_constraint(std::uint64_t scene, const Label& label) const;
   [[noreturn]] static void refuse_type(const std::string& label);
@@ -268,29 +236,14 @@ class Scene {
   static void check(const UniformGravity<D>& gravity);
 
   /// Puts an element with those of its type.
-  template <class Batch, class E>
-  static Place put(std::vector<Group<Batch>>& groups, const E& element, std::size_t number) {
-    using Own = BatchOf<Batch, E>;
-    std::size_t g = 0;
-    while (g < groups.size() && !Own::add(*groups[g].batch, element)) ++g;
-    if (g == groups.size()) {
-      groups.push_back({detail::Owned<Batch>(Own::empty()), {}});
-      Own::add(*groups[g].batch, element);
-    }
-    groups[g].numbers.push_back(static_cast<int>(number));
-    return {g, groups[g].numbers.size() - 1};
-  }
+  template <class Batch>
+  static Place put(std::vector<Group<Batch>>& groups, const detail::ElementTable<Batch>& type,
+                   const void* element, std::size_t number);
   /// Puts another element in the place of number `number`, if it is of the same type.
-  template <class Batch, class E>
-  static void exchange(std::vector<Group<Batch>>& groups, const E& element, Place& place, std::size_t number,
-                       const std::string& label, Surroundings around) {
-    const bool among_them = place.group < groups.size() &&
-                            place.element < groups[place.group].numbers.size() &&
-                            groups[place.group].numbers[place.element] == static_cast<int>(number);
-    if (!among_them || !BatchOf<Batch, E>::replace(*groups[place.group].batch, place.element, element))
-      refuse_type(label);
-    place.around = std::move(around);
-  }
+  template <class Batch>
+  static void exchange(std::vector<Group<Batch>>& groups, const detail::ElementTable<Batch>& type,
+                       const void* element, Place& place, std::size_t number, const std::string& label,
+                       Surroundings around);
   /// Takes the element last put into the layout.
   int enter(Place place, const std::string& name, Surroundings around, const Condition& holds,
             std::string_view meaning, std::shared_ptr<const Drawing> drawing);

@@ -6,6 +6,20 @@
 namespace dalembert {
 
 template <int D>
+Certificate<D>::Certificate(TwoRuns runs)
+    : runs_(std::move(runs)), run_(runs_.run()), reference_(runs_.reference()) {}
+template <int D>
+Certificate<D>::~Certificate() = default;
+template <int D>
+Certificate<D>::Certificate(const Certificate&) = default;
+template <int D>
+Certificate<D>::Certificate(Certificate&&) noexcept = default;
+template <int D>
+Certificate<D>& Certificate<D>::operator=(const Certificate&) = default;
+template <int D>
+Certificate<D>& Certificate<D>::operator=(Certificate&&) noexcept = default;
+
+template <int D>
 std::string Certificate<D>::statement() const {
   return dalembert::statement(runs_, largest());
 }

@@ -33,8 +33,13 @@ template <int D>
 class Certificate {
  public:
   /// Made by `certify`.
-  explicit Certificate(TwoRuns runs)
-      : runs_(std::move(runs)), run_(runs_.run()), reference_(runs_.reference()) {}
+  explicit Certificate(TwoRuns runs);
+  // These are compiled once, in the library.
+  ~Certificate();
+  Certificate(const Certificate& other);                 ///< shares the numbers of its runs
+  Certificate(Certificate&& other) noexcept;             ///< leaves nothing to read
+  Certificate& operator=(const Certificate& other);      ///< shares the numbers of its runs
+  Certificate& operator=(Certificate&& other) noexcept;  ///< leaves nothing to read
 
   /// To the last bit the run of `simulate`.
   [[nodiscard]] const Trajectory<D>& run() const& { return run_; }

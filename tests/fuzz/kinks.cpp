@@ -1,5 +1,7 @@
 #include "draft.h"
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 
 /// Forces and constraints that compare numbers: each is smooth on either side of a plane near the particle it

@@ -1,5 +1,6 @@
 #include <dalembert/dalembert.h>
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 
 #include <limits>

@@ -1,0 +1,1 @@
+#include <dalembert/dalembert.h>
