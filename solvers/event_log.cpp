@@ -240,6 +240,7 @@ void EventLog::open_pulling(Transitions::Change& change, double t, Stepping& ste
     stepping.begin_changed(t, transitions_->system(), q, v);
     now = read(stepping, t);
   }
+  if (transitions_ != nullptr) transitions_->require_separation(now);
 }
 
 void EventLog::audit(const Transitions::Change& change, const FlatSample& after) {

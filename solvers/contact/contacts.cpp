@@ -237,6 +237,35 @@ void Contacts::require_open(const FlatSample& now) {
   }
 }
 
+/// Accelerations are known as forces are, to the root of the tolerance.
+void Contacts::require_separation(const FlatSample& now) const {
+  const Instant at{now.time, now.q, now.v};
+  find_gaps(at);
+  auto e = stated_->evaluation();
+  std::vector<double> gamma;
+  for (const Contact& c : contacts_) {
+    const bool rests =
+        !c.closed && c.sign * g_[c.row] <= no_gap(c, now.q) && std::abs(psi_[c.row]) <= still(c);
+    if (!rests) continue;
+    if (gamma.empty()) {
+      gamma.resize(stated_->rows());
+      stated_->evaluate_with_bias(at, e, gamma);
+    }
+    double rate = gamma[c.row], terms = std::abs(rate);
+    for (const std::size_t k : stated_->row(c.row)) {
+      const std::size_t i = stated_->w_columns()[k];
+      rate += e.w[k] * now.a[i];
+      terms += std::abs(e.w[k] * now.a[i]) + std::abs(e.w[k] * e.force[i] / stated_->masses()[i]);
+    }
+    if (c.sign * rate >= -std::sqrt(tolerance_) * terms) continue;
+    throw StepFailure{
+        stated_->row_label(c.row) +
+            " touches and would be penetrated: no forces of contact and friction were found that "
+            "hold what rests there, or let it part; state fewer contacts, or make them compliant",
+        now.time};
+  }
+}
+
 /// Uses the current g_.
 void Contacts::open(Contact& contact, double t, double rate) const {
   contact.closed = contact.parted = false;

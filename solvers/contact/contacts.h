@@ -67,6 +67,10 @@ class Contacts {
   /// if one has been penetrated unnoticed.
   void require_open(const FlatSample& now);
 
+  /// That no surface approaches what rests on it openly, after a change. Throws StepFailure, naming it: of
+  /// redundant contacts with friction which are closed is not always found.
+  void require_separation(const FlatSample& now) const;
+
   struct Happening {
     std::size_t contact;
     Happened what;

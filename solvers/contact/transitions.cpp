@@ -33,11 +33,12 @@ void Transitions::add(const std::vector<Contacts::Happening>& contacts,
   for (const auto& one : friction) what.push_back({one.constraint, one.time, one.what});
 }
 
-/// What contacts did, and its effect on friction.
-Transitions::Change Transitions::settle(Contacts::Change contacts, const Instant& at) {
+/// What contacts did, and its effect on friction, of which a switching function may have fallen.
+Transitions::Change Transitions::settle(Contacts::Change contacts, const Instant& at,
+                                        std::optional<std::size_t> fallen) {
   friction_.require_no_impulse(contacts.impulses, at);
   Change change{std::move(contacts.v_before), std::move(contacts.v), std::move(contacts.impulses)};
-  add(contacts.what, friction_.settle(contacts_.open(), {at.t, at.q, change.v}), change.what);
+  add(contacts.what, friction_.settle(contacts_.open(), {at.t, at.q, change.v}, fallen), change.what);
   return change;
 }
 
@@ -46,10 +47,8 @@ Transitions::Change Transitions::begin(const Instant& at) { return settle(contac
 Transitions::Change Transitions::pass(const FlatSample& at, std::size_t function) {
   const Instant now{at.time, at.q, at.v};
   if (function < contacts_.size()) return settle(contacts_.pass(now, {function}), now);
-  const std::vector<double> v(at.v.begin(), at.v.end());
-  Change change{v, v, std::vector<double>(at.lambda.size())};
-  add({}, friction_.settle(contacts_.open(), now, function - contacts_.size()), change.what);
-  return change;
+  // What opened without leaving its surface, while friction held it, may be pressed again.
+  return settle(contacts_.pass(now, {}), now, function - contacts_.size());
 }
 
 Transitions::Change Transitions::restate(const std::shared_ptr<const System>& stated, const Instant& at,

@@ -40,6 +40,7 @@ class Transitions {
   [[nodiscard]] double rate(std::size_t function, const FlatSample& now) const;
   /// See Contacts.
   void require_open(const FlatSample& now) { contacts_.require_open(now); }
+  void require_separation(const FlatSample& now) const { contacts_.require_separation(now); }
 
   /// What happens at the start. Throws as Contacts::pass and DryFriction::settle.
   [[nodiscard]] Change begin(const Instant& at);
@@ -57,7 +58,8 @@ class Transitions {
   [[nodiscard]] bool open_pulling(const FlatSample& now, std::vector<Occurrence>& what);
 
  private:
-  [[nodiscard]] Change settle(Contacts::Change contacts, const Instant& at);
+  [[nodiscard]] Change settle(Contacts::Change contacts, const Instant& at,
+                              std::optional<std::size_t> fallen = {});
   void add(const std::vector<Contacts::Happening>& contacts,
            const std::vector<DryFriction::Happening>& friction, std::vector<Occurrence>& what) const;
 

@@ -375,6 +375,34 @@ TEST(Coulomb, LetsBlocksOnASlopeComeToRestByImpacts) {
     }
 }
 
+// A block of weight 10 at a wall, on a floor of mu 0.3, under a force F into the wall and out of it: friction
+// holds it wherever F > -3, the wall where friction does not. At F = 0 the wall has no force left; from F = 3
+// it has some again, or from where friction reaches its bound.
+TEST(Coulomb, LeavesWhatAWallHasLetGoToTheWallAgain) {
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk})
+    for (const double tolerance : {1e-4, 1e-6, 1e-9}) {
+      Scene<2> scene;
+      scene.add(UniformGravity<2>{{0.0, -10.0}});
+      const auto block = scene.add_particle({.mass = 1.0});
+      const Plane<2> wall_plane{{0.0, 0.0}, {-1.0, 0.0}};
+      const auto floor = scene.add(unilateral(OnCurve{block, Plane<2>{}}));
+      const auto wall = scene.add(unilateral(OnCurve{block, wall_plane}));
+      const auto friction = scene.add(coulomb(floor, Slip{block, Plane<2>{}}, 0.3));
+      scene.add(force_law(points(block), [](auto t, auto r, auto) {
+        return vec(1.05 + 3.95 * cos(t) + 0.0 * r.x(), 0.0 * r.x());
+      }));
+      const auto run =
+          simulate(scene, {.t_end = 20.0, .samples = 41, .tolerance = tolerance, .stepper = stepper});
+      for (std::size_t i = 0; i < run.size(); ++i) {
+        const double F = 1.05 + 3.95 * std::cos(run.times()[i]);
+        EXPECT_NEAR(run.position(block, i).x(), 0.0, tolerance);
+        EXPECT_NEAR(run.multiplier(wall, i) - run.multiplier(friction, i), F, 10.0 * tolerance);
+        EXPECT_GE(run.multiplier(wall, i), 0.0);
+        EXPECT_LE(std::abs(run.multiplier(friction, i)), 3.0 + 10.0 * tolerance);
+      }
+    }
+}
+
 TEST(Coulomb, RefusesWhatItIsNotFor) {
   Incline scene(0.0, 0.0, 0.1, 0.2);
   const auto add = [&scene](double mu, double mu_static) {
