@@ -403,6 +403,28 @@ TEST(Coulomb, LeavesWhatAWallHasLetGoToTheWallAgain) {
     }
 }
 
+// A body on three legs, each on a slope of its own: N = (4.35, 0, 14.98), T = (0.31, 0, -4.79) hold it. What
+// the run finds lets the third leg go, whose surface then comes nearer: that is no motion.
+TEST(Coulomb, RefusesLegsThatWouldBePenetrated) {
+  struct Leg {
+    double x, y, slope, mu;
+  };
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.9, -10.0}});
+    const auto body =
+        add_body(scene, BodyState<2>{.mass = 2.0, .inertia = 1.0, .centre = {0.47, 0.36}}, "body");
+    for (const auto& [x, y, slope, mu] :
+         {Leg{-0.95, -0.29, 0.09, 0.27}, Leg{0.15, -0.22, -0.06, 0.18}, Leg{0.92, -0.10, -0.20, 0.40}}) {
+      const auto foot = body.point_at({x, y});
+      const Plane<2> floor{{x, y}, {-std::sin(slope), std::cos(slope)}};
+      scene.add(coulomb(scene.add(unilateral(OnCurve{foot, floor})), Slip{foot, floor}, mu));
+    }
+    EXPECT_THAT([&] { (void)simulate(scene, {.t_end = 1e-5, .stepper = stepper}); },
+                ThrowsMessage<InconsistentStart>(HasSubstr("touches and would be penetrated")));
+  }
+}
+
 TEST(Coulomb, RefusesWhatItIsNotFor) {
   Incline scene(0.0, 0.0, 0.1, 0.2);
   const auto add = [&scene](double mu, double mu_static) {
