@@ -120,8 +120,19 @@ void DryFriction::rest_with_others(const std::vector<std::size_t>& open, const I
 
 /// Whether two slow slip velocities come to rest: then with the direction that they have.
 void DryFriction::begin_slow(Rough& rough, const std::vector<std::size_t>& open, const Instant& at) {
-  const SlipCoupling coupling = released({static_cast<std::size_t>(&rough - all_.data())}, open, at);
   const Eigen::Vector2d u = slip(rough);
+  const Motion motion = solve(open, at);
+  if (!motion.unique.empty() && !motion.unique[rough.pressing_row]) {
+    // Of feet that slide one way together none can be let go alone: they rest together on a straight way.
+    const Eigen::Vector2d rate = slip_acceleration(rough, at, motion);
+    const double across = std::abs(u[0] * rate[1] - u[1] * rate[0]);
+    if (u.dot(rate) >= 0.0 || across > std::sqrt(tolerance_) * u.norm() * rate.norm()) return;
+    rough.pace = Pace::ends;
+    rough.blur = only_direction;
+    rough.turns = 0.0;
+    return;
+  }
+  const SlipCoupling coupling = released({static_cast<std::size_t>(&rough - all_.data())}, open, at);
   const auto left = time_to_rest(coupling, rough.mu, u, vanished * rough.still);
   if (!left) return;
   rough.pace = Pace::ends;
@@ -206,9 +217,14 @@ bool DryFriction::release_most_exceeded(const Motion& motion, double t) {
     by = own;
   }
   if (most == nullptr) return false;
-  if (shared(*most, motion.unique)) throw StepFailure{stated_->row_label(most->row) + shares, t};
-  if (!most->one_sided) most->sign = motion.lambda[most->pressing_row] < 0.0 ? -1.0 : 1.0;
-  start_sliding(*most, -part(*most, motion.lambda).normalized());
+  const bool together = shared(*most, motion.unique);
+  for (Rough& r : all_) {
+    const bool too = together && shared(r, motion.unique) && excess(r, motion) > -std::sqrt(round_off());
+    if (&r != most && !too) continue;
+    require_own_share(r, t);
+    if (!r.one_sided) r.sign = motion.lambda[r.pressing_row] < 0.0 ? -1.0 : 1.0;
+    start_sliding(r, -part(r, motion.lambda).normalized());
+  }
   return true;
 }
 

@@ -21,7 +21,7 @@ IdaStepper::State::State(const Problem& problem, const Start& start, const Optio
       first_step(std::min(constants.first_implicit_step * std::sqrt(options.tolerance) * start.scales.time,
                           longest_step(options))),
       e(system->evaluation()),
-      lambda(start.lambda),
+      lambda(start.lambda.size()),
       impulse_row(start.rows.size()),
       compliance_row(impulse_row.size()),
       newton(problem, start.rows, start.scales.time),

@@ -38,7 +38,7 @@ struct IdaStepper::State {
   std::vector<double> lengths;          // see Scales
   double tolerance, t_end, first_step;  // tolerance: of a step
   System::Evaluation e;
-  std::vector<double> lambda;          // one per row of the system
+  std::vector<double> lambda;          // one per row of the system, 0 of dependent ones
   std::vector<double> impulse_row;     // per active row
   std::vector<double> compliance_row;  // per active row, of a gradient of unit length
   NewtonMatrix newton;

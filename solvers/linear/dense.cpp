@@ -72,6 +72,13 @@ MatrixXd kernel(const MatrixXd& A, double threshold) {
   return lu.kernel();
 }
 
+MatrixXd row_space(const MatrixXd& A, double threshold) {
+  const auto its = symmetric_eigen(A.transpose() * A);
+  if (its.values.size() == 0) return its.vectors;
+  const double least = threshold * its.values.maxCoeff();
+  return its.vectors.rightCols((its.values.array() > least).count());
+}
+
 MatrixXd kernel_within(const MatrixXd& A, double round_off) {
   const double most = A.size() > 0 ? A.cwiseAbs().maxCoeff() : 0.0;
   return most > round_off ? kernel(A, round_off / most) : MatrixXd::Identity(A.cols(), A.cols());

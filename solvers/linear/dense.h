@@ -44,7 +44,10 @@ struct Schur {
 
 /// A basis of A x = 0, as far as can be told to `threshold`.
 [[nodiscard]] Eigen::MatrixXd kernel(const Eigen::MatrixXd& A, double threshold);
-/// The same of numbers known to `round_off`, however small the largest of them is.
+/// Orthonormal columns that span those x for which A x is not 0, as far as can be told to the root of
+/// `threshold`.
+[[nodiscard]] Eigen::MatrixXd row_space(const Eigen::MatrixXd& A, double threshold);
+/// The same as `kernel` of numbers known to `round_off`, however small the largest of them is.
 [[nodiscard]] Eigen::MatrixXd kernel_within(const Eigen::MatrixXd& A, double round_off);
 
 }  // namespace dense

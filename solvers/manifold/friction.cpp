@@ -1,5 +1,6 @@
 #include "dalembert/solvers/manifold/friction.h"
 
+#include <dalembert/core/analysis/rank.h>
 #include <dalembert/core/autodiff/branches.h>
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/numbers.h>
@@ -188,16 +189,33 @@ void FrictionSolver::find_what_is_read(const Instant& at) {
   }
 }
 
-void FrictionSolver::require_determined(const Instant& at, std::span<const char> determined) {
-  if (std::ranges::find(determined, 0) == determined.end()) return;
+/// Whether forces change with these multipliers, by more than what counts as dependent.
+bool FrictionSolver::changes_forces(const Eigen::VectorXd& multipliers) const {
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(force_.size())), terms = change;
+  for (std::size_t k = 0; k < slope_.size(); ++k) {
+    const auto [coordinate, row] = system_->friction_pattern()[k];
+    const double term = slope_[k] * multipliers[static_cast<Eigen::Index>(row)];
+    change[static_cast<Eigen::Index>(coordinate)] += term;
+    terms[static_cast<Eigen::Index>(coordinate)] += std::abs(term);
+  }
+  return change.lpNorm<Eigen::Infinity>() > rank_threshold * terms.lpNorm<Eigen::Infinity>();
+}
+
+void FrictionSolver::require_determined(const Instant& at, const MinimumNorm& multipliers) {
   if (reads_.empty()) find_what_is_read(at);
+  bool changes = false;
+  for (const auto& column : multipliers.null_space().colwise()) changes = changes || changes_forces(column);
+  std::vector<char> sloped(system_->rows(), 0);
+  for (std::size_t k = 0; k < slope_.size(); ++k)
+    if (slope_[k] != 0.0) sloped[system_->friction_pattern()[k].column] = 1;
   for (std::size_t k = 0; k < slope_.size(); ++k) {
     const std::size_t row = system_->friction_pattern()[k].column;
-    if (determined[row] || (!reads_[k] && slope_[k] == 0.0)) continue;
+    const bool at_rest = reads_[k] && !sloped[row];
+    if (multipliers.unique()[row] || !(at_rest || (changes && sloped[row]))) continue;
     throw InconsistentStart(system_->force_of_friction(k) + " reads the multiplier of " +
                             system_->row_label(row) +
                             ", which the motion does not determine: that constraint is redundant; "
-                            "remove what repeats it");
+                            "remove what repeats it, or make it compliant");
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/linear/problem.h>
+#include <dalembert/solvers/manifold/minimum_norm.h>
 
 #include <span>
 #include <string>
@@ -43,9 +44,10 @@ class FrictionSolver {
                            std::span<double> x);
   /// After `solve` at the same state; throws EquationFault.
   void require_unique(const Instant& at, std::span<const double> w, std::span<const double> s);
-  /// That no force reads a row which `determined` says the motion does not determine. Throws
-  /// InconsistentStart, naming both.
-  void require_determined(const Instant& at, std::span<const char> determined);
+  /// That what the motion does not determine of the multipliers changes no force: with columns N as in
+  /// MinimumNorm, dF_f/dlambda N = 0, as where all that slides moves one way. Throws InconsistentStart,
+  /// naming a force and what it reads.
+  void require_determined(const Instant& at, const MinimumNorm& multipliers);
 
   [[nodiscard]] long factorisations() const { return matrix_.factorisations(); }
 
@@ -63,6 +65,7 @@ class FrictionSolver {
   [[nodiscard]] Outcome iterate_from_last(const Instant& at, std::span<const double> w,
                                           std::span<const double> s, std::span<double> x);
   void read_multipliers(std::span<const double> w, std::span<const double> s, std::span<double> x);
+  [[nodiscard]] bool changes_forces(const Eigen::VectorXd& multipliers) const;
   [[nodiscard]] bool mirrored_slope(const Instant& at);
   void require_regular(bool regular, double t);
 

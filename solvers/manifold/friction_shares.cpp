@@ -17,17 +17,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Normal forces that the motion does not determine either change with the shares.
-constexpr int most_iterations = 10;
 /// Some hundred roundings.
 constexpr double rounding = 1e-13;
-
-/// Orthonormal columns that span those x for which A x is not 0.
-MatrixXd row_space(const MatrixXd& A) {
-  const auto its = dense::symmetric_eigen(A.transpose() * A);
-  const double least = rank_threshold * its.values.maxCoeff();
-  return its.vectors.rightCols((its.values.array() > least).count());
-}
 
 /// z of (1), lambda in the units of the bounds.
 VectorXd least_largest(const MatrixXd& A, const VectorXd& a, const std::vector<Index>& first) {
@@ -88,29 +79,58 @@ MatrixXd FrictionShares::leave_to_others(const MatrixXd& N, std::vector<Rough>& 
   return N * dense::kernel(A, rank_threshold);
 }
 
-void FrictionShares::spread(const MatrixXd& basis, std::span<const char> unique,
-                            std::span<double> lambda) const {
-  auto chosen = shared(unique);
-  if (chosen.empty()) return;
-  Forces all(lambda.data(), basis.rows());
-  const MatrixXd N = leave_to_others(basis, chosen, all);
+/// (1).
+void FrictionShares::share_friction(const MatrixXd& basis, std::vector<Rough> chosen,
+                                    const std::vector<SharedContact>& pushing, Forces lambda) {
+  std::vector<Index> pressing;
+  for (const Rough& r : chosen) pressing.push_back(r.pressing_row);
+  for (const SharedContact& c : pushing) pressing.push_back(c.pressing_row);
+  const MatrixXd free = basis * dense::kernel(basis(pressing, Eigen::all), rank_threshold);
+  if (free.cols() == 0) return;
+  const MatrixXd N = leave_to_others(free, chosen, lambda);
   if (chosen.empty() || N.cols() == 0) return;
   std::vector<Index> first{0};
   for (const Rough& r : chosen) first.push_back(first.back() + r.rows);
-  for (int k = 0; k < most_iterations; ++k) {
-    const VectorXd bound = bounds(chosen, all);
-    MatrixXd A(first.back(), N.cols());
-    VectorXd a(first.back());
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
-      const Rough& r = chosen[i];
-      A.middleRows(first[i], r.rows) = N.middleRows(r.row, r.rows) / bound[static_cast<Index>(i)];
-      a.segment(first[i], r.rows) = all.segment(r.row, r.rows) / bound[static_cast<Index>(i)];
-    }
-    const MatrixXd Z = row_space(A);
-    if (Z.cols() == 0) return;
-    all += N * (Z * least_largest(A * Z, a, first));
-    if ((bounds(chosen, all) - bound).norm() <= rank_threshold * bound.norm()) return;
+  const VectorXd bound = bounds(chosen, lambda);
+  MatrixXd A(first.back(), N.cols());
+  VectorXd a(first.back());
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const Rough& r = chosen[i];
+    A.middleRows(first[i], r.rows) = N.middleRows(r.row, r.rows) / bound[static_cast<Index>(i)];
+    a.segment(first[i], r.rows) = lambda.segment(r.row, r.rows) / bound[static_cast<Index>(i)];
   }
+  const MatrixXd Z = dense::row_space(A, rank_threshold);
+  if (Z.cols() > 0) lambda += N * (Z * least_largest(A * Z, a, first));
+}
+
+std::vector<SharedContact> FrictionShares::contacts(std::span<const char> unique,
+                                                    std::vector<SharedContact> pushing,
+                                                    const Forces& lambda) const {
+  for (const Rough& r : all_) {
+    const auto own = unique.subspan(static_cast<std::size_t>(r.row), static_cast<std::size_t>(r.rows));
+    const bool alone =
+        unique[static_cast<std::size_t>(r.pressing_row)] && std::ranges::find(own, char{0}) == own.end();
+    if (alone) continue;
+    const auto same = std::ranges::find(pushing, r.pressing_row, &SharedContact::pressing_row);
+    const double sign = lambda[r.pressing_row] < 0.0 ? -1.0 : 1.0;
+    SharedContact& its =
+        same == pushing.end() || same->rows > 0
+            ? pushing.emplace_back(SharedContact{.pressing_row = r.pressing_row, .sign = sign})
+            : *same;
+    its.row = r.row;
+    its.rows = r.rows;
+    its.mu = r.mu_static;
+  }
+  return pushing;
+}
+
+void FrictionShares::spread(const MatrixXd& N, std::span<const char> unique,
+                            const std::vector<SharedContact>& pushing, std::span<double> lambda) const {
+  auto chosen = shared(unique);
+  if (chosen.empty()) return;
+  Forces all(lambda.data(), N.rows());
+  share_friction(N, std::move(chosen), pushing, all);
+  share_statically(N, contacts(unique, pushing, all), all);
 }
 
 }  // namespace dalembert

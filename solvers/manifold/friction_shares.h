@@ -2,6 +2,7 @@
 
 #include <dalembert/core/scene/system.h>
 #include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/manifold/static_shares.h>
 
 #include <Eigen/Core>
 
@@ -15,15 +16,17 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///
 ///   lambda = lambda_0 + N z,   max |sigma_i| / (mu_static |N_i|) = min                                (1)
 ///
-/// over what leaves normal forces as they are; what carries nothing has none. So all of it is within its
-/// bounds as long as any shares are (limit analysis), and what would begin to slide is at its bound where
-/// none is.
+/// over what leaves normal forces as they are; what carries nothing has none. Where that is not enough normal
+/// forces are shared anew with it, see `share_statically`. So all of it is within its bounds as long as any
+/// shares are (limit analysis), and what would begin to slide is at its bound where none is.
 class FrictionShares {
  public:
   explicit FrictionShares(const System& system);
 
-  /// Changes lambda, one per row of the system, by columns of N times z.
-  void spread(const Eigen::MatrixXd& N, std::span<const char> unique, std::span<double> lambda) const;
+  /// Changes lambda, one per row of the system, by columns of N times z. `pushing` are the one-sided
+  /// constraints that share.
+  void spread(const Eigen::MatrixXd& N, std::span<const char> unique,
+              const std::vector<SharedContact>& pushing, std::span<double> lambda) const;
 
  private:
   struct Rough {
@@ -32,6 +35,12 @@ class FrictionShares {
   };
   [[nodiscard]] std::vector<Rough> shared(std::span<const char> unique) const;
   using Forces = Eigen::Map<Eigen::VectorXd>;
+  static void share_friction(const Eigen::MatrixXd& basis, std::vector<Rough> chosen,
+                             const std::vector<SharedContact>& pushing, Forces lambda);
+  /// All contacts that share: those of friction, and the others that push.
+  [[nodiscard]] std::vector<SharedContact> contacts(std::span<const char> unique,
+                                                    std::vector<SharedContact> pushing,
+                                                    const Forces& lambda) const;
   [[nodiscard]] static Eigen::VectorXd bounds(const std::vector<Rough>& of, const Forces& lambda);
   /// Takes from `chosen` what carries nothing, and its friction from lambda; returns what may still change.
   [[nodiscard]] static Eigen::MatrixXd leave_to_others(const Eigen::MatrixXd& N, std::vector<Rough>& chosen,

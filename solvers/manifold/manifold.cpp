@@ -320,7 +320,7 @@ bool Manifold::solve_motion(double t, std::span<const double> q, std::span<doubl
     minimum_norm_.spread([this](std::span<double> x) { matrix_.solve(x); }, {t, q, v}, e_, lambda);
   }
   if (finite && friction_) {
-    friction_->require_determined({t, q, v}, unique());
+    if (minimum_norm_.needed()) friction_->require_determined({t, q, v}, minimum_norm_);
     friction_->require_unique({t, q, v}, e_.w, s_);
   }
   return finite;

@@ -106,7 +106,7 @@ void MinimumNorm::place(const System& system) {
   for (const std::size_t number : system.conditional()) {
     const auto& c = system.layout()->constraints[number];
     if (c.holds.contact && system.in_force(c.own_rows().front()))
-      one_sided_.push_back({c.first_row, c.holds.contact->sign()});
+      one_sided_.push_back({.pressing_row = c.first_row, .sign = c.holds.contact->sign()});
   }
   for (const Eigen::Index r : dropped_) unique_[static_cast<std::size_t>(r)] = 0;
   const auto d = static_cast<Eigen::Index>(dropped_.size());
@@ -135,8 +135,9 @@ void MinimumNorm::spread(const Solve& solve, const Instant& at, const System::Ev
   lambda_ = all;
   minimise();
   all.noalias() += N_ * z_;
-  keep_pushing(lambda);
-  shares_.spread(N_, unique_, lambda);
+  const auto pushing = sharing();
+  keep_pushing(pushing, lambda);
+  shares_.spread(N_, unique_, pushing, lambda);
 }
 
 /// The rods inside bodies are of unit gradient: their multipliers are forces.
@@ -227,19 +228,24 @@ void MinimumNorm::minimise() {
   z_ = -qr_.solve(right_).cwiseProduct(scale_);
 }
 
+/// Those that do not push alone.
+std::vector<SharedContact> MinimumNorm::sharing() const {
+  std::vector<SharedContact> sharing;
+  for (const SharedContact& one : one_sided_)
+    if (!unique_[static_cast<std::size_t>(one.pressing_row)]) sharing.push_back(one);
+  return sharing;
+}
+
 /// (4), for those that share with each other. Of what neither pushes nor pulls the force is 0 exactly.
-void MinimumNorm::keep_pushing(std::span<double> lambda) const {
-  std::vector<OneSided> sharing;
-  for (const OneSided& one : one_sided_)
-    if (!unique_[static_cast<std::size_t>(one.row)]) sharing.push_back(one);
+void MinimumNorm::keep_pushing(const std::vector<SharedContact>& sharing, std::span<double> lambda) const {
   const auto n = static_cast<Eigen::Index>(sharing.size());
   Eigen::Map<Eigen::VectorXd> all(lambda.data(), N_.rows());
   Eigen::MatrixXd A(n, N_.cols());
   Eigen::VectorXd p(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const auto [row, sign] = sharing[static_cast<std::size_t>(i)];
-    A.row(i) = sign * N_.row(row);
-    p[i] = sign * all[row];
+    const SharedContact& one = sharing[static_cast<std::size_t>(i)];
+    A.row(i) = one.sign * N_.row(one.pressing_row);
+    p[i] = one.sign * all[one.pressing_row];
   }
   if (n == 0 || p.minCoeff() >= 0.0) return;
   const Eigen::MatrixXd P = scale_.asDiagonal() * qr_.pseudoInverse();
@@ -249,7 +255,8 @@ void MinimumNorm::keep_pushing(std::span<double> lambda) const {
     const Eigen::VectorXd y = push ? *push : least_pull(M(group, group), p(group));
     all.noalias() += N_ * (response(Eigen::all, group) * y);
     for (std::size_t i = 0; push && i < group.size(); ++i)
-      if (y[static_cast<Eigen::Index>(i)] > 0.0) all[sharing[static_cast<std::size_t>(group[i])].row] = 0.0;
+      if (y[static_cast<Eigen::Index>(i)] > 0.0)
+        all[sharing[static_cast<std::size_t>(group[i])].pressing_row] = 0.0;
   }
 }
 

@@ -49,6 +49,8 @@ class MinimumNorm {
   /// Spreads lambda (one per row of the system, zero for dropped ones) by (1)-(4); `e` holds the equations
   /// at the state, `solve` solves [M -W^T; W 0] of the active rows there in place. Throws EquationFault.
   void spread(const Solve& solve, const Instant& at, const System::Evaluation& e, std::span<double> lambda);
+  /// N, after `spread`.
+  [[nodiscard]] const Eigen::MatrixXd& null_space() const { return N_; }
   /// Per row of the system, after `spread`: 1 if its multiplier is determined by the motion.
   [[nodiscard]] std::span<const char> unique() const { return unique_; }
 
@@ -68,17 +70,14 @@ class MinimumNorm {
   void mark_unique();
   void weigh(const Eigen::MatrixXd& multipliers, Eigen::MatrixXd& forces) const;
   void minimise();
-  void keep_pushing(std::span<double> lambda) const;
+  [[nodiscard]] std::vector<SharedContact> sharing() const;
+  void keep_pushing(const std::vector<SharedContact>& sharing, std::span<double> lambda) const;
 
   const System* system_;
   std::vector<double> lengths_;
   std::vector<Eigen::Index> active_, dropped_;
   std::vector<Stated> stated_;
-  struct OneSided {
-    Eigen::Index row;
-    double sign;
-  };
-  std::vector<OneSided> one_sided_;
+  std::vector<SharedContact> one_sided_;
   std::vector<char> unique_;
   std::vector<double> x_, U_, nudge_, q_nearby_;
   System::Evaluation nearby_;

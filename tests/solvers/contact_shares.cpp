@@ -1,10 +1,12 @@
 #include "../both_steppers.h"
 #include <dalembert/dalembert.h>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 #include <vector>
 
@@ -130,6 +132,151 @@ TEST_P(ContactShares, OfARoughTableUnderAVaryingPullHoldIt) {
     EXPECT_NEAR(N(0) + N(1), 20.0 - P / 4.0, rounding);
     EXPECT_NEAR(T(0)[0] + T(1)[0] + T(2)[0] + T(3)[0], -P, rounding);
     for (std::size_t k = 0; k < 4; ++k) EXPECT_LE(T(k).norm(), 0.3 * N(k) + rounding);
+  }
+}
+
+/// A ladder of length 2 and 1 kg at 65 degrees on a rough floor, at a rough wall; somebody of 3 kg has
+/// climbed the part t of it at the time t.
+struct Ladder {
+  static constexpr double angle = 65.0 * std::numbers::pi / 180.0, climber = 30.0;
+  Scene<2> scene{"ladder"};
+  Constraint<1> foot, top;
+
+  Ladder(double mu_floor, double mu_wall) {
+    const Vec<2> end(2.0 * std::cos(angle), 2.0 * std::sin(angle));
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto body =
+        add_body(scene, BodyState<2>{.mass = 1.0, .inertia = 1.0 / 3.0, .centre = 0.5 * end}, "ladder");
+    const auto low = body.point_at({0.0, 0.0}), high = body.point_at(end);
+    const Plane<2> wall{.point = end, .normal = {-1.0, 0.0}};
+    foot = scene.add(unilateral(OnCurve{low, Plane<2>{}}));
+    top = scene.add(unilateral(OnCurve{high, wall}));
+    scene.add(coulomb(foot, Slip{low, Plane<2>{}}, mu_floor));
+    scene.add(coulomb(top, Slip{high, wall}, mu_wall));
+    scene.add(force_law(points(low, high), [](auto t, auto r, auto, auto, auto) {
+      const auto zero = 0.0 * r.x();
+      return std::make_tuple(vec(zero, zero - climber * (1.0 - t)), vec(zero, zero - climber * t));
+    }));
+  }
+};
+
+// Both ends slide as soon as both are at their bounds: N_floor + mu_wall N_wall = 40, N_wall = mu_floor
+// N_floor, and about the foot N_wall (tan + mu_wall) = 10/2 + 30 s. By the forces of least norm the wall's
+// friction would exceed its bound from the start.
+TEST_P(ContactShares, OfALadderBearUntilBothEndsSlide) {
+  for (const double mu_floor : {0.3, 0.32})
+    for (const double mu_wall : {0.2, 0.4}) {
+      const double N_wall = mu_floor * 40.0 / (1.0 + mu_floor * mu_wall);
+      const double slides = (N_wall * (std::tan(Ladder::angle) + mu_wall) - 5.0) / Ladder::climber;
+      const Ladder ladder(mu_floor, mu_wall);
+      Options own = options(slides + 0.01, 2);
+      own.times = {0.0, 0.5 * slides, slides - 1e-5, slides + 0.01};
+      const auto run = simulate(ladder.scene, own);
+      ASSERT_EQ(run.events().size(), 2u);
+      for (const Occurrence& one : run.events()) {
+        EXPECT_EQ(one.what, Happened::slides);
+        EXPECT_NEAR(one.time, slides, rounding);
+      }
+      for (std::size_t i = 0; i < 3; ++i) EXPECT_FALSE(run.is_unique(ladder.foot, i));
+      EXPECT_TRUE(run.is_unique(ladder.foot, 3));
+      // N_wall changes by some 10 in the time of 1, its share with it.
+      EXPECT_NEAR(run.multiplier(ladder.top, 2), N_wall, 100.0 * 1e-5);
+    }
+}
+
+/// A body of weight 10 on three legs at different heights, pulled at its centre by 10 t.
+struct Stand {
+  Scene<2> scene{"stand"};
+  std::vector<Constraint<1>> legs, frictions;
+
+  Stand() {
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto body = add_body(scene, BodyState<2>{.mass = 1.0, .inertia = 0.4}, "stand");
+    const Vec<2> feet[] = {{-1.0, -1.0}, {0.0, -0.5}, {1.0, -1.0}};
+    const double mu[] = {0.2, 0.4, 0.2};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Plane<2> floor{.point = feet[k]};
+      const auto foot = body.point_at(feet[k]);
+      legs.push_back(scene.add(unilateral(OnCurve{foot, floor})));
+      frictions.push_back(scene.add(coulomb(legs.back(), Slip{foot, floor}, mu[k])));
+    }
+    scene.add(force_law(points(body.centre()), [](auto t, auto r, auto) {
+      const auto zero = 0.0 * r.x();
+      return std::make_tuple(vec(10.0 * t + zero, zero));
+    }));
+  }
+};
+
+// With all friction at its bounds, sum (x - h mu) N = 0 and P = sum mu N: -1.2 N_1 - 0.2 N_2 + 0.8 N_3 = 0
+// and N_1 + N_2 + N_3 = 10 allow at most P = 3.6, by N = (0, 8, 2). By the normal forces of least norm it
+// would be less. What slides then depends on the shares.
+TEST_P(ContactShares, OfLegsAtDifferentHeightsBearWhatTheyCan) {
+  const Stand stand;
+  const auto run = simulate(stand.scene, options(0.3599, 31));
+  EXPECT_TRUE(run.events().empty());
+  const double mu[] = {0.2, 0.4, 0.2}, height[] = {1.0, 0.5, 1.0}, place[] = {-1.0, 0.0, 1.0};
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    double push = 0.0, pull = 10.0 * run.times()[i], moment = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double N = run.multiplier(stand.legs[k], i), T = run.multiplier(stand.frictions[k], i);
+      EXPECT_GE(N, 0.0);
+      EXPECT_LE(std::abs(T), mu[k] * N + rounding);
+      push += N;
+      pull += T;
+      moment += place[k] * N + height[k] * T;
+    }
+    EXPECT_NEAR(push, 10.0, rounding);
+    EXPECT_NEAR(pull, 0.0, rounding);
+    EXPECT_NEAR(moment, 0.0, rounding);
+  }
+  try {
+    (void)simulate(stand.scene, options(0.4, 2));
+    FAIL() << "slides by shares that nothing determines";
+  } catch (const IntegrationFailure& failure) {
+    EXPECT_NEAR(failure.time(), 0.36, rounding);
+    EXPECT_THAT(failure.what(), testing::HasSubstr("which the motion does not determine"));
+  }
+}
+
+// It slides on all four legs, each of which shares the load in a way that the motion does not determine, and
+// rests. About the centre, 1/2 above the floor, friction of 30 has the moment 15 against (0.8, 0.6): the
+// sums of N x and N y are 12 and 9, by least norm 3 and 9/4 more or less at each leg.
+TEST_P(ContactShares, OfATableThatSlidesLeaveItsMotionDetermined) {
+  constexpr double mu = 0.3, speed = 1.5, rests = speed / (mu * g);
+  Scene<3> scene("table");
+  scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
+  const auto body = add_body(scene,
+                             BodyState<3>{.mass = 10.0,
+                                          .inertia = {2.0, 2.0, 3.0},
+                                          .centre = {0.0, 0.0, 0.5},
+                                          .velocity = {0.8 * speed, 0.6 * speed, 0.0}},
+                             "table");
+  std::vector<Constraint<1>> legs;
+  std::vector<Constraint<2>> frictions;
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0}) {
+      const auto foot = body.point_at({x, y, 0.0});
+      legs.push_back(scene.add(unilateral(OnSurface{foot, Plane<3>{}})));
+      frictions.push_back(scene.add(coulomb(legs.back(), Slip{foot, Plane<3>{}}, mu, 1.2 * mu)));
+    }
+  const double tolerance = std::get<1>(GetParam());
+  const auto run = simulate(scene, options(2.0 * rests, 5));
+  ASSERT_EQ(run.events().size(), 4u);
+  for (const Occurrence& one : run.events()) {
+    EXPECT_EQ(one.what, Happened::sticks);
+    EXPECT_NEAR(one.time, rests, tolerance);
+  }
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const double t = std::min(run.times()[i], rests);
+    EXPECT_NEAR(run.position(body.centre(), i).x(), 0.8 * (speed * t - mu * g * t * t / 2.0), tolerance);
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double N = 25.0 + (k / 2 == 0 ? -3.0 : 3.0) + (k % 2 == 0 ? -2.25 : 2.25);
+    EXPECT_NEAR(run.multiplier(legs[k], 1), N, std::sqrt(tolerance));
+    EXPECT_FALSE(run.is_unique(legs[k], 1));
+    EXPECT_NEAR(run.multiplier(frictions[k], 1)[0], -0.8 * mu * N, std::sqrt(tolerance));
+    EXPECT_NEAR(run.multiplier(legs[k], 4), 25.0, rounding);
+    EXPECT_NEAR(run.multiplier(frictions[k], 4).norm(), 0.0, rounding);
   }
 }
 
