@@ -32,7 +32,7 @@ class WorkBalance {
   WorkBalance(std::shared_ptr<const System> stated, const Claim& claim);
 
   /// Begins at a state of this energy.
-  void begin(double time, double energy, std::span<const double> v);
+  void start_interval(double time, double energy, std::span<const double> v);
   /// A step that ended with these velocities.
   void step(double time, std::span<const double> v);
   void check(const FlatSample& sample, const Claim& claim, Findings& findings);

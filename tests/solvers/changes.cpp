@@ -111,16 +111,16 @@ TEST_P(Changes, KickWhatRestsOnAFloor) {
   ASSERT_EQ(run.events().size(), 6U);  // kicked, and opened; struck, twice
   for (std::size_t k = 0; k < 6; k += 3) {
     const double t = 0.5 + static_cast<double>(k / 3);
-    EXPECT_EQ(run.events()[k].what, Happened::event);
+    EXPECT_EQ(run.events()[k].kind, EventKind::event);
     EXPECT_NEAR(run.events()[k].time, t, bound);
-    EXPECT_EQ(run.events()[k + 1].what, Happened::opened);
-    EXPECT_EQ(run.events()[k + 2].what, Happened::struck);
+    EXPECT_EQ(run.events()[k + 1].kind, EventKind::opened);
+    EXPECT_EQ(run.events()[k + 2].kind, EventKind::struck);
     EXPECT_NEAR(run.events()[k + 2].time, t + 2.0 / g, bound);
     EXPECT_NEAR(run.impulse(floor, k + 2), 1.0, bound);
   }
 }
 
-TEST_P(Changes, ThatImposeAConstraintLetContactsAndFrictionAnswer) {
+TEST_P(Changes, ContactsAndFrictionAnswerAnImposedConstraint) {
   // A ball rests on a floor, another of the same mass goes up at v beside it; where the rod between them is
   // imposed both go up at v/2: the floor does not hold the first. On a rough floor two blocks go sideways.
   for (const bool rough : {false, true}) {
@@ -185,7 +185,7 @@ TEST_P(Changes, AndImpactsWhereAnEventEndsTheRunAreCarriedOut) {
                               .ends = true}});
   EXPECT_NEAR(run.times().back(), std::sqrt(1.0 / g), bound);
   ASSERT_EQ(run.events().size(), 2U);
-  EXPECT_EQ(run.events()[1].what, Happened::struck);
+  EXPECT_EQ(run.events()[1].kind, EventKind::struck);
   EXPECT_NEAR(run.impulse(floor, 1), std::sqrt(g), 10.0 * bound);
   EXPECT_NEAR(run.event_sample(1).velocity(ball).y(), -std::sqrt(g), 10.0 * bound);
   EXPECT_NEAR(run.sample_after(1).velocity(ball).y(), 0.0, bound);
@@ -232,7 +232,7 @@ struct Reflected {
   }
 };
 
-TEST_P(Changes, ThatChatterAreErrors) {
+TEST_P(Changes, ChatteringChangesAreErrors) {
   // Whatever the ratio of the flights: where too few are seen for their limit to be known, the first that is
   // lost in round-off is enough.
   for (const double restitution : {0.9, 0.5, 0.1, 1e-2, 1e-3, 1e-4}) {
@@ -245,7 +245,7 @@ TEST_P(Changes, ThatChatterAreErrors) {
   }
 }
 
-TEST_P(Changes, ThatStopWhatFallsOnIsLetFall) {
+TEST_P(Changes, ReleasedStopLetsItFall) {
   // Stopped on its way down a ball falls on, through where it was stopped.
   const Reflected its(0.0);
   const auto run = simulate(its.scene, options(1.0), {its.bounce(0.0)});

@@ -39,8 +39,8 @@ TEST_P(ContactsAtRoundOff, OpenWhereTheirForceVanishesAmongImpacts) {
     scene.add(unilateral(holonomic(points(ball), [](auto r) { return r.y(); }), {.restitution = 0.9}));
     const auto run = simulate(scene, options(2.0));
     std::size_t opened = 0;
-    for (const Occurrence& it : run.events()) {
-      if (it.what != Happened::opened) continue;
+    for (const EventRecord& it : run.events()) {
+      if (it.kind != EventKind::opened) continue;
       ++opened;
       EXPECT_NEAR(it.time, 1.0, bound) << height;
     }
@@ -50,7 +50,7 @@ TEST_P(ContactsAtRoundOff, OpenWhereTheirForceVanishesAmongImpacts) {
   }
 }
 
-TEST_P(ContactsAtRoundOff, OfASlotWithoutPlayStopWhatIsThrownAcross) {
+TEST_P(ContactsAtRoundOff, SlotWithoutPlayStopsWhatIsThrownAcross) {
   // To and fro in no time, slower each time; then one side bears what pulls, and it goes along the slot.
   Scene<2> scene;
   const auto ball = scene.add_particle({.mass = 1.0, .position = {0.6, -0.5}, .velocity = {-4.0, 0.5}});

@@ -31,7 +31,7 @@ TEST_P(CoulombFrictionInSpace, IsRound) {
       const auto run = simulate(scene, options(rests + 1.0));
       EXPECT_NEAR((run.constraint_force(rough, puck, 0) + 2.0 * a * along).norm(), 0.0, bound * g);
       ASSERT_EQ(run.events().size(), 1U) << f << ' ' << angle;
-      EXPECT_EQ(run.events()[0].what, Happened::sticks);
+      EXPECT_EQ(run.events()[0].kind, EventKind::sticks);
       EXPECT_NEAR(run.events()[0].time, rests, error_of(run) * rests) << f << ' ' << angle;
       EXPECT_NEAR(run.constraint_force(rough, puck, 10).x(), -2.0 * f, bound * g);
       if (f == 0.0) {
@@ -82,7 +82,7 @@ TEST_P(CoulombFrictionInSpace, GoesTheWayItIsPulled) {
 
 // All decelerate by mu g, without a load on the bars between them, and stop together after v/(mu g), at
 // v^2/(2 mu g). What an error of the steps leaves of the others' slip once one of them sticks is none.
-TEST_P(CoulombFrictionInSpace, OfThreeFeetThatSlideStraightOnStopsThemTogether) {
+TEST_P(CoulombFrictionInSpace, ThreeFeetThatSlideStraightOnStopTogether) {
   constexpr double mu = 0.3, v0 = 1.0;
   for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-11, 1e-12, 1e-13}) {
     Scene<3> scene("feet");
@@ -108,11 +108,11 @@ TEST_P(CoulombFrictionInSpace, OfThreeFeetThatSlideStraightOnStopsThemTogether) 
           << tolerance;
     }
     EXPECT_EQ(run.events().size(), 3U) << tolerance;
-    for (const auto& event : run.events()) EXPECT_EQ(event.what, Happened::sticks);
+    for (const auto& event : run.events()) EXPECT_EQ(event.kind, EventKind::sticks);
   }
 }
 
-TEST_P(CoulombFrictionInSpace, OfCoupledPucksGoesAgainstTheirAccelerations) {
+TEST_P(CoulombFrictionInSpace, CoupledPucksAreHeldAgainstTheirAccelerations) {
   // Two pucks with a rod between them, pulled from rest each its own way.
   constexpr double mu = 0.3;
   Scene<3> scene;

@@ -20,12 +20,12 @@ constexpr double g = 9.81;
 /// The outcomes of the comparisons that f makes.
 template <class F>
 std::vector<int> sides(const F& f, const Branches::Sides* held = nullptr) {
-  Branches::Sides heard;
-  const Branches listening(&heard, held);
-  Branches::begin_batch(0);
+  Branches::Sides recorded;
+  const Branches recording(&recorded, held);
+  Branches::enter_batch(0);
   f();
   std::vector<int> all;
-  for (const auto& one : heard[0]) all.push_back(one.side);
+  for (const auto& one : recorded[0]) all.push_back(one.side);
   return all;
 }
 
@@ -42,18 +42,18 @@ TEST(Branches, ThatAreHeldGoOnBeyondTheirEnd) {
   using S = Jet<1>;
   Branches::Sides held;
   {
-    const Branches listening(&held, nullptr);
-    Branches::begin_batch(0);
+    const Branches recording(&held, nullptr);
+    Branches::enter_batch(0);
     (void)abs(S::input(1.5, 0));
     (void)floor(S::input(1.5, 0));
   }
-  Branches::Sides heard;
-  const Branches holding(&heard, &held);
-  Branches::begin_batch(0);
+  Branches::Sides recorded;
+  const Branches holding(&recorded, &held);
+  Branches::enter_batch(0);
   EXPECT_EQ(abs(S::input(-2.0, 0)).value, -2.0);
   EXPECT_EQ(floor(S::input(2.25, 0)).value, 1.0);
-  EXPECT_EQ(heard[0].front().difference, -2.0);  // from 0
-  EXPECT_EQ(heard[0].back().difference, -0.25);  // behind 2
+  EXPECT_EQ(recorded[0].front().difference, -2.0);  // from 0
+  EXPECT_EQ(recorded[0].back().difference, -0.25);  // behind 2
 }
 
 TEST(Branches, AreHeardOnlyWhileSomebodyListens) {
@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(AtTolerances, Kinks,
 // A spring of rate k on one side of x = 0 is in contact for half a period, pi/sqrt(k), and returns the speed
 // of approach. An error of velocity is one of position over the 2 s that follow; both count like the scene,
 // of some metres and seconds.
-TEST_P(Kinks, OfAOneSidedSpringReturnTheSpeed) {
+TEST_P(Kinks, OneSidedSpringReturnsTheSpeed) {
   const double k = 400.0, x0 = 0.5, t_end = 3.0;
   OnALine line(x0, -1.0);
   line.scene.add(potential(points(line.body),
@@ -111,7 +111,7 @@ TEST_P(Kinks, OfAOneSidedSpringReturnTheSpeed) {
 }
 
 // V = |x|: from the edge at speed 1 out, back after 2, and as far on the other side.
-TEST_P(Kinks, OfAPotentialAreMetAtTheStartAndOnTheWay) {
+TEST_P(Kinks, KinksOfAPotentialAreMetAtTheStartAndOnTheWay) {
   OnALine line(0.0, 1.0);
   line.scene.add(potential(points(line.body), [](const auto& r) { return abs(r[0]); }), "vee");
   const auto run = simulate(line.scene, explicitly(3.0, GetParam()));
@@ -136,7 +136,7 @@ TEST_P(Kinks, FromOneInstantOnIsWhenTheForceActs) {
 }
 
 // 4 N while sin(w t + 0.1) > 0: many times within the steps of a motion that is a parabola.
-TEST_P(Kinks, OfASquareWaveAreAllMet) {
+TEST_P(Kinks, AllJumpsOfASquareWaveAreMet) {
   for (const double w : {10.0, 20.0, 30.0, 60.0}) {
     OnALine line(0.0, 1.0);
     line.push([w](const auto& t, const auto&, const auto&) { return sin(w * t + 0.1) > 0.0 ? 4.0 : 0.0; },
@@ -158,7 +158,7 @@ TEST_P(Kinks, OfASquareWaveAreAllMet) {
 
 // F = 1 beyond x = 2 and 2 in front of it: thrown at it so that it just gets there, the particle turns at the
 // switch. An error of 3 tol of the place leaves it behind for sqrt(2 * 3 tol) twice, at another force by 1 N.
-TEST_P(Kinks, ThatAreTouchedAtATurningPointArePassed) {
+TEST_P(Kinks, KinkTouchedAtATurningPointIsPassed) {
   for (int k = 0; k < 100; ++k) {
     const double v = (k % 2 == 0 ? 0.5 : 1.0) + 0.01 * k, x0 = 2.0 + 0.5 * v * v;
     OnALine line(x0, -v);
