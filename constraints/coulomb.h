@@ -17,7 +17,7 @@ namespace dalembert {
 ///
 /// whatever sign lambda has. In space two slip velocities along directions at right angles give a circular
 /// cone. A multiplier of this constraint is sigma in both cases, and its force W^T sigma, W = du/dv. Which
-/// case holds the run finds, and lists when it changes (Happened::sticks, Happened::slides).
+/// case holds the run finds, and lists when it changes (EventKind::sticks, EventKind::slides).
 ///
 /// Where no motion satisfies the law (Painleve) the run stops and says so; so it does at an impact, whose
 /// frictional impulse the law does not determine. Of several that stick on the same slip the motion does not

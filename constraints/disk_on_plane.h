@@ -57,7 +57,7 @@ struct LeaningDisk {
 /// lambda is the normal force, > 0 away from the plane.
 template <Point C, Point A, Point B>
 struct DiskContact {
-  static_assert(C::dimension == 3, "DiskContact is spatial; in the plane use LineOffset");
+  static_assert(C::dimension == 3, "DiskContact is spatial; in the plane use PointLineDistance");
   static constexpr std::string_view kind = "DiskContact";
   static constexpr std::string_view meaning = "normal force on the disk; > 0 away from the plane";
   static constexpr std::string_view singular = "the disk lies flat";

@@ -6,7 +6,7 @@ namespace dalembert {
 
 /// No slip between a disk and a straight track, in the plane (notes, mln76, mex116). The disk is a
 /// centre and a Rotor, turning counter-clockwise; the track is the line through two points, fixed
-/// (an incline), driven, or carried by a body. LineOffset with offset = radius keeps the two in
+/// (an incline), driven, or carried by a body. PointLineDistance with offset = radius keeps the two in
 /// contact.
 ///
 ///   e = (r_b - r_a)/|r_b - r_a|,  n = e turned left,  contact c = r - radius n

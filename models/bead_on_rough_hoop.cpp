@@ -89,7 +89,7 @@ EventModel BeadOnRoughHoop::event_model() const {
             const auto run = how.run(built.scene, {.t_end = 1.1 * theory.back().time, .samples = 2});
             std::vector<Timed> all;
             for (std::size_t k = 0; k < theory.size(); ++k) {
-              const auto what = theory[k].sticks ? Happened::sticks : Happened::slides;
+              const auto what = theory[k].sticks ? EventKind::sticks : EventKind::slides;
               all.push_back({theory[k].sticks ? "sticks" : numbered("turns ", k + 1),
                              time_of(run, built.rough, what, theory[k].sticks ? 0 : static_cast<int>(k)),
                              theory[k].time, time_limit(how.tolerance)});

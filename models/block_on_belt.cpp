@@ -51,9 +51,9 @@ EventModel BlockOnBelt::event_model() const {
                 how.run(built.scene, {.t_end = slipping_time(periods) + 0.1 * slip_time(), .samples = 2});
             std::vector<Timed> all;
             for (int k = 0; k <= periods; ++k) {
-              all.push_back({numbered("sticks ", k + 1), time_of(run, built.rough, Happened::sticks, k),
+              all.push_back({numbered("sticks ", k + 1), time_of(run, built.rough, EventKind::sticks, k),
                              sticking_time(k), limit});
-              all.push_back({numbered("slips ", k + 1), time_of(run, built.rough, Happened::slides, k),
+              all.push_back({numbered("slips ", k + 1), time_of(run, built.rough, EventKind::slides, k),
                              slipping_time(k), limit});
             }
             return all;

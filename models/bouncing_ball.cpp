@@ -41,10 +41,10 @@ EventModel BouncingBall::event_model() const {
             const double limit = time_limit(how.tolerance);
             std::vector<Timed> all;
             for (int k = 0; k < impacts; ++k)
-              all.push_back({numbered("impact ", k + 1), time_of(run, built.floor, Happened::struck, k),
+              all.push_back({numbered("impact ", k + 1), time_of(run, built.floor, EventKind::struck, k),
                              impact_time(k), limit});
             if (rests)
-              all.push_back({"rests", time_of(run, built.floor, Happened::rested), rest_time(), limit});
+              all.push_back({"rests", time_of(run, built.floor, EventKind::rested), rest_time(), limit});
             return all;
           }};
 }

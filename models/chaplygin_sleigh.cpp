@@ -18,7 +18,7 @@ SleighScene ChaplyginSleigh::scene() const {
                                       .angular_velocity = turn_rate},
                                      "sleigh");
   const BodyPoint<2> blade = body.point({-arm, 0.0});
-  const Constraint<1> edge = scene.add(Heading{blade, blade, body.centre()}, "blade");
+  const Constraint<1> edge = scene.add(KnifeEdge{blade, blade, body.centre()}, "blade");
   return {std::move(scene), body, blade, edge};
 }
 

@@ -9,7 +9,7 @@ struct DiskOnTrack {
   Scene<2> scene;
   Particle<2> centre;
   Rotor wheel;
-  Constraint<1> contact;  ///< LineOffset: its multiplier is the normal force, positive off the track
+  Constraint<1> contact;  ///< PointLineDistance: its multiplier is the normal force, positive off the track
   Constraint<1> grip;     ///< Rolling: its multiplier is the friction on the disk along the track
 };
 
@@ -27,7 +27,7 @@ template <Point P>
   built.centre = built.scene.add_particle({disk.mass, disk.position, disk.velocity});
   built.wheel = built.scene.add_rotor(
       {.inertia = disk.inertia, .angle = 0.0, .angular_velocity = disk.angular_velocity});
-  built.contact = built.scene.add(LineOffset{built.centre, Fixed<2>{}, ahead, disk.radius});
+  built.contact = built.scene.add(PointLineDistance{built.centre, Fixed<2>{}, ahead, disk.radius});
   built.grip = built.scene.add(Rolling{built.centre, built.wheel, Fixed<2>{}, ahead, disk.radius});
   return built;
 }

@@ -11,11 +11,11 @@ namespace dalembert::models {
 
 /// When something happened to a constraint for the k-th time, k from 0.
 template <int D, int Rows>
-[[nodiscard]] HappenedAt time_of(const Trajectory<D>& run, Constraint<Rows> constraint, Happened what,
+[[nodiscard]] HappenedAt time_of(const Trajectory<D>& run, Constraint<Rows> constraint, EventKind what,
                                  int k = 0) {
   for (std::size_t number = 0; number < run.events().size(); ++number) {
-    const Occurrence& its = run.events()[number];
-    if (its.event != static_cast<std::size_t>(constraint.index) || its.what != what) continue;
+    const EventRecord& its = run.events()[number];
+    if (its.source != static_cast<std::size_t>(constraint.index) || its.kind != what) continue;
     if (k-- == 0) return {its.time, number};
   }
   return {};

@@ -70,7 +70,7 @@ Governor::Built Governor::scene() const {
     parts.upper[i] = scene.add(Distance{Fixed<3>{}, mass_here, length});
     parts.lower[i] = scene.add(Distance{mass_here, parts.sleeve, length});
     parts.drives[i] = scene.add(
-        InPlane{mass_here, Axis{}, [Omega = spin, ahead](const auto& t) { return Omega * t + ahead; }});
+        RotatingPlane{mass_here, Axis{}, [Omega = spin, ahead](const auto& t) { return Omega * t + ahead; }});
   }
   return built;
 }

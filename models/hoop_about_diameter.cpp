@@ -47,7 +47,7 @@ BeadOnHoop HoopAboutDiameter::scene() const {
                                          .velocity = {0.0, spin * outwards, 0.0}});
   built.sphere = built.scene.add(OnSurface{built.bead, Sphere<3>{.radius = radius}});
   built.plane =
-      built.scene.add(InPlane{built.bead, Axis{}, [Omega = spin](const auto& t) { return Omega * t; }});
+      built.scene.add(RotatingPlane{built.bead, Axis{}, [Omega = spin](const auto& t) { return Omega * t; }});
   return built;
 }
 

@@ -17,7 +17,7 @@ LectureScene dumbbell() {
       scene.add_particle({.mass = 1.0, .position = {0.6, 0.0, -1.8}, .velocity = {0.0, 1.2, 0.0}}, "b");
   scene.add(Distance{a, b, 1.0}, "rod");
   scene.add(OnSurface{a, Sphere<3>{}}, "sphere");
-  scene.add(InPlane{b, Axis{}, [](auto t) { return 2.0 * t; }}, "turning plane");
+  scene.add(RotatingPlane{b, Axis{}, [](auto t) { return 2.0 * t; }}, "turning plane");
   return {std::move(scene), 3.0};
 }
 

@@ -64,7 +64,7 @@ EventModel NewtonsCradle::event_model() const {
               const int which = touch ? k : k - contact;
               all.push_back(
                   {numbered("impact ", k + 1),
-                   time_of(run, built.contacts[static_cast<std::size_t>(contact)], Happened::struck, which),
+                   time_of(run, built.contacts[static_cast<std::size_t>(contact)], EventKind::struck, which),
                    impact_time(k), time_limit(how.tolerance)});
             }
             return all;

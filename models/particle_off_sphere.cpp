@@ -55,8 +55,8 @@ EventModel ParticleOffSphere::event_model() const {
             const auto run = how.run(built.scene, {.t_end = 1.1 * lands, .samples = 2});
             const double limit = time_limit(how.tolerance);
             return std::vector<Timed>{
-                {"leaves the sphere", time_of(run, built.sphere, Happened::opened), leaves, limit},
-                {"lands", time_of(run, built.floor, Happened::struck), lands, limit}};
+                {"leaves the sphere", time_of(run, built.sphere, EventKind::opened), leaves, limit},
+                {"lands", time_of(run, built.floor, EventKind::struck), lands, limit}};
           }};
 }
 

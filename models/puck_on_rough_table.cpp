@@ -31,7 +31,7 @@ EventModel PuckOnRoughTable::event_model() const {
   return {.name = "puck-on-rough-table", .notes = "", .events = [*this](const EventRun& how) {
             const Built built = scene();
             const auto run = how.run(built.scene, {.t_end = 1.1 * rest_time(), .samples = 2});
-            return std::vector<Timed>{{"sticks", time_of(run, built.rough, Happened::sticks), rest_time(),
+            return std::vector<Timed>{{"sticks", time_of(run, built.rough, EventKind::sticks), rest_time(),
                                        time_limit(how.tolerance)}};
           }};
 }

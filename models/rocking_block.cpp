@@ -96,12 +96,12 @@ EventModel RockingBlock::event_model() const {
             std::vector<Timed> all;
             for (int k = 0; impact_rate(k) > 0.01 * impact_rate(0); ++k)
               all.push_back({numbered("impact ", k + 1),
-                             time_of(run, k % 2 == 0 ? built.left : built.right, Happened::struck, k / 2),
+                             time_of(run, k % 2 == 0 ? built.left : built.right, EventKind::struck, k / 2),
                              impact_time(k), limit});
             // By ida their limit, rest, is known to hundreds of tolerances only: the smaller impacts are, the
             // fewer digits of their speeds are above the tolerance of the run.
             if (how.stepper == Stepper::erk)
-              all.push_back({"rests", time_of(run, built.left, Happened::rested), rests, limit});
+              all.push_back({"rests", time_of(run, built.left, EventKind::rested), rests, limit});
             return all;
           }};
 }

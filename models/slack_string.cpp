@@ -55,8 +55,8 @@ EventModel SlackString::event_model() const {
             const double caught = catch_time(), limit = time_limit(how.tolerance);
             const auto run = how.run(built.scene, {.t_end = 1.1 * caught, .samples = 2});
             return std::vector<Timed>{
-                {"goes slack", time_of(run, built.string, Happened::opened), slack_time(), limit},
-                {"is caught", time_of(run, built.string, Happened::struck), caught, limit}};
+                {"goes slack", time_of(run, built.string, EventKind::opened), slack_time(), limit},
+                {"is caught", time_of(run, built.string, EventKind::struck), caught, limit}};
           }};
 }
 

@@ -59,8 +59,8 @@ EventModel SlidingLadder::event_model() const {
             const double lies = lying_time(), limit = time_limit(how.tolerance);
             const auto run = how.run(built.scene, {.t_end = 1.1 * lies, .samples = 2});
             return std::vector<Timed>{
-                {"leaves the wall", time_of(run, built.wall, Happened::opened), leaving_time(), limit},
-                {"lies down", time_of(run, built.lies_down, Happened::struck), lies, limit}};
+                {"leaves the wall", time_of(run, built.wall, EventKind::opened), leaving_time(), limit},
+                {"lies down", time_of(run, built.lies_down, EventKind::struck), lies, limit}};
           }};
 }
 

@@ -32,7 +32,7 @@ class Integrator {
   /// InvalidArgument outside and after such an event, IntegrationFailure.
   void advance_to(double t);
   /// What has happened so far.
-  [[nodiscard]] std::span<const Occurrence> events() const;
+  [[nodiscard]] std::span<const EventRecord> events() const;
 
   /// All samples that the options ask for, from here on. Throws IntegrationFailure, with all
   /// samples before.
@@ -47,8 +47,8 @@ class Integrator {
   [[nodiscard]] const System& system() const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  struct Run;
+  std::unique_ptr<Run> run_;
 };
 
 }  // namespace dalembert

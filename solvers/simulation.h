@@ -38,7 +38,7 @@ class Simulation : public Readings<D, Simulation<D>> {
   /// Of the run so far.
   [[nodiscard]] Statistics statistics() const { return integrator_.statistics(); }
   /// So far, in the order of time.
-  [[nodiscard]] std::span<const Occurrence> events() const { return integrator_.events(); }
+  [[nodiscard]] std::span<const EventRecord> events() const { return integrator_.events(); }
   /// Of the run so far.
   [[nodiscard]] Audit audit() const { return integrator_.statistics().audit; }
 

@@ -120,16 +120,16 @@ void put(hid_t group, const WrittenColumn& column) {
 
 /// What happened, when, and to which constraint; `time_error` of the k-th is its estimated error.
 void put_events(hid_t file, const Record& record, const std::function<double(std::size_t)>& time_error) {
-  const std::size_t word = std::string_view(name(Happened::rested)).size();  // the longest
+  const std::size_t word = std::string_view(name(EventKind::rested)).size();  // the longest
   std::size_t widest = 1;
-  for (const Occurrence& one : record.events) widest = std::max(widest, record.name_of(one).size());
+  for (const EventRecord& one : record.events) widest = std::max(widest, record.name_of(one).size());
   const hdf5::Handle what = hdf5::text_type(word), element = hdf5::text_type(widest);
   hdf5::RecordType type{{{"time", H5T_NATIVE_DOUBLE}, {"what", what}, {"of", element}}};
   if (time_error) type.fields.push_back({"time_error", H5T_NATIVE_DOUBLE});
   hdf5::Table table(file, "events", type, record.events.size());
   for (std::size_t k = 0; k < record.events.size(); ++k) {
     table.put(record.events[k].time);
-    table.put(std::string(name(record.events[k].what)), word);
+    table.put(std::string(name(record.events[k].kind)), word);
     table.put(record.name_of(record.events[k]), widest);
     if (time_error) table.put(time_error(k));
   }

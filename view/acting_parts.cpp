@@ -37,7 +37,7 @@ ActingParts::Acting ActingParts::acting(const Layout::Constraint& constraint, Pi
 /// An event may change it: then the layout does.
 std::optional<std::size_t> ActingParts::released(std::size_t constraint) {
   const auto out = [constraint](const Layout& layout) {
-    return layout.constraints[constraint].holds.released;
+    return layout.constraints[constraint].condition.released;
   };
   const auto ever = [&](const auto& later) { return out(*later.layout); };
   if (!out(*layout_) && std::ranges::none_of(run_->later, ever)) return {};
@@ -109,8 +109,8 @@ void ActingParts::write_constraint(Json& json, const Acting& its, const Pictures
     json.member("kind", c.kind);
     json.member("name", c.name);
     json.member("meaning", c.meaning);
-    if (c.holds.contact) json.member("oneSided", c.holds.contact->sign());
-    if (c.holds.roughness) json.member("pressedBy", c.holds.roughness->pressed_by);
+    if (c.condition.contact) json.member("oneSided", c.condition.contact->sign());
+    if (c.condition.roughness) json.member("pressedBy", c.condition.roughness->pressed_by);
     pictures.write(json, its.drawn);
     json.member("lambda", its.lambda);
     write_error(json, its.error);

@@ -8,14 +8,14 @@ namespace dalembert {
 void write_events(Json& json, const Record& run, const TwoRuns* certified, std::span<const Shown> shown) {
   std::size_t row = 0;
   json.list("events", Places::from(0, run.events.size()), [&](std::size_t k) {
-    const Occurrence& one = run.events[k];
+    const EventRecord& one = run.events[k];
     while (row < shown.size() && shown[row].event != k) ++row;
     json.object([&] {
       json.member("name", run.name_of(one));
-      json.member("what", name(one.what));
+      json.member("what", name(one.kind));
       json.member("time", one.time);
       if (row < shown.size()) json.member("row", row);
-      if (one.what != Happened::event) json.member("constraint", one.event);
+      if (one.kind != EventKind::event) json.member("constraint", one.source);
       if (certified != nullptr) json.member("error", certified->error_of_time(k));
     });
   });

@@ -30,7 +30,7 @@ struct Pulled {
 Result went(const Pulled& pulled, const Options& options, bool goes, double due) {
   const Trajectory<2> run = simulate(pulled.scene, options);
   Result result{.error = infinite, .statistics = run.statistics()};
-  if (goes && !run.events().empty() && run.events()[0].what == Happened::slides)
+  if (goes && !run.events().empty() && run.events()[0].kind == EventKind::slides)
     result.error = std::abs(run.events()[0].time - due);
   if (!goes && run.events().empty()) result.error = run.velocity(pulled.block, run.size() - 1).norm();
   return result;

@@ -64,9 +64,9 @@ Case accumulation() {
                 Ball built({0.0, 1.0}, {0.3, 0.0});
                 built.wall(0.0, 1.0, 0.0, e, "floor");
                 const auto run = built.run(due(e) + 1.0, stepper);
-                const Occurrence& last = run.events().back();
+                const EventRecord& last = run.events().back();
                 return Result{
-                    .error = last.what == Happened::rested ? std::abs(last.time / due(e) - 1.0) : infinite,
+                    .error = last.kind == EventKind::rested ? std::abs(last.time / due(e) - 1.0) : infinite,
                     .statistics = run.statistics()};
               },
           .limit =

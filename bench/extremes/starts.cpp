@@ -9,7 +9,7 @@ namespace {
 
 /// Below this part of the scene's length or speed a violation is taken for rounding (docs/messages.md: within
 /// 1e-8).
-constexpr double rounding_of_the_user = 1e-8;
+constexpr double start_tolerance = 1e-8;
 /// Distances and speeds are printed with six digits.
 constexpr double printed = 1e-5;
 
@@ -53,25 +53,24 @@ constexpr double few_roundings = 16.0 * epsilon;
 /// and, at rest, as fast as a fall of 1 m.
 Case refused(const char* name, const char* parameter, const char* word, double scale,
              Astray (*start)(double)) {
-  return {.name = name,
-          .parameter = parameter,
-          .sweep = {1e-14, 1e-10, 5e-9, 1e-7, 1e-4, 1e-2, 1.0},
-          .brief = {1e-14, 5e-9, 1e-7, 1.0},
-          .run =
-              [=](double d, Stepper stepper) {
-                const Astray astray = start(d);
-                try {
-                  const Simulation<2> simulation(astray.scene, {.t_end = 1.0, .stepper = stepper});
-                  const double left = left_of(simulation, astray.bob);
-                  return Result{.error = d <= rounding_of_the_user * scale ? left : infinite};
-                } catch (const InconsistentStart& refusal) {
-                  return as_refused(refusal, "\"rod\"", word, d);
-                }
-              },
-          .limit =
-              [=](const Run& run) {
-                return run.parameter <= rounding_of_the_user * scale ? few_roundings : printed;
-              }};
+  return {
+      .name = name,
+      .parameter = parameter,
+      .sweep = {1e-14, 1e-10, 5e-9, 1e-7, 1e-4, 1e-2, 1.0},
+      .brief = {1e-14, 5e-9, 1e-7, 1.0},
+      .run =
+          [=](double d, Stepper stepper) {
+            const Astray astray = start(d);
+            try {
+              const Simulation<2> simulation(astray.scene, {.t_end = 1.0, .stepper = stepper});
+              const double left = left_of(simulation, astray.bob);
+              return Result{.error = d <= start_tolerance * scale ? left : infinite};
+            } catch (const InconsistentStart& refusal) {
+              return as_refused(refusal, "\"rod\"", word, d);
+            }
+          },
+      .limit =
+          [=](const Run& run) { return run.parameter <= start_tolerance * scale ? few_roundings : printed; }};
 }
 
 /// An elbow of two rods over a gap of 1.8 m, its joint sqrt(1 - 0.81) high, put off by d along x and down:
@@ -113,7 +112,7 @@ Case redundant(const char* name, bool assemble) {
             try {
               const Simulation<2> simulation(scene, {.t_end = 1.0, .stepper = stepper, .assemble = assemble});
               // Somewhere between the two.
-              return Result{.error = d <= rounding_of_the_user
+              return Result{.error = d <= start_tolerance
                                          ? std::max(0.0, std::abs(simulation.position(bob).norm() - 1.0) - d)
                                          : infinite};
             } catch (const InconsistentStart& refusal) {
@@ -122,8 +121,7 @@ Case redundant(const char* name, bool assemble) {
               return as_refused(refusal, culprit, "distance", d);
             }
           },
-      .limit =
-          [](const Run& run) { return run.parameter <= rounding_of_the_user ? few_roundings : printed; }};
+      .limit = [](const Run& run) { return run.parameter <= start_tolerance ? few_roundings : printed; }};
 }
 
 /// A skate held by two blades that differ in the sideways speed they allow: the bob of 1 m/s along x must
@@ -141,7 +139,7 @@ Case redundant_velocities() {
                 scene.add(nonholonomic(points(skate), [d](auto, auto v) { return v.y() - d; }), "second");
                 try {
                   const Simulation<2> simulation(scene, {.t_end = 1.0, .stepper = stepper, .assemble = true});
-                  return Result{.error = d <= rounding_of_the_user
+                  return Result{.error = d <= start_tolerance
                                              ? std::max(0.0, std::abs(simulation.velocity(skate).y()) - d)
                                              : infinite};
                 } catch (const InconsistentStart& refusal) {
@@ -151,8 +149,7 @@ Case redundant_velocities() {
                   return as_refused(refusal, culprit, "speed", d);
                 }
               },
-          .limit =
-              [](const Run& run) { return run.parameter <= rounding_of_the_user ? few_roundings : printed; }};
+          .limit = [](const Run& run) { return run.parameter <= start_tolerance ? few_roundings : printed; }};
 }
 
 }  // namespace

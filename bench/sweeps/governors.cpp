@@ -31,7 +31,7 @@ void hang(Made& made, const Particle<3>& sleeve, double depth, double mass, doub
   made.grounded.push_back(made.scene.add(Distance{Fixed<3>{}, here, upper}));
   made.scene.add(Distance{here, sleeve, lower});
   made.grounded.push_back(
-      made.scene.add(InPlane{here, Axis{}, [ahead](const auto& t) { return spin * t + ahead; }}));
+      made.scene.add(RotatingPlane{here, Axis{}, [ahead](const auto& t) { return spin * t + ahead; }}));
 }
 
 Made make(const Row& row) {

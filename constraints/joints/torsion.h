@@ -14,7 +14,7 @@ namespace dalembert {
 ///
 /// The positions of two bodies do not determine how often one has turned. So the spring may be turned by up
 /// to 150 degrees from where it is relaxed; beyond that the run stops with an error. One that is wound up
-/// acts on the Rotor of a Winding.
+/// acts on the Rotor of a TurnCounter.
 template <class A, class B>
 struct TorsionSpring {
   static constexpr std::string_view kind = "TorsionSpring";
@@ -37,7 +37,7 @@ struct TorsionSpring {
     const auto c = cos(turn);
     if (c < -0.5 * std::numbers::sqrt3) {
       throw std::domain_error(
-          "is turned by more than 150 degrees from where it is relaxed; give it a Rotor that a Winding "
+          "is turned by more than 150 degrees from where it is relaxed; give it a Rotor that a TurnCounter "
           "turns");
     }
     const auto phi = atan2(sin(turn), c);

@@ -85,7 +85,7 @@ std::string System::describe() const {
               : "one-sided of these: " + std::to_string(contacts().size()) + ", counted as closed\n")
       << freedom_by_count(*this) << "islands that do not act on each other: " << islands(*this).count << '\n'
       << "forces: " << kinds(std::span(parts_.forces).first(first_reading_)) << " besides constant ones"
-      << (frictional()
+      << (has_multiplier_forces()
               ? ", and " + kinds(std::span(parts_.forces).subspan(first_reading_)) + " that read multipliers"
               : "")
       << '\n'
@@ -98,7 +98,7 @@ std::string System::describe() const {
   left_out(rows() > 0 && !compliant(), "compliance: all constraints are rigid");
   left_out(stiffness_pattern_.empty(), "the stiffness block: no force or constraint varies with position");
   left_out(damping_pattern_.empty(), "the damping block: no force depends on velocities");
-  left_out(!frictional() && rows() > 0, "friction: no force reads a multiplier");
+  left_out(!has_multiplier_forces() && rows() > 0, "friction: no force reads a multiplier");
   left_out(holonomic_rows() == 0, "the position multipliers mu: there is no holonomic constraint");
   left_out(rows() == 0, "the constraint forces: there is no constraint");
   return out.str();

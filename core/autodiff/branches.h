@@ -13,9 +13,9 @@ namespace dalembert {
 /// discontinuity is found where it is stated, however small it is and wherever within a step it falls.
 ///
 /// A comparison of a with b hands out a - b, a function of the motion that is 0 where the equation switches,
-/// and the side of 0 that the equation was evaluated on. Evaluated again on the sides that were heard before
-/// the equation is smooth, also beyond its switches: so a step goes by one smooth piece, up to where that
-/// ends.
+/// and the side of 0 that the equation was evaluated on. Evaluated again on the sides that were recorded
+/// before the equation is smooth, also beyond its switches: so a step goes by one smooth piece, up to where
+/// that ends.
 ///
 /// Duals report their comparisons to the listener of this thread, if there is one. (A scalar type of its own
 /// would need no such thing, but would compile every equation once more.)
@@ -29,18 +29,18 @@ class Branches {
   /// Of each batch, in the order in which it makes them.
   using Sides = std::vector<std::vector<Comparison>>;
 
-  /// Notes in `heard` what is compared, and evaluates on the sides of `held`; each unless it is null.
-  Branches(Sides* heard, const Sides* held)
-      : heard_(heard), held_(held), outer_(std::exchange(listening, this)) {}
+  /// Notes in `recorded` what is compared, and evaluates on the sides of `held`; each unless it is null.
+  Branches(Sides* recorded, const Sides* held)
+      : recorded_(recorded), held_(held), outer_(std::exchange(listening, this)) {}
   Branches(const Branches&) = delete;
   Branches& operator=(const Branches&) = delete;
   ~Branches() { listening = outer_; }
 
   /// What is compared from here on belongs to this batch, which begins anew.
-  static void begin_batch(std::size_t number) {
+  static void enter_batch(std::size_t number) {
     if (listening != nullptr) listening->begin(number);
   }
-  [[nodiscard]] static bool heard() { return listening != nullptr; }
+  [[nodiscard]] static bool recording() { return listening != nullptr; }
   /// Where its next comparison stands among those of its batch.
   [[nodiscard]] static std::size_t next() { return listening == nullptr ? 0 : listening->next_; }
   /// Comparisons from that place on are made once more, as an equation is evaluated again at the same state.
@@ -95,15 +95,16 @@ class Branches {
   void begin(std::size_t number) {
     batch_ = number;
     next_ = 0;
-    if (heard_ == nullptr) return;
-    if (heard_->size() <= number) heard_->resize(number + 1);
-    (*heard_)[number].clear();
+    if (recorded_ == nullptr) return;
+    if (recorded_->size() <= number) recorded_->resize(number + 1);
+    (*recorded_)[number].clear();
   }
   void go_back(std::size_t next) {
     next_ = next;
-    if (heard_ == nullptr || batch_ >= heard_->size()) return;
-    auto& heard = (*heard_)[batch_];
-    heard.erase(heard.begin() + static_cast<std::ptrdiff_t>(std::min(next, heard.size())), heard.end());
+    if (recorded_ == nullptr || batch_ >= recorded_->size()) return;
+    auto& recorded = (*recorded_)[batch_];
+    recorded.erase(recorded.begin() + static_cast<std::ptrdiff_t>(std::min(next, recorded.size())),
+                   recorded.end());
   }
   [[nodiscard]] const Comparison* own() const {
     if (held_ == nullptr || batch_ >= held_->size() || next_ >= (*held_)[batch_].size()) return nullptr;
@@ -115,7 +116,7 @@ class Branches {
       natural.piece = other->piece;
     }
     ++next_;
-    if (heard_ != nullptr && batch_ < heard_->size()) (*heard_)[batch_].push_back(natural);
+    if (recorded_ != nullptr && batch_ < recorded_->size()) (*recorded_)[batch_].push_back(natural);
     return natural;
   }
   // Not inlined: each comparison in an equation would be compiled with a vector that grows.
@@ -128,7 +129,7 @@ class Branches {
   [[gnu::noinline]] double add_piece(double natural) { return note({1.0, 1, natural}).piece; }
 
   static inline thread_local constinit Branches* listening = nullptr;
-  Sides* heard_;
+  Sides* recorded_;
   const Sides* held_;
   Branches* outer_;
   std::size_t batch_ = 0, next_ = 0;

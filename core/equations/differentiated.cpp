@@ -240,7 +240,7 @@ struct DifferentiatedEquations::Linearisation {
   const ElementType& of = its.elements;
   int rows = its.rows, inputs = of.inputs, pairs = (inputs + 1) / 2;
   std::size_t n = size(inputs), numbers = size(rows), all = size(pairs) * 2 * n;
-  bool heard = Branches::heard();
+  bool recorded = Branches::recording();
   Scratch room{Scratch::size_of<S>(numbers * size(pairs)) + 2 * Scratch::size_of<double>(n) +
                Scratch::size_of<double>(numbers * n) + Scratch::size_of<double>(n * n) +
                2 * Scratch::size_of<double>(all) + 2 * Scratch::size_of<double>(numbers)};
@@ -256,7 +256,7 @@ struct DifferentiatedEquations::Linearisation {
   const double* lambda = nullptr;
 
   void pass(const double* x_s, const double* v_s, int count, double t_s, int first, S* out) const {
-    if (heard) Branches::again(mark);
+    if (recorded) Branches::again(mark);
     Pass one{.elements = own.elements_.data(),
              .i = i,
              .count = count,
@@ -274,14 +274,15 @@ struct DifferentiatedEquations::Linearisation {
   [[nodiscard]] const double* directions(int pair) const {
     return own.directions_.data() + pair * 2 * inputs;
   }
-  /// The rows along pairs of positions from number `from` on; in one pass, but where comparisons are heard.
+  /// The rows along pairs of positions from number `from` on; in one pass, but where comparisons are
+  /// recorded.
   void along_positions(int from, int first) const {
-    const int together = heard ? 1 : pairs - from;
+    const int together = recorded ? 1 : pairs - from;
     for (int p = from; p < pairs; p += together)
       pass(directions(p), zeros, together, 0.0, first, values + (p - from) * rows);
   }
   void along_velocities(int first) const {
-    const int together = heard ? 1 : pairs;
+    const int together = recorded ? 1 : pairs;
     for (int p = 0; p < pairs; p += together)
       pass(zeros, directions(p), together, 0.0, first, values + p * rows);
   }

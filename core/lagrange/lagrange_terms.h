@@ -133,13 +133,13 @@ template <int N>
   constexpr double far = 1e100;
   const auto outcomes = [&](double place) {
     q[k] = place;
-    Branches::Sides heard(1);
-    const Branches listening(&heard, nullptr);
+    Branches::Sides recorded(1);
+    const Branches recording(&recorded, nullptr);
     const LagrangeTerms<N> terms = lagrangian.terms(t, q, v);
     const bool finite = std::isfinite(terms.L) && terms.L_q.allFinite() && terms.L_v.allFinite() &&
                         terms.L_vv.allFinite() && terms.L_vq.allFinite();
     std::vector<std::pair<int, double>> sides;
-    for (const Branches::Comparison& one : heard[0]) sides.emplace_back(one.side, one.piece);
+    for (const Branches::Comparison& one : recorded[0]) sides.emplace_back(one.side, one.piece);
     return std::pair(sides, finite && terms.L_q[k] == 0.0);
   };
   try {

@@ -2,19 +2,19 @@
 
 namespace dalembert {
 
-const char* name(Happened what) {
-  switch (what) {
-    case Happened::event:
+const char* name(EventKind kind) {
+  switch (kind) {
+    case EventKind::event:
       return "happens";
-    case Happened::opened:
+    case EventKind::opened:
       return "opens";
-    case Happened::struck:
+    case EventKind::struck:
       return "is struck";
-    case Happened::rested:
+    case EventKind::rested:
       return "comes to rest";
-    case Happened::sticks:
+    case EventKind::sticks:
       return "sticks";
-    case Happened::slides:
+    case EventKind::slides:
       return "slides";
   }
   return "";

@@ -52,15 +52,15 @@ struct FlatEvent {
 
 /// What a run lists: an event that was asked for; that a one-sided constraint opened, had an impact, or came
 /// to rest after infinitely many; that one of Coulomb's law sticks from there on, or slides.
-enum class Happened { event, opened, struck, rested, sticks, slides };
+enum class EventKind { event, opened, struck, rested, sticks, slides };
 /// The verb: "happens", "opens", "is struck", "comes to rest", "sticks", "slides".
-[[nodiscard]] const char* name(Happened what);
+[[nodiscard]] const char* name(EventKind kind);
 
 /// That something happened in a run, and when.
-struct Occurrence {
-  std::size_t event;                ///< which of those that were asked for, from 0; of a constraint its index
-  double time;                      ///< when it happened
-  Happened what = Happened::event;  ///< what it is
+struct EventRecord {
+  std::size_t source;  ///< which of those that were asked for, from 0; of a constraint its index
+  double time;         ///< when it happened
+  EventKind kind = EventKind::event;  ///< what it is
 };
 
 }  // namespace dalembert

@@ -43,7 +43,7 @@ struct Layout {
     int first_row;   ///< in lambda
     int first_slot;  ///< in the slots of constraint forces, `width` of them
     std::uint64_t scene;
-    Condition holds{};      ///< when, if not always
+    Condition condition{};  ///< when, if not always
     std::string meaning{};  ///< what its multiplier is, with its direction and sign, in words
     std::shared_ptr<const Drawing> drawing{};
 

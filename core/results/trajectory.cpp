@@ -24,7 +24,7 @@ void Record::append(const FlatSample& sample) {
   times.push_back(sample.time);
 }
 
-void Record::go_on_with(const std::shared_ptr<const Layout>& next) {
+void Record::use_layout(const std::shared_ptr<const Layout>& next) {
   if (next != (later.empty() ? layout : later.back().layout)) later.push_back({times.size(), next});
 }
 
@@ -40,12 +40,12 @@ void Record::clear() {
   unique.clear();
 }
 
-std::string Record::name_of(const Occurrence& its) const {
-  if (its.what == Happened::event) {
-    const bool named = its.event < event_names.size() && !event_names[its.event].empty();
-    return named ? event_names[its.event] : "event " + std::to_string(its.event);
+std::string Record::name_of(const EventRecord& its) const {
+  if (its.kind == EventKind::event) {
+    const bool named = its.source < event_names.size() && !event_names[its.source].empty();
+    return named ? event_names[its.source] : "event " + std::to_string(its.source);
   }
-  if (its.event < layout->constraints.size()) return layout->constraints[its.event].name;
+  if (its.source < layout->constraints.size()) return layout->constraints[its.source].name;
   throw InvalidArgument("name_of(): this is nothing that happened in this run; use one of its events()");
 }
 

@@ -44,7 +44,7 @@ struct Record {
   Statistics statistics;                       ///< of the run
   std::shared_ptr<const DenseOutput> dense;    ///< if the option `dense` asks for it
   std::vector<std::string> event_names{};      ///< of the events that were asked for
-  std::vector<Occurrence> events;              ///< in the order of time,
+  std::vector<EventRecord> events;             ///< in the order of time,
   std::shared_ptr<const Record> at_events;     ///< with a sample of each; null if none were asked for
   std::shared_ptr<const Record> after_events;  ///< and of the state after it,
   std::vector<double> impulses;                ///< with the impulses of all rows; both null or empty if no
@@ -52,7 +52,7 @@ struct Record {
   std::shared_ptr<const Ledger> ledger{};      ///< if the option `ledger` asks for it
 
   /// Samples that are appended from here on are of this layout, which differs in what forces and masses are.
-  void go_on_with(const std::shared_ptr<const Layout>& layout);
+  void use_layout(const std::shared_ptr<const Layout>& layout);
   /// The layout of a sample.
   [[nodiscard]] const std::shared_ptr<const Layout>& layout_of(std::size_t sample) const;
 
@@ -65,7 +65,7 @@ struct Record {
   /// The numbers of a sample.
   [[nodiscard]] FlatSample sample(std::size_t i) const;
   /// Of the event that happened, or of the constraint that it happened to.
-  [[nodiscard]] std::string name_of(const Occurrence& its) const;
+  [[nodiscard]] std::string name_of(const EventRecord& its) const;
   /// How many of `values` each sample has.
   [[nodiscard]] std::size_t stride() const;
 
@@ -156,12 +156,12 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   }
   /// What happened, in the order of time, and the k-th such instant; see Event. `event_sample` throws
   /// InvalidArgument if there are not so many.
-  [[nodiscard]] std::span<const Occurrence> events() const& { return record_->events; }
+  [[nodiscard]] std::span<const EventRecord> events() const& { return record_->events; }
   /// The name of an event that was asked for, or of the constraint that something happened to.
   ///
-  ///   for (const Occurrence& its : run.events())
-  ///     std::cout << run.name_of(its) << ' ' << name(its.what) << " at " << its.time << " s\n";
-  [[nodiscard]] std::string name_of(const Occurrence& its) const { return record_->name_of(its); }
+  ///   for (const EventRecord& its : run.events())
+  ///     std::cout << run.name_of(its) << ' ' << name(its.kind) << " at " << its.time << " s\n";
+  [[nodiscard]] std::string name_of(const EventRecord& its) const { return record_->name_of(its); }
   /// The state just before.
   [[nodiscard]] Sample<D> event_sample(std::size_t k) const&;
   /// The state that the run goes on with: with other velocities after an impact.

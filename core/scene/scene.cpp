@@ -307,12 +307,12 @@ void Scene<D>::replace_any(int handle, const detail::ElementTable<ConstraintBatc
                            const void* constraint) {
   const auto number = static_cast<std::size_t>(handle);
   Layout::Constraint& its = layout_.constraints[number];
-  const bool released = its.holds.released;
+  const bool released = its.condition.released;
   Surroundings around = Admitting(*this, {its.kind, its.name}).of(type, constraint);
   exchange(constraints_, type, constraint, constraint_places_[number], number, its.label(),
            std::move(around));
-  its.holds = type.condition(constraint);
-  its.holds.released = released;
+  its.condition = type.condition(constraint);
+  its.condition.released = released;
   its.drawing = type.drawing(constraint);
 }
 

@@ -32,9 +32,9 @@ void Scene<D>::start_from(const Sample<D>& sample) {
 template <int D>
 void Scene<D>::set_released(int constraint, bool released) {
   Layout::Constraint& its = layout_.constraints[static_cast<std::size_t>(constraint)];
-  if (its.holds.contact || its.holds.roughness)
+  if (its.condition.contact || its.condition.roughness)
     throw InvalidArgument(its.label() + " does not always hold: it cannot be released or imposed");
-  its.holds.released = released;
+  its.condition.released = released;
 }
 
 template <int D>

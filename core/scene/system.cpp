@@ -32,7 +32,7 @@ System::System(SystemParts parts) : parts_(std::move(parts)) {
   sort_forces();
   place_forces(parts_.layout);
   stated_forces_ = parts_.forces.size();
-  stated_friction_entries_ = friction_pattern_.size();
+  stated_multiplier_force_entries_ = multiplier_force_pattern_.size();
   index_layout();
   layout_ = std::make_shared<const Layout>(std::move(parts_.layout));
 }
@@ -104,7 +104,8 @@ System::Evaluation System::evaluation() const {
 
 System::Linearisation System::linearisation() const {
   return {std::vector<double>(w_columns_.size()), std::vector<double>(stiffness_pattern_.size()),
-          std::vector<double>(damping_pattern_.size()), std::vector<double>(friction_pattern_.size())};
+          std::vector<double>(damping_pattern_.size()),
+          std::vector<double>(multiplier_force_pattern_.size())};
 }
 
 template <class F>
@@ -112,7 +113,7 @@ void System::on_constraints(double t, const F& f) const {
   for (std::size_t b = 0; b < parts_.constraints.size(); ++b) {
     try {
       Branches::or_naturally<ElementFault>([&] {
-        Branches::begin_batch(b);
+        Branches::enter_batch(b);
         f(*parts_.constraints[b], constraint_places_[b]);
       });
     } catch (const ElementFault& fault) {

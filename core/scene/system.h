@@ -89,15 +89,17 @@ class System {
   /// The number of entries of the stiffness that are those of constraints; they come first.
   [[nodiscard]] std::size_t stiffness_of_constraints() const { return stiffness_of_constraints_; }
   /// Places of dF_f/dlambda: a coordinate and a row. Empty if no force reads a multiplier.
-  [[nodiscard]] std::span<const Entry> friction_pattern() const { return friction_pattern_; }
-  [[nodiscard]] bool frictional() const { return !friction_pattern_.empty(); }
+  [[nodiscard]] std::span<const Entry> multiplier_force_pattern() const { return multiplier_force_pattern_; }
+  [[nodiscard]] bool has_multiplier_forces() const { return !multiplier_force_pattern_.empty(); }
   /// The number of them that are of forces that the scene states; the rest is of what slides.
-  [[nodiscard]] std::size_t stated_friction_entries() const { return stated_friction_entries_; }
+  [[nodiscard]] std::size_t stated_multiplier_force_entries() const {
+    return stated_multiplier_force_entries_;
+  }
 
   /// One-sided constraints, those of Coulomb's law, and both, by their numbers in the layout.
   [[nodiscard]] std::vector<std::size_t> contacts() const;
-  [[nodiscard]] std::vector<std::size_t> rough() const;
-  [[nodiscard]] std::vector<std::size_t> conditional() const;
+  [[nodiscard]] std::vector<std::size_t> frictional_constraints() const;
+  [[nodiscard]] std::vector<std::size_t> conditional_constraints() const;
   /// Those that their scene has released.
   [[nodiscard]] std::vector<std::size_t> released() const;
   /// The label of one that does not always hold; empty if all do.
@@ -143,9 +145,9 @@ class System {
   void linearise_forces(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
 
   /// Adds F_f for the multipliers lambda to F. Throws like `evaluate`.
-  void add_friction(const Instant& at, std::span<const double> lambda, std::span<double> F) const;
+  void add_multiplier_forces(const Instant& at, std::span<const double> lambda, std::span<double> F) const;
   /// dF_f/dlambda, in the order of its pattern. Throws like `evaluate`.
-  void friction_slope(const Instant& at, std::span<const double> lambda, std::span<double> out) const;
+  void multiplier_force_slope(const Instant& at, std::span<const double> lambda, std::span<double> out) const;
 
   /// What multipliers exert at the points the constraints were stated for, out of W: for every row as many
   /// numbers as its constraint has inputs, in the order of rows; see detail::forces_at_points. `lengths` has
@@ -171,7 +173,7 @@ class System {
   /// The label of the force that an entry of the stiffness beyond those of the constraints belongs to.
   [[nodiscard]] std::string force_of_stiffness(std::size_t entry) const;
   /// The label of the force that an entry of dF_f/dlambda belongs to.
-  [[nodiscard]] std::string force_of_friction(std::size_t entry) const;
+  [[nodiscard]] std::string name_of_multiplier_force(std::size_t entry) const;
   /// The label of what a batch holds, by its number in Branches.
   [[nodiscard]] std::string label_of_batch(std::size_t batch) const;
   /// Whether its equations depend on time explicitly.
@@ -243,9 +245,9 @@ class System {
   std::size_t stiffness_of_constraints_ = 0;
   // Batches of forces: those that read multipliers, and behind what the scene states what slides.
   std::size_t first_reading_ = 0, stated_forces_ = 0;
-  std::size_t stated_friction_entries_ = 0;
+  std::size_t stated_multiplier_force_entries_ = 0;
   std::vector<std::shared_ptr<const SlidingFriction>> slides_;
-  std::vector<Entry> friction_pattern_;
+  std::vector<Entry> multiplier_force_pattern_;
 };
 
 }  // namespace dalembert

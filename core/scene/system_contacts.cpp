@@ -9,7 +9,7 @@ namespace {
 std::vector<std::size_t> constraints_that(const Layout& layout, const auto& hold) {
   std::vector<std::size_t> numbers;
   for (std::size_t c = 0; c < layout.constraints.size(); ++c)
-    if (hold(layout.constraints[c].holds)) numbers.push_back(c);
+    if (hold(layout.constraints[c].condition)) numbers.push_back(c);
   return numbers;
 }
 
@@ -19,11 +19,11 @@ std::vector<std::size_t> System::contacts() const {
   return constraints_that(*layout_, [](const Condition& c) { return c.contact.has_value(); });
 }
 
-std::vector<std::size_t> System::rough() const {
+std::vector<std::size_t> System::frictional_constraints() const {
   return constraints_that(*layout_, [](const Condition& c) { return c.roughness.has_value(); });
 }
 
-std::vector<std::size_t> System::conditional() const {
+std::vector<std::size_t> System::conditional_constraints() const {
   return constraints_that(*layout_, [](const Condition& c) { return c.contact || c.roughness; });
 }
 
@@ -33,7 +33,7 @@ std::vector<std::size_t> System::released() const {
 
 std::string System::conditional_label() const {
   for (const Layout::Constraint& c : layout_->constraints)
-    if (c.holds.contact || c.holds.roughness || c.holds.released) return c.label();
+    if (c.condition.contact || c.condition.roughness || c.condition.released) return c.label();
   return {};
 }
 
@@ -66,7 +66,7 @@ System System::sliding(std::span<const Slide> slides) const {
       const auto place = std::ranges::find(parts_.constraint_numbers[b], static_cast<int>(slide.constraint));
       if (place == parts_.constraint_numbers[b].end()) continue;
       own.push_back({static_cast<std::size_t>(place - parts_.constraint_numbers[b].begin()),
-                     layout_->constraints[slide.constraint].holds.roughness->pressed_by, slide.strength,
+                     layout_->constraints[slide.constraint].condition.roughness->pressed_by, slide.strength,
                      slide.direction, slide.slow});
       numbers.push_back(*place);
     }

@@ -29,7 +29,7 @@ void System::place_forces(const Layout& layout) {
     const ForceShape shape = batch.shape();
     const auto width = static_cast<std::size_t>(shape.width), rows = static_cast<std::size_t>(shape.rows);
     const std::size_t blocks = batch.size() * width * width;
-    ForcePlaces own{Places::from(friction_pattern_.size(), batch.size() * rows * width),
+    ForcePlaces own{Places::from(multiplier_force_pattern_.size(), batch.size() * rows * width),
                     Places::from(stiffness_pattern_.size(), blocks),
                     Places::from(damping_pattern_.size(), shape.dissipative ? blocks : 0)};
     append_blocks(batch.coordinates(), width, stiffness_pattern_);
@@ -39,7 +39,7 @@ void System::place_forces(const Layout& layout) {
       own.first_row.push_back(layout.constraints[constraint].own_rows().front());
       for (std::size_t r = 0; r < rows; ++r) {
         for (const int coordinate : batch.coordinates().subspan(i * width, width))
-          friction_pattern_.push_back({static_cast<std::size_t>(coordinate), own.first_row[i] + r});
+          multiplier_force_pattern_.push_back({static_cast<std::size_t>(coordinate), own.first_row[i] + r});
       }
     }
     force_places_.push_back(std::move(own));
@@ -52,7 +52,7 @@ void System::on_forces(std::size_t from, std::size_t end, const Instant& at, std
   for (std::size_t b = from; b < end; ++b) {
     const ForcePlaces& own = force_places_[b];
     try {
-      Branches::begin_batch(parts_.constraints.size() + b);
+      Branches::enter_batch(parts_.constraints.size() + b);
       f(*parts_.forces[b], Multipliers{lambda, own.first_row}, own);
     } catch (const ElementFault& fault) {
       throw EquationFault(force_label(b, fault.element) + ' ' + fault.what + at_time(at.t));
@@ -67,14 +67,16 @@ void System::add_forces(const Instant& at, std::span<double> F) const {
             });
 }
 
-void System::add_friction(const Instant& at, std::span<const double> lambda, std::span<double> F) const {
+void System::add_multiplier_forces(const Instant& at, std::span<const double> lambda,
+                                   std::span<double> F) const {
   on_forces(first_reading_, parts_.forces.size(), at, lambda,
             [&](const ForceBatch& batch, const Multipliers& read, const ForcePlaces&) {
               batch.add_force(at, read, F);
             });
 }
 
-void System::friction_slope(const Instant& at, std::span<const double> lambda, std::span<double> out) const {
+void System::multiplier_force_slope(const Instant& at, std::span<const double> lambda,
+                                    std::span<double> out) const {
   const auto write = [&](const ForceBatch& batch, const Multipliers& read, const ForcePlaces& own) {
     batch.slope(at, read, own.slope.in(out));
   };
@@ -83,7 +85,7 @@ void System::friction_slope(const Instant& at, std::span<const double> lambda, s
 }
 
 void System::linearise_forces(const Instant& at, std::span<const double> lambda, Linearisation& out) const {
-  friction_slope(at, lambda, out.friction);
+  multiplier_force_slope(at, lambda, out.friction);
   const auto linearise = [&](const ForceBatch& batch, const Multipliers& read, const ForcePlaces& own) {
     batch.linearise(at, read, own.stiffness.in(std::span(out.stiffness)),
                     own.damping.in(std::span(out.damping)));
@@ -147,7 +149,7 @@ std::string System::force_of(std::size_t entry, Places ForcePlaces::*array) cons
 std::string System::force_of_stiffness(std::size_t entry) const {
   return force_of(entry, &ForcePlaces::stiffness);
 }
-std::string System::force_of_friction(std::size_t entry) const {
+std::string System::name_of_multiplier_force(std::size_t entry) const {
   return force_of(entry, &ForcePlaces::slope);
 }
 

@@ -17,7 +17,7 @@ Auditor::Auditor(std::shared_ptr<const System> stated, const Options& options, C
       history_{{options.t_start, stated_}} {
   if (!options.ledger) return;
   ledger_.emplace(stated_);
-  ledger_->begin(options.t_start);
+  ledger_->start(options.t_start);
 }
 
 /// What is beyond the tolerance may be within the accuracy that the run has reached, and says so.
@@ -32,10 +32,10 @@ void Auditor::judge(const Check& check) {
   throw StepFailure{all_.message(*stated_), all_.violation().time};
 }
 
-void Auditor::begin(const FlatSample& sample) {
-  balance_.begin(sample.time, sample.energy, sample.v);
+void Auditor::start_interval(const FlatSample& sample) {
+  balance_.start_interval(sample.time, sample.energy, sample.v);
   kinetic_ = stated_->kinetic_energy(sample.v);
-  begun_ = true;
+  started_ = true;
 }
 
 void Auditor::instant(const FlatSample& sample) {
@@ -43,7 +43,7 @@ void Auditor::instant(const FlatSample& sample) {
 }
 
 void Auditor::sample(const FlatSample& sample) {
-  if (!begun_) begin(sample);
+  if (!started_) start_interval(sample);
   const auto work = ledger_ ? ledger_->take() : LedgerKeeper::Work{};
   judge([&](const Claim& claim, Findings& found) {
     samples_.check(sample, claim, found);
@@ -69,18 +69,18 @@ void Auditor::jump(const Jump& jump, const FlatSample& after) {
   instant(after);
   if (ledger_) {
     const double given = stated_->kinetic_energy(jump.v_before);
-    ledger_->jump(jump, impacts_.w(), begun_ ? given - kinetic_ : 0.0);
+    ledger_->jump(jump, impacts_.w(), started_ ? given - kinetic_ : 0.0);
   }
-  begin(after);
+  start_interval(after);
 }
 
-void Auditor::restate(double time, std::shared_ptr<const System> stated) {
+void Auditor::replace_system(double time, std::shared_ptr<const System> stated) {
   stated_ = std::move(stated);
   history_.push_back({time, stated_});
   samples_ = SampleLaws(stated_, claims_(false));
   impacts_ = ImpactLaws(stated_, claims_(false));
   balance_ = WorkBalance(stated_, claims_(false));
-  if (ledger_) ledger_->restate(stated_);
+  if (ledger_) ledger_->replace_system(stated_);
 }
 
 std::shared_ptr<const DenseOutput> Auditor::watch(std::shared_ptr<const DenseOutput> run) const {

@@ -36,7 +36,7 @@ class Auditor {
   /// A change of a constraint or of the scene, from the last sample to `after`.
   void jump(const Jump& jump, const FlatSample& after);
   /// The scene states this from a time on.
-  void restate(double time, std::shared_ptr<const System> stated);
+  void replace_system(double time, std::shared_ptr<const System> stated);
 
   /// A sample is handed out.
   void keep(const FlatSample& sample) {
@@ -52,7 +52,7 @@ class Auditor {
  private:
   template <class Check>
   void judge(const Check& check);
-  void begin(const FlatSample& sample);
+  void start_interval(const FlatSample& sample);
 
   std::shared_ptr<const System> stated_;
   Audited audited_;
@@ -63,7 +63,7 @@ class Auditor {
   std::optional<LedgerKeeper> ledger_;
   double kinetic_ = 0.0;  // of the last sample
   double shown_ = 0.0;
-  bool begun_ = false;
+  bool started_ = false;
   std::vector<Stated> history_;
   Findings all_;
 };

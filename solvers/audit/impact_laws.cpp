@@ -8,8 +8,8 @@ namespace dalembert {
 
 namespace {
 
-bool happened(const Jump& jump, Happened what) {
-  return std::ranges::find(jump.what, what, &Occurrence::what) != jump.what.end();
+bool happened(const Jump& jump, EventKind what) {
+  return std::ranges::find(jump.what, what, &EventRecord::kind) != jump.what.end();
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ void ImpactLaws::check(const Jump& jump, const Claim& claim, Findings& findings)
     const auto own = stated_->layout()->constraints[number].own_rows().in(jump.impulses);
     return std::ranges::any_of(own, [](double P) { return P != 0.0; });
   };
-  std::vector<std::size_t> idle = stated_->conditional();
+  std::vector<std::size_t> idle = stated_->conditional_constraints();
   std::erase_if(idle, carries);
   const System acting = stated_->without(idle);
   acting.evaluate({jump.time, jump.q, jump.v_before}, before_);
@@ -52,7 +52,7 @@ void ImpactLaws::check_momentum(const System& acting, const Jump& jump, Findings
       terms[columns[k]] += std::abs(after_.w[k] * jump.impulses[r]);
     }
   }
-  const bool stuck = happened(jump, Happened::sticks);
+  const bool stuck = happened(jump, EventKind::sticks);
   for (std::size_t i = 0; i < masses.size(); ++i) {
     const double taken = limits_.rest_at_contacts(i) + (stuck ? limits_.rest_in_space(i) : 0.0);
     findings.weigh(Law::impulse, {Subject::Kind::coordinate, i}, jump.time, std::abs(residual[i]),
@@ -65,16 +65,16 @@ void ImpactLaws::check_momentum(const System& acting, const Jump& jump, Findings
 void ImpactLaws::check_carriers(const Jump& jump, Findings& findings) const {
   const double most = largest(jump.impulses), limit = limits_.relative(most);
   if (most == 0.0) return;
-  const bool accumulated = happened(jump, Happened::rested);
+  const bool accumulated = happened(jump, EventKind::rested);
   for (const Layout::Constraint& c : stated_->layout()->constraints) {
     for (const std::size_t r : c.own_rows()) {
       double wrong = 0.0;
-      if (!stated_->in_force(r) || stated_->law(r).compliant() || c.holds.roughness)
+      if (!stated_->in_force(r) || stated_->law(r).compliant() || c.condition.roughness)
         wrong = std::abs(jump.impulses[r]);
-      else if (c.holds.contact && !accumulated)
-        wrong = std::max(-c.holds.contact->sign() * jump.impulses[r], 0.0);
+      else if (c.condition.contact && !accumulated)
+        wrong = std::max(-c.condition.contact->sign() * jump.impulses[r], 0.0);
       findings.weigh(Law::impulse_carrier, {Subject::Kind::row, r}, jump.time, wrong, limit);
-      if (!c.holds.contact || std::abs(jump.impulses[r]) <= limit) continue;
+      if (!c.condition.contact || std::abs(jump.impulses[r]) <= limit) continue;
       double near = limits_.by_time(jump.time, before_.psi[r]);
       for (const std::size_t k : stated_->row(r))
         near += std::abs(after_.w[k]) *
@@ -96,14 +96,15 @@ double ImpactLaws::speed_limit(const System& acting, std::size_t r, const Jump& 
 }
 
 void ImpactLaws::check_restitution(const Jump& jump, Findings& findings) const {
-  if (happened(jump, Happened::rested) || happened(jump, Happened::event)) return;  // several impacts in one
+  if (happened(jump, EventKind::rested) || happened(jump, EventKind::event))
+    return;  // several impacts in one
   const double none = limits_.relative(largest(jump.impulses));
   for (const Layout::Constraint& c : stated_->layout()->constraints) {
     const std::size_t r = c.own_rows().front();
-    if (!c.holds.contact || std::abs(jump.impulses[r]) <= none) continue;
-    const double s = c.holds.contact->sign();
+    if (!c.condition.contact || std::abs(jump.impulses[r]) <= none) continue;
+    const double s = c.condition.contact->sign();
     findings.weigh(Law::restitution, {Subject::Kind::row, r}, jump.time,
-                   std::abs(s * after_.psi[r] + c.holds.contact->restitution * s * before_.psi[r]),
+                   std::abs(s * after_.psi[r] + c.condition.contact->restitution * s * before_.psi[r]),
                    2.0 * speed_limit(*stated_, r, jump));
   }
 }

@@ -15,7 +15,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 struct Jump {
   double time;
   std::span<const double> q, v_before, v_after, impulses;
-  std::span<const Occurrence> what;
+  std::span<const EventRecord> what;
 };
 
 /// The laws of a Jump, see Law. With U the rates of one-sided constraints in their allowed direction and

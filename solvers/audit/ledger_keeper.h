@@ -20,11 +20,11 @@ class LedgerKeeper {
  public:
   explicit LedgerKeeper(std::shared_ptr<const System> stated);
   /// Goes on with another system of the same constraints and forces.
-  void restate(std::shared_ptr<const System> stated) { stated_ = std::move(stated); }
+  void replace_system(std::shared_ptr<const System> stated) { stated_ = std::move(stated); }
 
   /// The instants of a part of a step, read from the run.
   using Read = std::function<FlatSample(double)>;
-  void begin(double time) { time_ = time; }
+  void start(double time) { time_ = time; }
   void integrate_to(double time, const Read& read);
   /// The impulses of a jump, by W there, and the kinetic energy that a user's change has put in before.
   void jump(const Jump& jump, std::span<const double> w, double put_in);

@@ -18,13 +18,13 @@ SampleLaws::SampleLaws(std::shared_ptr<const System> stated, const Claim& claim)
       u_(stated_->rows()),
       residual_(stated_->coordinates()),
       terms_(stated_->coordinates()),
-      conditional_(stated_->conditional()),
+      conditional_(stated_->conditional_constraints()),
       acts_(conditional_.size(), 1),
       acted_(conditional_.size(), 1),
       always_(stated_->rows(), 1) {
   const auto& all = stated_->layout()->constraints;
   for (const std::size_t number : conditional_) {
-    const Condition& holds = all[number].holds;
+    const Condition& holds = all[number].condition;
     const std::size_t first = all[number].own_rows().front();
     for (const std::size_t r : all[number].own_rows()) always_[r] = 0;
     if (holds.contact) contacts_.push_back({first, holds.contact->sign()});
@@ -42,8 +42,8 @@ void SampleLaws::find_what_acts(const FlatSample& sample) {
   for (std::size_t k = 0; k < conditional_.size(); ++k) {
     const Layout::Constraint& its = stated_->layout()->constraints[conditional_[k]];
     acts_[k] = std::ranges::any_of(its.own_rows().in(sample.lambda), exerts);
-    if (!its.holds.roughness) continue;
-    const auto pressing = static_cast<std::size_t>(its.holds.roughness->pressed_by);
+    if (!its.condition.roughness) continue;
+    const auto pressing = static_cast<std::size_t>(its.condition.roughness->pressed_by);
     if (std::ranges::any_of(stated_->layout()->constraints[pressing].own_rows().in(sample.lambda), exerts))
       acts_[k] = 1;
   }
@@ -58,7 +58,7 @@ void SampleLaws::find_what_acts(const FlatSample& sample) {
 void SampleLaws::evaluate(const FlatSample& sample) {
   const Instant at{sample.time, sample.q, sample.v};
   acting_->evaluate_with_bias(at, e_, gamma_);
-  if (acting_->frictional()) add_forces_that_read(sample);
+  if (acting_->has_multiplier_forces()) add_forces_that_read(sample);
   const bool redundant = std::ranges::find(sample.unique, char{0}) != sample.unique.end();
   dependence_ = redundant ? Limits::dependent : 0.0;
   largest_force_ = 0.0;
@@ -79,9 +79,9 @@ double SampleLaws::inertia(std::size_t i) const {
 /// Where a multiplier that is read is not determined, nor are the forces that read it.
 void SampleLaws::add_forces_that_read(const FlatSample& sample) {
   const auto unknown = [&](const System::Entry& entry) { return std::isnan(sample.lambda[entry.column]); };
-  if (std::ranges::none_of(acting_->friction_pattern(), unknown))
-    return acting_->add_friction({sample.time, sample.q, sample.v}, sample.lambda, e_.force);
-  for (const System::Entry& entry : acting_->friction_pattern())
+  if (std::ranges::none_of(acting_->multiplier_force_pattern(), unknown))
+    return acting_->add_multiplier_forces({sample.time, sample.q, sample.v}, sample.lambda, e_.force);
+  for (const System::Entry& entry : acting_->multiplier_force_pattern())
     e_.force[entry.row] = std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -10,14 +10,14 @@
 namespace dalembert {
 
 bool conservative(const System& system) {
-  return !system.rheonomic() && !system.frictional() && system.damping_pattern().empty();
+  return !system.rheonomic() && !system.has_multiplier_forces() && system.damping_pattern().empty();
 }
 
 WorkBalance::WorkBalance(std::shared_ptr<const System> stated, const Claim& claim)
     : stated_(std::move(stated)),
       limits_(*stated_, claim),
       watches_(conservative(*stated_)),
-      falls_(!stated_->rough().empty()),
+      falls_(!stated_->frictional_constraints().empty()),
       v_(stated_->coordinates()),
       at_rest_(stated_->coordinates()),
       g_(stated_->rows()),
@@ -27,7 +27,7 @@ WorkBalance::WorkBalance(std::shared_ptr<const System> stated, const Claim& clai
     if (stated_->law(r).compliant()) elastic_ += 0.5 / stated_->law(r).compliance;
 }
 
-void WorkBalance::begin(double time, double energy, std::span<const double> v) {
+void WorkBalance::start_interval(double time, double energy, std::span<const double> v) {
   time_ = checked_ = time;
   energy_ = energy;
   kinetic_ = stated_->kinetic_energy(v);
@@ -88,7 +88,7 @@ bool WorkBalance::constraints_drive(const FlatSample& sample) {
 /// What forces do where a position errs by the accuracy or a rounding, or is moved by what rounding leaves of
 /// forces in balance: by r |F|/m for the time since the last sample.
 double WorkBalance::work_of_errors(const FlatSample& sample) {
-  stated_->without(stated_->conditional()).evaluate({sample.time, sample.q, sample.v}, e_);
+  stated_->without(stated_->conditional_constraints()).evaluate({sample.time, sample.q, sample.v}, e_);
   const double time = sample.time - checked_;
   double sum = 0.0;
   for (std::size_t i = 0; i < e_.force.size(); ++i) {

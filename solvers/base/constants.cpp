@@ -3,9 +3,9 @@
 namespace dalembert {
 
 namespace {
-constexpr Constants judged;
+constexpr Constants defaults;
 }
 
-const Constants& constants = judged;
+const Constants& constants = defaults;
 
 }  // namespace dalembert

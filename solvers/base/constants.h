@@ -21,7 +21,7 @@ struct Constants {
   /// times the tolerance went wrong: over a jump of a driven point, or onto another branch.
   double most_correction = 10.0;
   /// Units of round-off that such a correction, or the estimate of a step's error, may consist of, see
-  /// State::round_off_of_projection and weigh.
+  /// ErkStepper::RungeKutta::round_off_of_projection and weigh.
   double roundings_of_step = 10.0;
   /// The last stage, at t + h, and the end of a step have the same derivatives up to errors. Where these move
   /// the scene in a step by more than this fraction of its size, the step has jumped over something: a centre
@@ -34,7 +34,7 @@ struct Constants {
   /// estimate cannot be trusted there: it weights the first derivative by a thousandth of what the step does.
   double far_too_short = 0.15, unreliable = 100.0;
   /// The usual step shrinks by at most this factor per step.
-  double forgetting = 0.9;
+  double step_memory = 0.9;
 
   // Close to singular positions.
   /// Constraints at a smaller angle than this may be approaching a singular position.
@@ -43,20 +43,21 @@ struct Constants {
   double changing_angle = 0.1;
   /// At a singular position the angle falls to this fraction of its value at the last node, or less: far
   /// below what passing at a distance would show, far above the accuracy of the extrapolated state.
-  double vanished = 1e-3;
+  double singular_ratio = 1e-3;
   /// If it does not fall to this part it does not vanish. In between, the extrapolation is too coarse to
   /// know.
-  double clearly_there = 0.2;
+  double regular_ratio = 0.2;
   /// Steps that are short compared with the time left look for it from here on.
-  double in_sight = 0.1;
-  /// The distances of nodes from the singular position grow by at least this factor, see Passage.
-  double spread = 1.7;
+  double search_sine = 0.1;
+  /// The distances of nodes from the singular position grow by at least this factor, see
+  /// SingularExtrapolation.
+  double node_ratio = 1.7;
   /// The implicit stepper, which amplifies the errors of its states by 1/sin, hands over to the explicit one
   /// where the constraints are this close to dependent and would become so within this many of its steps.
   double handover_sine = 0.1, handover_steps = 20.0;
   /// Where constraints are redundant, the active rows are chosen anew when the sine of the smallest angle
   /// among them has fallen to this fraction of its earlier value, if other rows are better by as much.
-  double worn = 0.25;
+  double row_exchange_ratio = 0.25;
 
   // IdaStepper.
   /// The error allowed per step, as a fraction of the tolerance asked for: errors of hundreds of steps add
@@ -67,7 +68,8 @@ struct Constants {
   /// The first step, over the root of the tolerance. IDA's own is so short that round-off in the multipliers
   /// makes Newton's iteration fail.
   double first_implicit_step = 0.1;
-  /// Units of round-off below which Newton's iteration is not asked to converge; see State::weigh.
+  /// Units of round-off below which Newton's iteration is not asked to converge; see
+  /// IdaStepper::Solver::weigh.
   double roundings_of_newton = 5.0;
   /// Newton's corrections allowed in all, and with the gradients of the predictor: later ones evaluate them
   /// afresh. IDA's 4 in all are too few where links are short compared with the motion in a step.
@@ -100,7 +102,7 @@ struct Constants {
   /// Above this sine round-off does not matter: it is amplified by at most its inverse fourth power.
   double well_conditioned = 0.1;
   /// Round-off of forces, in roundings, that must not count against the tolerance where only the path gives a
-  /// length, see Scales::further.
+  /// length, see Scales::extended_by.
   double roundings_of_path = 100.0;
   /// An instant after rest, of the scene's time: long enough for a direction, too short for a change.
   double instant_after = 1e-12;

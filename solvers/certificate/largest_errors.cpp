@@ -69,10 +69,10 @@ class Search {
   void compare_time(std::size_t k) {
     const double error = runs_.error_of_time(k);
     if (!std::isfinite(error)) return;
-    const Occurrence& one = runs_.run()->events[k];
+    const EventRecord& one = runs_.run()->events[k];
     take(found.event_time, error, one.time,
-         one.what == Happened::event ? "event " + std::to_string(one.event)
-                                     : layout_.constraints[one.event].label());
+         one.kind == EventKind::event ? "event " + std::to_string(one.source)
+                                      : layout_.constraints[one.source].label());
   }
 
   LargestErrors found;

@@ -18,7 +18,7 @@ using Element = std::pair<bool, std::size_t>;
 
 std::map<Element, std::pair<Numbers, Numbers>> by_element(const Record& run, const Record& reference) {
   std::map<Element, std::pair<Numbers, Numbers>> all;
-  const auto of = [](const Occurrence& one) { return Element(one.what == Happened::event, one.event); };
+  const auto of = [](const EventRecord& one) { return Element(one.kind == EventKind::event, one.source); };
   for (std::size_t k = 0; k < run.events.size(); ++k) all[of(run.events[k])].first.push_back(k);
   for (std::size_t k = 0; k < reference.events.size(); ++k) all[of(reference.events[k])].second.push_back(k);
   return all;
@@ -32,11 +32,11 @@ MatchingEvents::MatchingEvents(const Record& run, const Record& reference)
   require_order();
 }
 
-std::string MatchingEvents::label(const Occurrence& one) const {
+std::string MatchingEvents::label(const EventRecord& one) const {
   std::ostringstream out;
   out.precision(8);
-  const auto kind = one.what == Happened::event ? "Event" : run_->layout->constraints[one.event].kind;
-  out << kind << " \"" << run_->name_of(one) << "\" " << name(one.what) << " at t = " << one.time;
+  const auto kind = one.kind == EventKind::event ? "Event" : run_->layout->constraints[one.source].kind;
+  out << kind << " \"" << run_->name_of(one) << "\" " << name(one.kind) << " at t = " << one.time;
   return out.str();
 }
 
@@ -51,16 +51,16 @@ void MatchingEvents::match_one(const Numbers& own, const Numbers& others) {
   auto j = others.begin();
   bool skipped = false;
   while (i != own.end() && j != others.end()) {
-    const Occurrence &a = run_->events[*i], &b = reference_->events[*j];
-    if (a.what == b.what) {
+    const EventRecord &a = run_->events[*i], &b = reference_->events[*j];
+    if (a.kind == b.kind) {
       ends_earlier_[*i] = std::exchange(skipped, false) ? 1 : 0;
       counterparts_[*i++] = *j++;
       continue;
     }
     skipped = true;
-    if (a.what == Happened::rested && b.what == Happened::struck) {
+    if (a.kind == EventKind::rested && b.kind == EventKind::struck) {
       ++j;
-    } else if (a.what == Happened::struck && b.what == Happened::rested) {
+    } else if (a.kind == EventKind::struck && b.kind == EventKind::rested) {
       ++i;
     } else {
       break;
@@ -78,7 +78,8 @@ void MatchingEvents::require_order() {
   for (std::size_t k = 0; k < counterparts_.size(); ++k) {
     if (!counterparts_[k]) continue;
     const std::size_t other = *counterparts_[k];
-    const Occurrence &a = run_->events[k], &before = reference_->events[last], &b = reference_->events[other];
+    const EventRecord &a = run_->events[k], &before = reference_->events[last],
+                      &b = reference_->events[other];
     const double same = 64.0 * epsilon * std::max(std::abs(b.time), run_->statistics.time);
     if (any && other < last && before.time - b.time > same)
       part(std::min(a.time, b.time), label(b) + " in the more accurate run, before " + label(before) +

@@ -31,7 +31,7 @@ class MatchingEvents {
   void match_one(const std::vector<std::size_t>& own, const std::vector<std::size_t>& others);
   void require_order();
   void part(double time, const std::string& difference);
-  [[nodiscard]] std::string label(const Occurrence& one) const;
+  [[nodiscard]] std::string label(const EventRecord& one) const;
 
   const Record *run_, *reference_;
   std::vector<std::optional<std::size_t>> counterparts_;

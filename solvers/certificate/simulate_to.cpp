@@ -117,7 +117,7 @@ class Approach {
     const bool stopped = !run_of_first_.stopped.empty();
     if (!stopped && better_.stopped.empty()) return;
     if (is_stiff(stopped ? run_of_first_ : better_)) options_.stepper = Stepper::ida;
-    begin_pair();
+    start_pair();
     if (run_of_first_.failure) std::rethrow_exception(run_of_first_.failure);
   }
 
@@ -138,7 +138,7 @@ class Approach {
   }
 
   /// A run at the tolerance of the options, and one to certify it.
-  void begin_pair() {
+  void start_pair() {
     const bool long_runs = run_of_first_.record->statistics.run_time > worth_a_thread;
     take(pair(options_, certifying(options_), long_runs));
   }
@@ -221,7 +221,7 @@ class Approach {
       run_of_first_ = std::exchange(better_, count(finish(run_, certifying(options_))));
     } else {
       options_.tolerance = next;
-      begin_pair();
+      start_pair();
     }
     return true;
   }

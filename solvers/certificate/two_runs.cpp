@@ -116,7 +116,7 @@ void TwoRuns::set_roundings() {
   const double of_sum = 10.0 + static_cast<double>(run_->coordinates + run_->rows);
   for (Certainty& its : samples_) its.roundings = of_sum;
   for (std::size_t k = 0; k < events_.size(); ++k) {
-    const bool asked_for = run_->events[k].what == Happened::event;
+    const bool asked_for = run_->events[k].kind == EventKind::event;
     events_[k].roundings = asked_for ? of_sum : std::max(of_sum, constants.roundings_at_contacts);
   }
 }
@@ -126,7 +126,7 @@ void TwoRuns::set_roundings() {
 void TwoRuns::find_jumps() {
   std::vector<std::pair<double, double>> jumps;
   for (std::size_t k = 0; k < events_.size(); ++k) {
-    if (!is_known(events_[k]) || run_->events[k].what == Happened::event) continue;
+    if (!is_known(events_[k]) || run_->events[k].kind == EventKind::event) continue;
     const std::size_t j = events_[k].counterpart;
     const double a = run_->events[k].time, b = reference_->events[j].time,
                  more = most_of_better * std::abs(a - b);

@@ -25,7 +25,7 @@ std::vector<double> gradients(const System& stated, const std::vector<std::size_
   const auto of = [&](const System& system, std::size_t number, const System::Evaluation& e) {
     return gradient_length(system, e.w, lengths, stated.layout()->constraints[number].own_rows().front());
   };
-  const System together = stated.without(stated.rough());
+  const System together = stated.without(stated.frictional_constraints());
   auto e = together.evaluation();
   std::vector<double> all;
   try {
@@ -35,7 +35,7 @@ std::vector<double> gradients(const System& stated, const std::vector<std::size_
   } catch (const EquationFault&) {  // of one of them
   }
   for (const std::size_t number : contacts) {
-    std::vector<std::size_t> others = stated.conditional();
+    std::vector<std::size_t> others = stated.conditional_constraints();
     std::erase(others, number);
     const System alone = stated.without(others);
     try {
@@ -80,8 +80,8 @@ Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, d
     const Layout::Constraint& its = stated_->layout()->constraints[number];
     contacts_.push_back({.number = number,
                          .row = its.own_rows().front(),
-                         .sign = its.holds.contact->sign(),
-                         .restitution = its.holds.contact->restitution,
+                         .sign = its.condition.contact->sign(),
+                         .restitution = its.condition.contact->restitution,
                          .island = all.of_row(*stated_, its.own_rows().front())});
   }
   find_gaps(start);
@@ -89,7 +89,7 @@ Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, d
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     Contact& c = contacts_[i];
     const double gap = c.sign * g_[c.row], gradient = lengths_of_gradients[i];
-    const double allowed = rounding_of_the_user * scales_.length * gradient;
+    const double allowed = start_tolerance * scales_.length * gradient;
     if (std::abs(gap) <= allowed) touching_at_start_.push_back(i);
     c.gradient = gradient;
     if (gap >= -allowed) continue;
@@ -98,7 +98,7 @@ Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, d
          << -gap / gradient << " on the forbidden side at t = " << start.t << "; correct the positions";
     throw InconsistentStart(what.str());
   }
-  settle();
+  rebuild_system();
 }
 
 bool Contacts::among(const std::vector<std::size_t>& all, std::size_t contact) {
@@ -147,12 +147,13 @@ double Contacts::rate(std::size_t contact, const FlatSample& now) const {
 
 /// Contacts that have fallen, that have no gap, that have just reached 0, and those that will within the
 /// resolution of times; and those closed in the islands of these.
-std::vector<std::size_t> Contacts::touching(const Instant& at, const std::vector<std::size_t>& fallen) const {
+std::vector<std::size_t> Contacts::touching(const Instant& at,
+                                            const std::vector<std::size_t>& triggered) const {
   const double same_time = tolerance_ * scales_.time;
   std::vector<char> touches(contacts_.size(), 0);
   std::set<std::size_t> islands;
   find_gaps(at);
-  for (const std::size_t i : fallen) touches[i] = 1;
+  for (const std::size_t i : triggered) touches[i] = 1;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const Contact& c = contacts_[i];
     const double gap = c.sign * g_[c.row], rate = c.sign * psi_[c.row];
@@ -209,9 +210,9 @@ bool Contacts::open_pulling(const FlatSample& now, std::vector<Happening>& what)
     open(c, now.time, 0.0);
     found = true;
     if (c.closed_at < now.time)
-      what.push_back({static_cast<std::size_t>(&c - contacts_.data()), Happened::opened, now.time});
+      what.push_back({static_cast<std::size_t>(&c - contacts_.data()), EventKind::opened, now.time});
   }
-  settle();
+  rebuild_system();
   return found;
 }
 
@@ -281,21 +282,21 @@ void Contacts::close(Contact& contact, double t) {
 }
 
 void Contacts::open(std::size_t number, double t, double rate, Change& change) {
-  if (contacts_[number].closed) change.what.push_back({number, Happened::opened, t});
+  if (contacts_[number].closed) change.what.push_back({number, EventKind::opened, t});
   open(contacts_[number], t, rate);
 }
 
-std::vector<std::size_t> Contacts::restate(std::shared_ptr<const System> stated, const Instant& at) {
+std::vector<std::size_t> Contacts::replace_system(std::shared_ptr<const System> stated, const Instant& at) {
   stated_ = std::move(stated);
   system_.reset();
   find_gaps(at);
   std::vector<std::size_t> touching;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     Contact& c = contacts_[i];
-    const dalembert::Contact& law = *stated_->layout()->constraints[c.number].holds.contact;
+    const dalembert::Contact& law = *stated_->layout()->constraints[c.number].condition.contact;
     c.restitution = law.restitution;
     c.sign = law.sign();
-    const double gap = c.sign * g_[c.row], allowed = rounding_of_the_user * scales_.length * c.gradient;
+    const double gap = c.sign * g_[c.row], allowed = start_tolerance * scales_.length * c.gradient;
     if (gap < -allowed) refuse({i}, at.t, "a change of the scene leaves it violated");
     c.moved = c.closed && std::abs(psi_[c.row]) > tolerance_ * scales_.speed() * c.gradient;
     if (gap <= allowed) {
@@ -305,7 +306,7 @@ std::vector<std::size_t> Contacts::restate(std::shared_ptr<const System> stated,
       c.opened_at.reset();
     }
   }
-  settle();
+  rebuild_system();
   everywhere_ = true;
   return touching;
 }
@@ -317,7 +318,7 @@ std::vector<std::size_t> Contacts::open() const {
   return open;
 }
 
-void Contacts::settle() {
+void Contacts::rebuild_system() {
   gaps_at_ = forces_at_ = never;  // the state watched goes on from another one
   std::vector<std::size_t> closed;
   for (std::size_t i = 0; i < contacts_.size(); ++i)

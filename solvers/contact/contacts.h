@@ -53,7 +53,8 @@ class Contacts {
   }
   /// Goes on with these equations, whose parameters may differ, at a state that may too: returns what touches
   /// there. Throws StepFailure where a gap is negative, naming the contact.
-  [[nodiscard]] std::vector<std::size_t> restate(std::shared_ptr<const System> stated, const Instant& at);
+  [[nodiscard]] std::vector<std::size_t> replace_system(std::shared_ptr<const System> stated,
+                                                        const Instant& at);
   void adopt(const Scales& scales) { scales_ = scales; }
 
   /// A switching function for each, which falls through 0 where the contact opens or closes: the force of a
@@ -73,7 +74,7 @@ class Contacts {
 
   struct Happening {
     std::size_t contact;
-    Happened what;
+    EventKind kind;
     double time;
   };
   /// The velocities before and after an instant, impulses, one per row of the system, and what happened.
@@ -82,7 +83,7 @@ class Contacts {
     std::vector<Happening> what{};
   };
   /// The impacts of that state, and which contacts are closed after them. What touches and separates is open.
-  Change begin(const Instant& start);
+  Change resolve_start(const Instant& start);
   /// A contact driven back to its surface by an impact on others, of those that touched and were separating:
   /// its impact is next, at the same time.
   [[nodiscard]] std::optional<std::size_t> approaching() const;
@@ -90,7 +91,7 @@ class Contacts {
   /// StepFailure where no velocities or accelerations satisfy (1), (2), naming the contacts; EquationFault.
   /// With friction accelerations are not those of (2): what touches and does not separate is closed then,
   /// what has fallen open, and `open_pulling` finds what else opens.
-  Change pass(const Instant& at, const std::vector<std::size_t>& fallen);
+  Change resolve(const Instant& at, const std::vector<std::size_t>& triggered);
   /// Where the forces of closed contacts are not determined those of least norm may pull, where dry friction
   /// reads them or all cannot push, though others, those of (2), push: opens the contacts without a force by
   /// these; with friction the one that pulls most.
@@ -120,7 +121,7 @@ class Contacts {
   void find_gaps(const Instant& at) const;
   [[nodiscard]] double largest_force(const FlatSample& now) const;
   [[nodiscard]] std::vector<std::size_t> touching(const Instant& at,
-                                                  const std::vector<std::size_t>& fallen) const;
+                                                  const std::vector<std::size_t>& triggered) const;
   [[nodiscard]] std::vector<std::size_t> numbers(const std::vector<std::size_t>& chosen) const;
   [[nodiscard]] std::shared_ptr<const System> only(const std::vector<std::size_t>& in_force) const;
   void solve_impact(const Coupling& coupling, const std::vector<std::size_t>& touching, double t,
@@ -138,24 +139,24 @@ class Contacts {
   [[nodiscard]] double still(const Contact& contact) const;
   void update_rates(const Instant& at);
   [[nodiscard]] bool add_slow(const Instant& at, std::vector<std::size_t>& touched) const;
-  void close(const std::vector<std::size_t>& touched, const std::vector<std::size_t>& fallen,
+  void close(const std::vector<std::size_t>& touched, const std::vector<std::size_t>& triggered,
              const std::vector<Eigen::Index>& resting, double t, Change& change);
   void accelerate(Coupling& coupling, const std::vector<std::size_t>& touched,
-                  const std::vector<std::size_t>& fallen, const std::vector<Eigen::Index>& resting,
+                  const std::vector<std::size_t>& triggered, const std::vector<Eigen::Index>& resting,
                   const Instant& at, Change& change);
   /// What (2) gives for a contact, and the unit and the largest without forces of what it is coupled with.
   struct Pair {
     double acceleration = 0.0, force = 0.0, unit = 0.0, largest = 0.0;
   };
-  void settle(std::size_t contact, const std::vector<std::size_t>& fallen, const Pair& pair, double t,
-              Change& change);
+  void open_or_close(std::size_t contact, const std::vector<std::size_t>& triggered, const Pair& pair,
+                     double t, Change& change);
   [[noreturn]] void refuse(const std::vector<std::size_t>& contacts, double t, const char* what) const;
   [[nodiscard]] double error_of_gap(const Contact& contact) const;
   [[nodiscard]] double no_gap(const Contact& contact, std::span<const double> q) const;
   void open(Contact& contact, double t, double rate) const;
   static void close(Contact& contact, double t);
   void open(std::size_t number, double t, double rate, Change& change);
-  void settle();
+  void rebuild_system();
 
   std::shared_ptr<const System> stated_, system_;
   Scales scales_;
@@ -163,7 +164,7 @@ class Contacts {
   bool friction_;
   std::vector<Contact> contacts_;
   std::vector<std::size_t> touching_at_start_;
-  bool begun_ = false;
+  bool started_ = false;
   bool everywhere_ = true;  // all islands are to be looked at: at the start, and after a change of the scene
   std::vector<std::size_t> in_force_;    // of them
   mutable std::vector<double> g_, psi_;  // of all rows,

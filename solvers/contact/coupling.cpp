@@ -48,7 +48,7 @@ Coupling::Coupling(std::shared_ptr<const System> of, const std::vector<std::size
   for (const std::size_t c : contacts) {
     const Layout::Constraint& its = system_->layout()->constraints[c];
     rows_.push_back(its.own_rows().front());
-    signs_.push_back(its.holds.contact->sign());
+    signs_.push_back(its.condition.contact->sign());
   }
   group();
   respond();
@@ -113,7 +113,7 @@ VectorXd Coupling::rates(std::span<const double> v) const {
 }
 
 /// W^T lambda of the compliant rows.
-void Coupling::add_springs(std::span<double> force) const {
+void Coupling::add_compliant_forces(std::span<double> force) const {
   if (!system_->compliant()) return;
   for (std::size_t r = 0; r < system_->holonomic_rows(); ++r) {
     if (!system_->law(r).compliant()) continue;
@@ -127,7 +127,7 @@ VectorXd Coupling::accelerations_without(const Instant& at) {
   std::vector<double> gamma(system_->rows()), x(matrix_.size());
   system_->bias(at, gamma);
   std::ranges::copy(e_.force, x.begin());
-  add_springs(x);
+  add_compliant_forces(x);
   for (std::size_t r = 0; r < others_.size(); ++r) x[e_.force.size() + r] = -gamma[others_.rows[r]];
   matrix_.solve(x);
   VectorXd accelerations(static_cast<Index>(rows_.size()));

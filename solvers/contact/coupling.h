@@ -48,7 +48,7 @@ class Coupling {
  private:
   void group();
   void respond();
-  void add_springs(std::span<double> force) const;
+  void add_compliant_forces(std::span<double> force) const;
   [[nodiscard]] double along(std::size_t contact, std::span<const double> x) const;
 
   std::shared_ptr<const System> system_;

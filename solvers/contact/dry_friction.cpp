@@ -32,7 +32,7 @@ DryFriction::DryFriction(std::shared_ptr<const System> stated, const Scales& sca
       tolerance_(tolerance),
       g_(stated_->rows()),
       u_(stated_->rows()) {
-  for (const std::size_t number : stated_->rough()) {
+  for (const std::size_t number : stated_->frictional_constraints()) {
     const Layout::Constraint& its = stated_->layout()->constraints[number];
     all_.push_back({.number = number, .row = its.own_rows().front(), .rows = its.own_rows().size()});
     read_law(all_.back());
@@ -42,15 +42,15 @@ DryFriction::DryFriction(std::shared_ptr<const System> stated, const Scales& sca
 
 void DryFriction::read_law(Rough& rough) const {
   const auto& constraints = stated_->layout()->constraints;
-  const Roughness& law = *constraints[rough.number].holds.roughness;
+  const Roughness& law = *constraints[rough.number].condition.roughness;
   const Layout::Constraint& pressing = constraints[static_cast<std::size_t>(law.pressed_by)];
   const std::size_t row = std::exchange(rough.pressing_row, pressing.own_rows().front());
   rough.pressed_by = static_cast<std::size_t>(law.pressed_by);
   rough.mu = law.mu;
   rough.mu_static = law.mu_static;
-  rough.one_sided = pressing.holds.contact.has_value();
+  rough.one_sided = pressing.condition.contact.has_value();
   if (rough.one_sided) {
-    rough.sign = pressing.holds.contact->sign();
+    rough.sign = pressing.condition.contact->sign();
   } else if (row != rough.pressing_row) {
     rough.sign = 1.0;
   }
@@ -64,7 +64,7 @@ void DryFriction::adopt(const Scales& scales) {
   }
 }
 
-void DryFriction::restate(std::shared_ptr<const System> stated) {
+void DryFriction::replace_system(std::shared_ptr<const System> stated) {
   stated_ = std::move(stated);
   for (Rough& r : all_) read_law(r);
 }

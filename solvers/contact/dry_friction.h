@@ -31,7 +31,7 @@ class DryFriction {
   /// What happened to a constraint, by its number in the layout.
   struct Happening {
     std::size_t constraint;
-    Happened what;
+    EventKind kind;
     double time;
   };
 
@@ -39,7 +39,7 @@ class DryFriction {
   DryFriction(std::shared_ptr<const System> stated, const Scales& scales, double tolerance);
 
   /// Goes on with these equations, whose parameters may differ.
-  void restate(std::shared_ptr<const System> stated);
+  void replace_system(std::shared_ptr<const System> stated);
   void adopt(const Scales& scales);
 
   [[nodiscard]] bool any() const { return !all_.empty(); }
@@ -49,11 +49,11 @@ class DryFriction {
   [[nodiscard]] std::string label(std::size_t function) const;
   [[nodiscard]] double switching(std::size_t function, const FlatSample& now) const;
 
-  /// Decides what sticks, at a state where constraints with these numbers are open. `fallen` is the switching
-  /// function that has fallen. Throws StepFailure, naming the constraints, where nothing satisfies (1);
-  /// EquationFault.
-  std::vector<Happening> settle(const std::vector<std::size_t>& open, const Instant& at,
-                                std::optional<std::size_t> fallen = {});
+  /// Decides what sticks, at a state where constraints with these numbers are open. `triggered` is the
+  /// switching function that has fallen. Throws StepFailure, naming the constraints, where nothing satisfies
+  /// (1); EquationFault.
+  std::vector<Happening> find_modes(const std::vector<std::size_t>& open, const Instant& at,
+                                    std::optional<std::size_t> triggered = {});
   /// Throws StepFailure if an impact has loaded any of them.
   void require_no_impulse(std::span<const double> impulses, const Instant& at) const;
   /// The system with what sticks and what slides.
@@ -90,7 +90,7 @@ class DryFriction {
     std::vector<char> unique{};
   };
   /// The switching function that has fallen, if one has.
-  using Fallen = std::optional<std::size_t>;
+  using Triggered = std::optional<std::size_t>;
 
   void read_law(Rough& rough) const;
   [[nodiscard]] double round_off_of(const Rough& rough, std::span<const double> a,
@@ -99,7 +99,7 @@ class DryFriction {
   void find_slip(const Instant& at) const;
   [[nodiscard]] Eigen::VectorXd slip(const Rough& rough) const;
   [[nodiscard]] double no_slip() const;
-  [[nodiscard]] bool own(const Rough& rough, Fallen fallen, Watched watched) const;
+  [[nodiscard]] bool own(const Rough& rough, Triggered triggered, Watched watched) const;
   [[nodiscard]] static bool shared(const Rough& rough, std::span<const char> unique);
 
   [[nodiscard]] std::shared_ptr<const System> with_modes(const std::vector<std::size_t>& open) const;
@@ -111,10 +111,10 @@ class DryFriction {
   [[nodiscard]] SlipCoupling released(const std::vector<std::size_t>& which,
                                       const std::vector<std::size_t>& open, const Instant& at) const;
 
-  void begin(Rough& rough, const std::vector<std::size_t>& open, double t, Fallen fallen);
+  void set_mode_by_slip(Rough& rough, const std::vector<std::size_t>& open, double t, Triggered triggered);
   [[nodiscard]] double same_time(double t) const;
   void rest_with_others(const std::vector<std::size_t>& open, const Instant& at);
-  void begin_slow(Rough& rough, const std::vector<std::size_t>& open, const Instant& at);
+  void find_way_to_rest(Rough& rough, const std::vector<std::size_t>& open, const Instant& at);
   void start_sliding(Rough& rough, const Eigen::VectorXd& direction) const;
   void decide(const std::vector<std::size_t>& open, const Instant& at);
   [[nodiscard]] bool sticks(const Instant& at, const Motion& motion) const;
@@ -126,7 +126,7 @@ class DryFriction {
   [[nodiscard]] bool turn(Rough& rough, const Instant& at, const Motion& motion) const;
   [[nodiscard]] std::vector<double> modes() const;
   [[nodiscard]] std::vector<Happening> changes(const std::vector<Rough>& before, double t,
-                                               Fallen fallen) const;
+                                               Triggered triggered) const;
   [[noreturn]] void refuse(double t) const;
 
   std::shared_ptr<const System> stated_, system_;

@@ -215,7 +215,7 @@ std::shared_ptr<const Layout> read_by(const Layout& handles, const Layout& own) 
 
 FlatDiagram find_branches(const std::function<PosedSystem(double)>& pose, const BranchOptions& options) {
   validate(options);
-  return Follower(BalanceCorrector(pose, options), options).follow();
+  return Follower(EquilibriumCorrector(pose, options), options).follow();
 }
 
 FlatDiagram find_steady_branches(const std::function<PosedSystem(double)>& pose,

@@ -76,13 +76,13 @@ struct PosedSystem {
   std::shared_ptr<const System> system;  ///< its equations
   std::vector<double> guess;             ///< of its coordinates
   double time;                           ///< of the state [time]
-  Turning<3> turning;                    ///< zero: rest
+  UniformRotation<3> turning;            ///< zero: rest
   std::vector<double> speeds{};          ///< of a steady motion: the guess of its velocities
   std::vector<FlatKept> keep{};          ///< and what is to stay as stated
 };
 struct FlatEquilibrium {
   std::shared_ptr<const Record> state;
-  Turning<3> turning;
+  UniformRotation<3> turning;
   std::shared_ptr<const UniformMotion> motion{};
 
   template <int D>

@@ -24,7 +24,7 @@ void require_suited(const PosedSystem& posed) {
                        " is nonholonomic and turns; follow the motion by follow_steady");
 }
 
-Eigen::VectorXd balance_of(const Balance::State& s, const ActiveRows& rows) {
+Eigen::VectorXd balance_of(const EquilibriumSolver::State& s, const ActiveRows& rows) {
   Eigen::VectorXd r(static_cast<Index>(s.force.size() + rows.size()));
   Index next = 0;
   for (const double force : s.force) r[next++] = force;
@@ -35,13 +35,14 @@ Eigen::VectorXd balance_of(const Balance::State& s, const ActiveRows& rows) {
 
 }  // namespace
 
-BalanceCorrector::BalanceCorrector(std::function<PosedSystem(double)> pose_at, const BranchOptions& options)
+EquilibriumCorrector::EquilibriumCorrector(std::function<PosedSystem(double)> pose_at,
+                                           const BranchOptions& options)
     : Corrector(std::move(pose_at), options) {
   const PosedSystem posed = pose(options.from);
   require_suited(posed);
   const auto found = find_equilibrium(*posed.system, posed.guess, posed.time, posed.turning);
   const FlatSample flat = found->sample(0);
-  const Scales scales = Balance(Problem(posed.system), flat.q, posed.time, posed.turning).scales();
+  const Scales scales = EquilibriumSolver(Problem(posed.system), flat.q, posed.time, posed.turning).scales();
   for (std::size_t i = 0; i < flat.q.size(); ++i) scale_.push_back(scales.unit(i));
   begin_.x = Eigen::VectorXd::Zero(static_cast<Index>(scale_.size()) + 1);
   for (std::size_t i = 0; i < scale_.size(); ++i) begin_.x[static_cast<Index>(i)] = flat.q[i] / scale_[i];
@@ -50,19 +51,19 @@ BalanceCorrector::BalanceCorrector(std::function<PosedSystem(double)> pose_at, c
   finish(here, state(here, begin_), begin_);
 }
 
-BalanceCorrector::Here BalanceCorrector::at(double p, const Eigen::VectorXd& x) const {
+EquilibriumCorrector::Here EquilibriumCorrector::at(double p, const Eigen::VectorXd& x) const {
   PosedSystem posed = pose(p);
   std::vector<double> q;
   for (std::size_t i = 0; i < scale_.size(); ++i) q.push_back(x[static_cast<Index>(i)] * scale_[i]);
   if (posed.system->coordinates() != q.size() || posed.system->rows() != begin_.lambda.size())
     throw InvalidScene("Branches of scene \"" + posed.system->layout()->scene +
                        "\": for another value of the parameter it has other points or constraints");
-  Balance balance(Problem(posed.system), q, posed.time, posed.turning);
+  EquilibriumSolver balance(Problem(posed.system), q, posed.time, posed.turning);
   return {std::move(posed.system), std::move(balance), posed.turning};
 }
 
-Balance::State BalanceCorrector::state(const Here& here, const Node& node) const {
-  Balance::State s = here.balance.start();
+EquilibriumSolver::State EquilibriumCorrector::state(const Here& here, const Node& node) const {
+  EquilibriumSolver::State s = here.balance.start();
   for (std::size_t i = 0; i < scale_.size(); ++i) s.q[i] = node.x[static_cast<Index>(i)] * scale_[i];
   s.lambda = node.lambda;
   here.balance.evaluate(s);
@@ -70,7 +71,7 @@ Balance::State BalanceCorrector::state(const Here& here, const Node& node) const
 }
 
 /// Stores what is read of a point, with multipliers of least norm where rows are dependent.
-void BalanceCorrector::finish(const Here& here, const Balance::State& s, Node& node) const {
+void EquilibriumCorrector::finish(const Here& here, const EquilibriumSolver::State& s, Node& node) const {
   node.state = {here.balance.record(s), here.turning, nullptr};
   const FlatSample flat = node.state.state->sample(0);
   node.lambda.assign(flat.lambda.begin(), flat.lambda.end());
@@ -86,12 +87,12 @@ Eigen::VectorXd Corrector::direction(const Eigen::VectorXd& shape) const {
   return x.normalized();
 }
 
-std::optional<Node> BalanceCorrector::finished(Node guess) const {
+std::optional<Node> EquilibriumCorrector::finished(Node guess) const {
   constexpr double close = 1e-8;  // what `normal_modes` asks of an equilibrium
   try {
     const Here here = at(parameter(guess), guess.x);
-    const Balance::State s = state(here, guess);
-    if (!(s.size <= close)) return std::nullopt;
+    const EquilibriumSolver::State s = state(here, guess);
+    if (!(s.relative_residual <= close)) return std::nullopt;
     finish(here, s, guess);
     return guess;
   } catch (const Error&) {
@@ -99,13 +100,13 @@ std::optional<Node> BalanceCorrector::finished(Node guess) const {
   }
 }
 
-Eigen::VectorXd BalanceCorrector::residual(double p, const Node& node, const ActiveRows& rows) const {
+Eigen::VectorXd EquilibriumCorrector::residual(double p, const Node& node, const ActiveRows& rows) const {
   const Here here = at(p, node.x);
   return balance_of(state(here, node), rows);
 }
 
 /// By central differences, one-sided at the ends of the range.
-Eigen::VectorXd BalanceCorrector::slope_by_parameter(const Node& node, const ActiveRows& rows) const {
+Eigen::VectorXd EquilibriumCorrector::slope_by_parameter(const Node& node, const ActiveRows& rows) const {
   const double h = constants.parameter_difference;
   const double fraction = node.x[node.x.size() - 1], before = std::max(fraction - h, 0.0),
                after = std::min(fraction + h, 1.0);
@@ -114,9 +115,9 @@ Eigen::VectorXd BalanceCorrector::slope_by_parameter(const Node& node, const Act
 
 /// With l on the left of K's eigenvalue and m such that (l, m) is on the left of all equations: m balances
 /// what l does across the tangent space.
-std::optional<double> BalanceCorrector::range_defect(const Node& node, Index shape) const {
+std::optional<double> EquilibriumCorrector::range_defect(const Node& node, Index shape) const {
   const Here here = at(parameter(node), node.x);
-  const Balance::State s = state(here, node);
+  const EquilibriumSolver::State s = state(here, node);
   const Eigen::MatrixXd A = jacobian(here, s, node, here.balance.rows_at(s));
   const auto n = static_cast<Index>(s.q.size()), m = A.rows() - n;
   Eigen::VectorXd left(n + m);
@@ -139,8 +140,8 @@ std::optional<double> BalanceCorrector::range_defect(const Node& node, Index sha
 }
 
 /// [R_q R_lambda R_p] in the units of x, one row per coordinate and one per constraint row.
-Eigen::MatrixXd BalanceCorrector::jacobian(const Here& here, const Balance::State& s, const Node& node,
-                                           const ActiveRows& rows) const {
+Eigen::MatrixXd EquilibriumCorrector::jacobian(const Here& here, const EquilibriumSolver::State& s,
+                                               const Node& node, const ActiveRows& rows) const {
   const LinearTerms terms =
       linear_terms(*here.system, here.balance.frame(), {here.balance.time(), s.q, s.v}, s.lambda);
   const auto n = static_cast<Index>(s.q.size()), m = static_cast<Index>(rows.size());
@@ -161,12 +162,12 @@ Eigen::MatrixXd BalanceCorrector::jacobian(const Here& here, const Balance::Stat
   return A;
 }
 
-std::optional<Eigen::VectorXd> BalanceCorrector::tangent(const Node& node) const {
+std::optional<Eigen::VectorXd> EquilibriumCorrector::tangent(const Node& node) const {
   // Difference quotients err by h times the slope, and by round-off of the forces over h: both with a margin
   // of some tens. Directions in which the matrix is round-off are free motions.
   constexpr double exact = 1e-4, rounding = 1e-8, no_stiffness = 1e-12;
   const Here here = at(parameter(node), node.x);
-  const Balance::State s = state(here, node);
+  const EquilibriumSolver::State s = state(here, node);
   const Eigen::MatrixXd A = jacobian(here, s, node, here.balance.rows_at(s));
   const Index last = A.cols() - 1;
   const Eigen::VectorXd slope = A.col(last);
@@ -178,8 +179,8 @@ std::optional<Eigen::VectorXd> BalanceCorrector::tangent(const Node& node) const
   return along.normalized();
 }
 
-void BalanceCorrector::newton_step(const Here& here, const Balance::State& s, double off,
-                                   const Eigen::VectorXd& normal, Node& node) const {
+void EquilibriumCorrector::newton_step(const Here& here, const EquilibriumSolver::State& s, double off,
+                                       const Eigen::VectorXd& normal, Node& node) const {
   const ActiveRows rows = here.balance.rows_at(s);
   const auto n = static_cast<Index>(s.q.size()), m = static_cast<Index>(rows.size());
   Eigen::MatrixXd A(n + m + 1, n + m + 1);
@@ -196,7 +197,7 @@ void BalanceCorrector::newton_step(const Here& here, const Balance::State& s, do
   for (Index a = 0; a < m; ++a) node.lambda[rows.rows[static_cast<std::size_t>(a)]] += step[n + a];
 }
 
-std::optional<Node> BalanceCorrector::correct(const Node& guess, const Eigen::VectorXd& normal) const {
+std::optional<Node> EquilibriumCorrector::correct(const Node& guess, const Eigen::VectorXd& normal) const {
   constexpr int most_corrections = 20;
   constexpr double rounding = epsilon;
   Node node = guess;
@@ -204,9 +205,9 @@ std::optional<Node> BalanceCorrector::correct(const Node& guess, const Eigen::Ve
   try {
     for (int i = 0; i < most_corrections; ++i) {
       const Here here = at(parameter(node), node.x);
-      const Balance::State s = state(here, node);
-      const double off = normal.dot(node.x - guess.x), size = s.size + std::abs(off);
-      if (size <= rounding || (size <= balanced && size >= 0.5 * before)) {
+      const EquilibriumSolver::State s = state(here, node);
+      const double off = normal.dot(node.x - guess.x), size = s.relative_residual + std::abs(off);
+      if (size <= rounding || (size <= residual_tolerance && size >= 0.5 * before)) {
         finish(here, s, node);
         return node;
       }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <dalembert/solvers/base/hidden.h>
-#include <dalembert/solvers/equilibrium/balance.h>
 #include <dalembert/solvers/equilibrium/branches.h>
+#include <dalembert/solvers/equilibrium/equilibrium_solver.h>
 #include <dalembert/solvers/equilibrium/tangent_modes.h>
 
 #include <Eigen/Core>
@@ -74,13 +74,13 @@ class Corrector {
 ///
 ///   R1(q, lambda, p) = 0,   R2(q, lambda, p) = 0,   normal . (x - x_guess) = 0.                       (1)
 ///
-/// Derivatives by q and lambda are those of Balance, by p difference quotients; corrections are of least
-/// norm, so that free motions do no harm. No scene is built outside of the range of p: there are no points
-/// there.
-class BalanceCorrector final : public Corrector {
+/// Derivatives by q and lambda are those of EquilibriumSolver, by p difference quotients; corrections are of
+/// least norm, so that free motions do no harm. No scene is built outside of the range of p: there are no
+/// points there.
+class EquilibriumCorrector final : public Corrector {
  public:
   /// Begins at the equilibrium of options.from. Throws like `find_equilibrium`.
-  BalanceCorrector(std::function<PosedSystem(double)> pose, const BranchOptions& options);
+  EquilibriumCorrector(std::function<PosedSystem(double)> pose, const BranchOptions& options);
 
   [[nodiscard]] std::optional<Node> correct(const Node& guess, const Eigen::VectorXd& normal) const override;
   [[nodiscard]] std::optional<Node> finished(Node guess) const override;
@@ -90,18 +90,18 @@ class BalanceCorrector final : public Corrector {
  private:
   struct Here {
     std::shared_ptr<const System> system;
-    Balance balance;
-    Turning<3> turning;
+    EquilibriumSolver balance;
+    UniformRotation<3> turning;
   };
   [[nodiscard]] Here at(double p, const Eigen::VectorXd& x) const;
-  [[nodiscard]] Balance::State state(const Here& here, const Node& node) const;
+  [[nodiscard]] EquilibriumSolver::State state(const Here& here, const Node& node) const;
   [[nodiscard]] Eigen::VectorXd residual(double p, const Node& node, const ActiveRows& rows) const;
   [[nodiscard]] Eigen::VectorXd slope_by_parameter(const Node& node, const ActiveRows& rows) const;
-  [[nodiscard]] Eigen::MatrixXd jacobian(const Here& here, const Balance::State& s, const Node& node,
-                                         const ActiveRows& rows) const;
-  void newton_step(const Here& here, const Balance::State& s, double off, const Eigen::VectorXd& normal,
-                   Node& node) const;
-  void finish(const Here& here, const Balance::State& s, Node& node) const;
+  [[nodiscard]] Eigen::MatrixXd jacobian(const Here& here, const EquilibriumSolver::State& s,
+                                         const Node& node, const ActiveRows& rows) const;
+  void newton_step(const Here& here, const EquilibriumSolver::State& s, double off,
+                   const Eigen::VectorXd& normal, Node& node) const;
+  void finish(const Here& here, const EquilibriumSolver::State& s, Node& node) const;
 };
 
 }  // namespace dalembert

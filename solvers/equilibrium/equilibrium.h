@@ -3,7 +3,7 @@
 #include <dalembert/core/errors.h>
 #include <dalembert/core/results/trajectory.h>
 #include <dalembert/core/scene/scene.h>
-#include <dalembert/solvers/equilibrium/turning.h>
+#include <dalembert/solvers/equilibrium/uniform_rotation.h>
 
 #include <memory>
 #include <span>
@@ -23,8 +23,8 @@ class NoEquilibrium : public Error {
 /// Which equilibrium to look for.
 template <int D>
 struct EquilibriumOptions {
-  Turning<D> turning{};  ///< zero: rest; else everything rotates with it, drives too
-  double time = 0.0;     ///< of the state, for scenes that rotate or depend on time [time]
+  UniformRotation<D> turning{};  ///< zero: rest; else everything rotates with it, drives too
+  double time = 0.0;             ///< of the state, for scenes that rotate or depend on time [time]
 };
 
 /// A state in which a scene remains, at rest or rotating uniformly, and the forces of constraint there.
@@ -32,7 +32,8 @@ template <int D>
 class Equilibrium {
  public:
   /// One of rest or of a uniform rotation.
-  Equilibrium(std::shared_ptr<const Record> state, const Turning<3>& turning, std::string left_out = {})
+  Equilibrium(std::shared_ptr<const Record> state, const UniformRotation<3>& turning,
+              std::string left_out = {})
       : state_(std::move(state)), turning_(turning), left_out_(std::move(left_out)) {}
   /// One along a symmetry, see `steady`.
   Equilibrium(std::shared_ptr<const Record> state, std::shared_ptr<const UniformMotion> motion)
@@ -45,7 +46,7 @@ class Equilibrium {
   /// The motion of a steady one; null if its turning is all of it.
   [[nodiscard]] const UniformMotion* motion() const { return motion_.get(); }
   /// Its rotation, of one that `equilibrium` found; in the plane about an axis along z.
-  [[nodiscard]] const Turning<3>& turning() const { return turning_; }
+  [[nodiscard]] const UniformRotation<3>& turning() const { return turning_; }
   /// Whose velocities, stated in the scene, are not those of this equilibrium, in a sentence; empty if none.
   [[nodiscard]] const std::string& left_out() const { return left_out_; }
   /// Names and places of its numbers.
@@ -54,7 +55,7 @@ class Equilibrium {
 
  private:
   std::shared_ptr<const Record> state_;
-  Turning<3> turning_{};
+  UniformRotation<3> turning_{};
   std::string left_out_{};
   std::shared_ptr<const UniformMotion> motion_{};
 };
@@ -66,7 +67,7 @@ namespace detail {
 
 /// The same for a System, out of which `equilibrium` makes an Equilibrium; one sample.
 [[nodiscard]] std::shared_ptr<const Record> find_equilibrium(System system, std::span<const double> guess,
-                                                             double time, const Turning<3>& turning);
+                                                             double time, const UniformRotation<3>& turning);
 
 /// The equilibrium near the initial positions of a scene, stable or not (see normal_modes):
 ///

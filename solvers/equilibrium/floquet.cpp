@@ -39,8 +39,8 @@ void require_suited(const System& system, double period) {
   if (const auto label = system.conditional_label(); !label.empty())
     throw InvalidScene("Floquet multipliers: " + label +
                        " does not always hold; they are defined for scenes without such constraints");
-  if (system.frictional())
-    throw InvalidScene("Floquet multipliers: " + system.force_of_friction(0) +
+  if (system.has_multiplier_forces())
+    throw InvalidScene("Floquet multipliers: " + system.name_of_multiplier_force(0) +
                        " reads a multiplier; they are defined for scenes without such forces");
 }
 

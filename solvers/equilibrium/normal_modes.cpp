@@ -2,7 +2,7 @@
 
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
-#include <dalembert/solvers/equilibrium/balance.h>
+#include <dalembert/solvers/equilibrium/equilibrium_solver.h>
 #include <dalembert/solvers/equilibrium/lowest_modes.h>
 #include <dalembert/solvers/equilibrium/reversible.h>
 #include <dalembert/solvers/equilibrium/singular_position.h>
@@ -24,9 +24,9 @@ namespace dalembert {
 namespace {
 
 /// Whether there is another equilibrium a finite distance along the mode, not back where it began.
-bool moves_freely(const Balance& balance, const FlatSample& at, const Mode& mode) {
+bool moves_freely(const EquilibriumSolver& balance, const FlatSample& at, const Mode& mode) {
   const double way = constants.free_displacement * balance.scales().length;
-  Balance::State s = balance.start();
+  EquilibriumSolver::State s = balance.start();
   std::ranges::copy(at.q, s.q.begin());
   std::vector<double> direction;
   for (std::size_t i = 0; i < at.q.size(); ++i) {
@@ -54,7 +54,8 @@ bool is_symmetric(const UniformMotion& motion, const Mode& mode) {
 }
 
 /// u^T K u of a state, with the springs of compliant constraints.
-double stiffness_along(const Balance& balance, const Balance::State& s, std::span<const double> u) {
+double stiffness_along(const EquilibriumSolver& balance, const EquilibriumSolver::State& s,
+                       std::span<const double> u) {
   const LinearTerms terms =
       linear_terms(balance.system(), balance.frame(), {balance.time(), s.q, s.v}, s.lambda);
   double sum = 0.0;
@@ -72,17 +73,17 @@ double stiffness_along(const Balance& balance, const Balance::State& s, std::spa
 
 /// Whether the stiffness along a mode exceeds its change within the square root of round-off, to which a
 /// position is known where the stiffness vanishes: for a bead at the turning point of a cubic it does not.
-bool is_known(const Balance& balance, const FlatSample& at, const Mode& mode) {
+bool is_known(const EquilibriumSolver& balance, const FlatSample& at, const Mode& mode) {
   const double way = std::sqrt(epsilon) * balance.scales().length;
   std::vector<double> u;
   for (const auto& x : mode.shape) u.push_back(x.real());
-  Balance::State here = balance.start();
+  EquilibriumSolver::State here = balance.start();
   std::ranges::copy(at.q, here.q.begin());
   here.lambda.assign(at.lambda.begin(), at.lambda.end());
   balance.evaluate(here);
   const double own = stiffness_along(balance, here, u);
   for (const double side : {way, -way}) {
-    Balance::State s = here;
+    EquilibriumSolver::State s = here;
     for (std::size_t i = 0; i < u.size(); ++i) s.q[i] += side * u[i];
     if (balance.project(s) && std::abs(stiffness_along(balance, s, u) - own) > std::abs(own)) return false;
   }
@@ -98,7 +99,7 @@ bool are_of_stiffness(const System& system, const LinearTerms& terms) {
 }
 
 /// What is not known counts as 0, to be decided by a finite motion.
-void drop_unknown(const Balance& balance, const FlatSample& at, Modes& found) {
+void drop_unknown(const EquilibriumSolver& balance, const FlatSample& at, Modes& found) {
   bool dropped = false;
   for (Mode& mode : found.modes) {
     if (mode.eigenvalue == 0.0 || is_known(balance, at, mode)) continue;
@@ -126,7 +127,7 @@ std::size_t part_of(const Mode& mode, const Islands& parts) {
 }
 
 /// Classifies the eigenvalues 0, with what they mean for the verdict.
-void name_zeros(const Balance& balance, const FlatSample& at, const UniformMotion* motion,
+void name_zeros(const EquilibriumSolver& balance, const FlatSample& at, const UniformMotion* motion,
                 const std::function<bool(const Mode&)>& stable_otherwise, Modes& found) {
   bool all_decided = true;
   for (Mode& mode : found.modes) {
@@ -153,7 +154,7 @@ void require_told_from_zero(const System& system, const Modes& found) {
       "and does not act on them, or make it rigid");
 }
 
-void require_smooth(const System& system, const Balance& balance, const FlatSample& at) {
+void require_smooth(const System& system, const EquilibriumSolver& balance, const FlatSample& at) {
   if (system.coordinates() > most_dense ||
       !is_singular_position(system, balance.frame(), {at.time, at.q, at.v}))
     return;
@@ -179,15 +180,16 @@ void require_same_size(const System& system, const FlatSample& at) {
 
 /// Throws unless forces balance there, constraints are satisfied and nothing moves against them, as when it
 /// was found.
-void require_equilibrium(const Balance& balance, const FlatSample& at) {
+void require_equilibrium(const EquilibriumSolver& balance, const FlatSample& at) {
   constexpr double close = 1e-8;  // a hundred times what `equilibrium` asks for, and what a start may violate
   const System& system = balance.system();
-  Balance::State s = balance.start();
+  EquilibriumSolver::State s = balance.start();
   s.q.assign(at.q.begin(), at.q.end());
   s.lambda.assign(at.lambda.begin(), at.lambda.end());
   balance.evaluate(s);
   std::ostringstream why;
-  if (!balance.settled(s, close)) why << "forces or constraints have a relative residual of " << s.size;
+  if (!balance.is_equilibrium(s, close))
+    why << "forces or constraints have a relative residual of " << s.relative_residual;
   auto e = system.evaluation();
   system.evaluate({balance.time(), at.q, at.v}, e);
   const Scales& scales = balance.scales();
@@ -230,7 +232,7 @@ std::vector<double> allowed(const System& system, const LinearTerms& terms, doub
 }
 
 /// Throws unless the equations of small motions are the same later, in the rotating frame.
-void require_constant(const System& system, const Balance& balance, const FlatSample& at,
+void require_constant(const System& system, const EquilibriumSolver& balance, const FlatSample& at,
                       const LinearTerms& terms) {
   const RotatingFrame& frame = balance.frame();
   std::vector<double> u(at.q.size());
@@ -246,7 +248,7 @@ void require_constant(const System& system, const Balance& balance, const FlatSa
     frame.carry_positions(later, q);
   }
   frame.velocity(q, v);
-  Balance::State then = balance.start();
+  EquilibriumSolver::State then = balance.start();
   then.q = q;
   then.lambda.assign(at.lambda.begin(), at.lambda.end());
   balance.evaluate(then);
@@ -298,12 +300,12 @@ const char* name(Stability stability) {
   return "undecided";
 }
 
-Modes find_modes(const System& system, const FlatSample& at, const Turning<3>& turning,
+Modes find_modes(const System& system, const FlatSample& at, const UniformRotation<3>& turning,
                  const ModesOptions& options, const UniformMotion* motion) {
   require_same_size(system, at);
   const Problem problem(system);
-  const Balance balance = motion ? Balance(problem, at.q, at.time, RotatingFrame(*motion))
-                                 : Balance(problem, at.q, at.time, turning);
+  const EquilibriumSolver balance = motion ? EquilibriumSolver(problem, at.q, at.time, RotatingFrame(*motion))
+                                           : EquilibriumSolver(problem, at.q, at.time, turning);
   require_equilibrium(balance, at);
   require_smooth(system, balance, at);
   const LinearTerms terms = linear_terms(system, balance.frame(), {at.time, at.q, at.v}, at.lambda);

@@ -42,7 +42,7 @@ namespace detail {
 
 /// For a System and what `find_equilibrium` gave, out of which `normal_modes` makes NormalModes.
 /// About a steady motion `motion` stands for the turning.
-[[nodiscard]] Modes find_modes(const System& system, const FlatSample& at, const Turning<3>& turning,
+[[nodiscard]] Modes find_modes(const System& system, const FlatSample& at, const UniformRotation<3>& turning,
                                const ModesOptions& options, const UniformMotion* motion = nullptr);
 
 /// The small motions about an equilibrium, read by handle. Functions of a mode k throw InvalidArgument if

@@ -16,7 +16,7 @@ using Flat = Eigen::Map<Eigen::VectorXd>;
 
 Index size_of(std::span<const double> x) { return static_cast<Index>(x.size()); }
 
-UniformMotion motion_of(const Layout& layout, const Turning<3>& turning) {
+UniformMotion motion_of(const Layout& layout, const UniformRotation<3>& turning) {
   const auto n = static_cast<Index>(layout.particles.size() * static_cast<std::size_t>(layout.dimension) +
                                     layout.rotors.size());
   UniformMotion motion{{n, n}, Eigen::VectorXd::Zero(n), turning.rate.norm()};
@@ -41,7 +41,7 @@ UniformMotion motion_of(const Layout& layout, const Turning<3>& turning) {
 
 }  // namespace
 
-RotatingFrame::RotatingFrame(const Layout& layout, const Turning<3>& turning)
+RotatingFrame::RotatingFrame(const Layout& layout, const UniformRotation<3>& turning)
     : RotatingFrame(motion_of(layout, turning)) {}
 
 RotatingFrame::RotatingFrame(const UniformMotion& motion)

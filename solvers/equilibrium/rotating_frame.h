@@ -2,8 +2,8 @@
 
 #include <dalembert/core/results/layout.h>
 #include <dalembert/solvers/base/hidden.h>
-#include <dalembert/solvers/equilibrium/turning.h>
 #include <dalembert/solvers/equilibrium/uniform_motion.h>
+#include <dalembert/solvers/equilibrium/uniform_rotation.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -23,7 +23,7 @@ class RotatingFrame {
  public:
   using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-  RotatingFrame(const Layout& layout, const Turning<3>& turning);
+  RotatingFrame(const Layout& layout, const UniformRotation<3>& turning);
   explicit RotatingFrame(const UniformMotion& motion);
 
   [[nodiscard]] bool rotates() const { return rate_ > 0.0; }

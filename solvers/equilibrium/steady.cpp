@@ -1,7 +1,7 @@
 #include "dalembert/solvers/equilibrium/steady.h"
 
 #include <dalembert/solvers/base/numbers.h>
-#include <dalembert/solvers/equilibrium/balance.h>
+#include <dalembert/solvers/equilibrium/equilibrium_solver.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
 #include <dalembert/solvers/equilibrium/steady_equations.h>
 #include <dalembert/solvers/equilibrium/symmetries.h>
@@ -187,11 +187,11 @@ class SteadySearch {
     motion->symmetric = X;
     const MatrixXd fixing = same * dense::kernel(X, rank_threshold);
     for (Index k = 0; k < fixing.cols(); ++k) motion->fixing.push_back(symmetries_.motion(fixing.col(k)).A);
-    const Balance balance(problem_, flat(q_), time_, RotatingFrame(*motion));
-    Balance::State s = balance.start();
+    const EquilibriumSolver balance(problem_, flat(q_), time_, RotatingFrame(*motion));
+    EquilibriumSolver::State s = balance.start();
     std::ranges::copy(flat(lambda_), s.lambda.begin());
     balance.evaluate(s);
-    if (!balance.settled(s, 1e-8)) refuse("forces do not balance");
+    if (!balance.is_equilibrium(s, 1e-8)) refuse("forces do not balance");
     balance.require_lasting(s);
     const VectorXd v = vector_of(s.v);
     for (std::size_t k = 0; k < kept_.size(); ++k) {
@@ -223,7 +223,8 @@ void require_suited_to_steady(const System& system) {
                        "stated, or ask for floquet multipliers");
   if (const auto label = system.conditional_label(); !label.empty())
     throw InvalidScene(scene + label + " does not always hold; state it as a bilateral one");
-  if (system.frictional()) throw InvalidScene(scene + system.force_of_friction(0) + " reads a multiplier");
+  if (system.has_multiplier_forces())
+    throw InvalidScene(scene + system.name_of_multiplier_force(0) + " reads a multiplier");
 }
 
 }  // namespace

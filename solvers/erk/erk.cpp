@@ -3,8 +3,8 @@
 #include <dalembert/core/autodiff/branches.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
-#include <dalembert/solvers/erk/erk_state.h>
 #include <dalembert/solvers/erk/hermite.h>
+#include <dalembert/solvers/erk/runge_kutta.h>
 #include <dalembert/solvers/run/diagnosis.h>
 
 #include <algorithm>
@@ -13,19 +13,20 @@
 namespace dalembert {
 
 ErkStepper::ErkStepper(const Problem& problem, const Start& start, const Options& options)
-    : state_(std::make_unique<State>(problem, start, options)) {}
+    : method_(std::make_unique<RungeKutta>(problem, start, options)) {}
 ErkStepper::~ErkStepper() = default;
 
-/// Round-off in the projection of a state, over the tolerance: velocities by eps/sin^2, see Passage.
-double ErkStepper::State::round_off_of_projection() const {
+/// Round-off in the projection of a state, over the tolerance: velocities by eps/sin^2, see
+/// SingularExtrapolation.
+double ErkStepper::RungeKutta::round_off_of_projection() const {
   const double eps = epsilon;
   return constants.roundings_of_step * eps / (std::max(next.sine * next.sine, eps) * tolerance);
 }
 
 /// Tries a step into `next`. Returns its error over the tolerance; infinite, with the reason in
 /// `fault`, if the equations cannot be evaluated on its way.
-double ErkStepper::State::attempt(double step) {
-  scales.way = covered;
+double ErkStepper::RungeKutta::attempt(double step) {
+  scales.extent = covered;
   passed_switch = passed_several = false;
   (void)Branches::strayed();
   strayed = false;
@@ -35,7 +36,7 @@ double ErkStepper::State::attempt(double step) {
     run_stages(to, step, stages - 1, projected);
     finish(to, step, next);
     const bool not_smooth =
-        steps == 0 ? begins_at_switch : step < constants.far_too_short * usual && over == 0.0;
+        steps == 0 ? starts_at_switch : step < constants.far_too_short * usual && over == 0.0;
     const double e = error(step, not_smooth ? constants.unreliable : 1.0);
     if (e > 1.0) return e;
     if (steps % check_interval == 0) watch_stability(step);
@@ -50,9 +51,11 @@ double ErkStepper::State::attempt(double step) {
   }
 }
 
-double ErkStepper::State::shortest() const { return 16.0 * epsilon * std::max(std::abs(to.t), scales.time); }
+double ErkStepper::RungeKutta::shortest() const {
+  return 16.0 * epsilon * std::max(std::abs(to.t), scales.time);
+}
 
-double ErkStepper::State::shorter(double step, double factor) const {
+double ErkStepper::RungeKutta::shorter(double step, double factor) const {
   if (step * factor > shortest()) return step * factor;
   throw StepFailure{fault.empty() ? "the error tolerance cannot be met with any step that double precision "
                                     "resolves: " +
@@ -63,7 +66,7 @@ double ErkStepper::State::shorter(double step, double factor) const {
 
 /// What makes steps fail however short they are, as far as the last node tells; round-off does not, see
 /// weigh.
-std::string ErkStepper::State::cause() const {
+std::string ErkStepper::RungeKutta::cause() const {
   const Instant at{to.t, to.q, std::span(to.va).first(n)};
   if (const auto singular = singular_here(*system, scales, at); !singular.empty()) return singular;
   if (to.sine < constants.close_to_dependent) return "the constraints are nearly linearly dependent here";
@@ -74,54 +77,55 @@ std::string ErkStepper::State::cause() const {
 
 /// The step to try: h, or an equal part of the way to the next output time or the end of the run, unless
 /// several outputs fall into one step.
-double ErkStepper::State::step_towards(double wanted) const {
+double ErkStepper::RungeKutta::step_towards(double wanted) const {
   const double gap = std::min(wanted, t_end) - to.t, next_h = std::min(h, longest);
   if (gap < 0.5 * next_h && wanted < t_end) return std::min(next_h, t_end - to.t);
   return std::min(longest, gap / std::max(1.0, std::ceil(gap / next_h - constants.stretch)));
 }
 
 /// Accepts `next` as the end of a step.
-void ErkStepper::State::accept(bool by_extrapolation) {
-  usual = std::max(next.t - to.t, constants.forgetting * usual);
-  covered = scales.way;
+void ErkStepper::RungeKutta::accept(bool by_extrapolation) {
+  usual = std::max(next.t - to.t, constants.step_memory * usual);
+  covered = scales.extent;
   reached = estimated;
   ++steps;
   has_middle = false;
-  crossed = by_extrapolation;
+  extrapolated = by_extrapolation;
   std::swap(from, to);
   std::swap(to, next);
-  passage.remember(to.t, halves(to.va).second);
+  extrapolation.remember(to.t, halves(to.va).second);
 }
 
 void ErkStepper::step(double wanted) {
-  State& s = *state_;
+  RungeKutta& s = *method_;
   s.fault.clear();
   if (s.end) throw StepFailure(*s.end);
   if (s.steps == 0 && s.switches.any()) s.find_first_side();
-  if (s.cross() == State::Crossing::passed) {
+  if (s.pass_singular_position() == RungeKutta::Passing::passed) {
     s.accept(true);
 
     return s.find_side_anew();
   }
-  if (s.steps % State::check_interval == 0) s.measure_noise();
+  if (s.steps % RungeKutta::check_interval == 0) s.measure_noise();
   double growth = constants.most_growth;
   for (;;) {
     const double step = s.over > 0.0 ? std::min(s.over, s.t_end - s.to.t) : s.step_towards(wanted);
     const double error = s.attempt(step);
-    if (s.may_have_crossed()) {  // look again from closer
+    if (s.may_have_passed()) {  // look again from closer
       s.h = s.shorter(step, 0.5 * (s.least.t - s.to.t) / step);
       s.over = 0.0;
       growth = 1.0;
       continue;
     }
-    const double factor = std::isfinite(error) ? constants.safety * std::pow(error, -1.0 / State::pair.order)
-                                               : constants.after_fault;
+    const double factor = std::isfinite(error)
+                              ? constants.safety * std::pow(error, -1.0 / RungeKutta::pair.order)
+                              : constants.after_fault;
     if (error <= 1.0) {
       s.h = step * std::min(factor, growth);
       s.over = 0.0;
       break;
     }
-    if (s.failures++ % State::check_interval == 0) s.measure_noise();
+    if (s.failures++ % RungeKutta::check_interval == 0) s.measure_noise();
     growth = 1.0;
     s.over = 0.0;
     if (s.stop_short(step)) break;
@@ -135,36 +139,36 @@ void ErkStepper::step(double wanted) {
   if (!s.switches.same(s.from.side, s.to.side)) s.go_on_behind();
 }
 
-const Scales& ErkStepper::scales() const { return state_->scales; }
-void ErkStepper::begins_at_switch() { state_->begins_at_switch = true; }
-void ErkStepper::listen(const Branches::Sides& held) { state_->held = &held; }
+const Scales& ErkStepper::scales() const { return method_->scales; }
+void ErkStepper::starts_at_switch() { method_->starts_at_switch = true; }
+void ErkStepper::hold_sides(const Branches::Sides& held) { method_->held = &held; }
 /// The last attempt may have been another step than that which was taken.
 std::span<const Compared> ErkStepper::compared() const {
-  const State& s = *state_;
-  if (s.held == nullptr || s.crossed) return {};
+  const RungeKutta& s = *method_;
+  if (s.held == nullptr || s.extrapolated) return {};
   const double h = s.to.t - s.from.t;
   for (std::size_t j = 0; j < s.compared.size(); ++j) {
-    const double t = s.from.t + State::pair.c[State::noted[j]] * h;
+    const double t = s.from.t + RungeKutta::pair.c[RungeKutta::noted[j]] * h;
     if (!(std::abs(s.compared[j].t - t) <= 1e-3 * h)) return {};
   }
   return s.compared;
 }
-double ErkStepper::time() const { return state_->to.t; }
-double ErkStepper::sine() const { return state_->to.sine; }
-StepError ErkStepper::error() const { return state_->reached; }
+double ErkStepper::time() const { return method_->to.t; }
+double ErkStepper::sine() const { return method_->to.sine; }
+StepError ErkStepper::error() const { return method_->reached; }
 
 /// Velocities are the derivative of the polynomial of positions, but for its round-off, that of positions and
 /// times over h: where the cubic of velocities and accelerations at both ends is right to that, the
 /// polynomial that takes the middle, too, is better.
 void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v) {
-  State& s = *state_;
-  for (const State::Node* node : {&s.to, &s.from}) {
+  RungeKutta& s = *method_;
+  for (const RungeKutta::Node* node : {&s.to, &s.from}) {
     if (t != node->t) continue;
     std::ranges::copy(node->q, q.begin());
     std::copy_n(node->va.begin(), s.n, v.begin());
     return;
   }
-  if (s.crossed) return s.read_crossing(t, q, v);
+  if (s.extrapolated) return s.read_extrapolation(t, q, v);
   s.find_middle();
   const Hermite<3> polynomial({s.from.t, s.middle.t, s.to.t}, t);
   const Hermite<3, 2> of_velocities({s.from.t, s.middle.t, s.to.t}, t);
@@ -185,8 +189,8 @@ void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v)
 
 /// The polynomial of degree 5 through both ends.
 void ErkStepper::sketch(double t, std::span<double> q, std::span<double> v) {
-  const State& s = *state_;
-  if (s.crossed || s.has_middle || s.from.t == s.to.t) return interpolate(t, q, v);
+  const RungeKutta& s = *method_;
+  if (s.extrapolated || s.has_middle || s.from.t == s.to.t) return interpolate(t, q, v);
   const Hermite<2> of_ends({s.from.t, s.to.t}, t);
   for (std::size_t i = 0; i < s.n; ++i) {
     const auto x =
@@ -197,7 +201,7 @@ void ErkStepper::sketch(double t, std::span<double> q, std::span<double> v) {
 }
 
 void ErkStepper::count(Statistics& statistics) const {
-  const State& s = *state_;
+  const RungeKutta& s = *method_;
   statistics.steps += s.steps;
   statistics.evaluations += s.manifold.evaluations();
   statistics.factorisations += s.manifold.factorisations();

@@ -23,7 +23,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// its middle, and the polynomial of degree 8 through q, q', q'' at both ends and the middle serves for all
 /// of them; its error is of order 9 like the step's own.
 ///
-/// Isolated singular positions are passed by extrapolation: see State::cross.
+/// Isolated singular positions are passed by extrapolation: see RungeKutta::pass_singular_position.
 ///
 /// Why not ARKODE: on scenes of a few coordinates its own work per stage, 0.2 us, is more than
 /// twice that of the equations of motion here, and its Hermite interpolation (order 5) is less
@@ -35,8 +35,8 @@ class ErkStepper final : public TimeStepper {
 
   /// The step may replace the last one and end before it.
   void step(double wanted) override;
-  void begins_at_switch() override;
-  void listen(const Branches::Sides& held) override;
+  void starts_at_switch() override;
+  void hold_sides(const Branches::Sides& held) override;
   [[nodiscard]] std::span<const Compared> compared() const override;
   [[nodiscard]] double time() const override;
   [[nodiscard]] const Scales& scales() const;
@@ -45,12 +45,14 @@ class ErkStepper final : public TimeStepper {
   void interpolate(double t, std::span<double> q, std::span<double> v) override;
   void sketch(double t, std::span<double> q, std::span<double> v) override;
   [[nodiscard]] int degree() const override { return 8; }  // Hermite<3>
-  [[nodiscard]] bool springs(double /*t*/, Springs& /*out*/) const override { return false; }
+  [[nodiscard]] bool compliant_multipliers(double /*t*/, CompliantMultipliers& /*out*/) const override {
+    return false;
+  }
   void count(Statistics& statistics) const override;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  struct RungeKutta;
+  std::unique_ptr<RungeKutta> method_;
 };
 
 }  // namespace dalembert

@@ -1,6 +1,6 @@
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
-#include <dalembert/solvers/erk/erk_state.h>
+#include <dalembert/solvers/erk/runge_kutta.h>
 
 #include <cmath>
 
@@ -44,7 +44,7 @@ double near_singularity(double e3, double e4, double e6) {
 /// (the stochastic arithmetic of Vignes, Math. Comput. Simulation 35 (1993) 233-261). That shows what cancels
 /// in the user's own equations, too. One sample may be small by chance: earlier ones are not forgotten at
 /// once.
-void ErkStepper::State::measure_noise() {
+void ErkStepper::RungeKutta::measure_noise() {
   const auto rounded = [this](double x) { return x * (chance() % 2 == 0 ? 1.0 + epsilon : 1.0 - epsilon); };
   for (std::size_t i = 0; i < n; ++i) {
     noise_q[i] = rounded(to.q[i]);
@@ -62,16 +62,16 @@ void ErkStepper::State::measure_noise() {
     if (switches.rests(stage_side) || !switches.same(to.side, stage_side)) return;
   }
   for (std::size_t i = 0; i < n; ++i)
-    noise[i] = std::max(constants.forgetting * noise[i], std::abs(a[i] - to.va[n + i]));
+    noise[i] = std::max(constants.step_memory * noise[i], std::abs(a[i] - to.va[n + i]));
   const double off = position_violation(*system, manifold.equations(), lengths).size,
                off_speed = velocity_violation(*system, manifold.equations(), lengths).size;
-  noise_of_positions = std::max(constants.forgetting * noise_of_positions, off);
-  noise_of_velocities = std::max(constants.forgetting * noise_of_velocities, off_speed);
+  noise_of_positions = std::max(constants.step_memory * noise_of_positions, off);
+  noise_of_velocities = std::max(constants.step_memory * noise_of_velocities, off_speed);
 }
 
 /// The weight of an error in each position and velocity against `allowed` at a state; of a step, below the
 /// round-off in what estimates its error, which would be the same in a shorter one, none counts.
-void ErkStepper::State::weigh(const Node& at, double step, double allowed) {
+void ErkStepper::RungeKutta::weigh(const Node& at, double step, double allowed) {
   const double of_stages = constants.roundings_of_step * of_estimate * step;
   for (std::size_t i = 0; i < n; ++i) {
     const double of_velocity = of_stages * noise[i];
@@ -83,13 +83,13 @@ void ErkStepper::State::weigh(const Node& at, double step, double allowed) {
   }
 }
 
-void ErkStepper::State::take(const Way& way) {
-  scales.take(way);
+void ErkStepper::RungeKutta::adopt(const PathExtent& extent) {
+  scales.adopt(extent);
   for (std::size_t i = 0; i < n; ++i) lengths[i] = scales.is_angle[i] ? scales.length : 1.0;
 }
 
 /// Weighted root mean square of `difference`.
-double ErkStepper::State::size() const {
+double ErkStepper::RungeKutta::weighted_norm() const {
   double sum = 0.0;
   for (std::size_t i = 0; i < difference.size(); ++i) {
     const double e = difference[i] * weight[i];
@@ -99,19 +99,20 @@ double ErkStepper::State::size() const {
 }
 
 /// The size of a sum of the stages of a step, which stays in `difference`.
-double ErkStepper::State::size_of(const Combination<stages>& sum, double step) {
+double ErkStepper::RungeKutta::weighted_norm_of(const Combination<stages>& sum, double step) {
   sum.apply(step, k, difference.data(), 2 * n);
-  return size();
+  return weighted_norm();
 }
 
 /// The estimated error of a step to `next` over the tolerance, or where the estimate is doubtful over a part
 /// of it.
-double ErkStepper::State::error(double step, double doubt) {
-  if (scales.of_path) take(scales.further(next.q, halves(next.va).first, step, tolerance));
+double ErkStepper::RungeKutta::error(double step, double doubt) {
+  if (scales.length_from_path) adopt(scales.extended_by(next.q, halves(next.va).first, step, tolerance));
   weigh(next, step, tolerance / doubt);
-  const double e3 = size_of(null_3, step), e4 = size_of(null_4, step), e6 = size_of(null_6, step),
-               e7 = size_of(d, step), series = near_singularity(e3, e4, std::hypot(e6, e7 / of_estimate));
-  const double e = std::max({e7, series, doubt * error_of_springs(std::span(difference).first(n))});
+  const double e3 = weighted_norm_of(null_3, step), e4 = weighted_norm_of(null_4, step),
+               e6 = weighted_norm_of(null_6, step), e7 = weighted_norm_of(d, step),
+               series = near_singularity(e3, e4, std::hypot(e6, e7 / of_estimate));
+  const double e = std::max({e7, series, doubt * error_of_compliant_forces(std::span(difference).first(n))});
   if (e <= 1.0) estimate(step, e7 > 0.0 ? series / e7 : 0.0);
   if (doubt != 1.0) weigh(next, step, tolerance);
   return e;
@@ -120,7 +121,7 @@ double ErkStepper::State::error(double step, double doubt) {
 /// What `difference`, the error of order 7, says of a step's error, and round-off does to it: the stages' own
 /// velocities are rounded, their accelerations at least so. The step, of order 8, errs by less, by its eighth
 /// root if the error constants are 1 in the scene's units, but by no less than `of_order_8` times that.
-void ErkStepper::State::estimate(double step, double of_order_8) {
+void ErkStepper::RungeKutta::estimate(double step, double of_order_8) {
   estimated = {.position_noise = noise_of_positions, .velocity_noise = noise_of_velocities};
   for (std::size_t i = 0; i < n; ++i) {
     const double length = lengths[i];
@@ -141,7 +142,7 @@ void ErkStepper::State::estimate(double step, double of_order_8) {
 /// A compliant constraint multiplies errors of position by its stiffness: its force w dq/C is to be as
 /// accurate, relative to the force that moves its masses by the scene's length in the scene's time; up to
 /// round-off.
-double ErkStepper::State::error_of_springs(std::span<const double> dq) const {
+double ErkStepper::RungeKutta::error_of_compliant_forces(std::span<const double> dq) const {
   if (force_of_spring.empty()) return 0.0;
   const double rounding = scales.rounding(next.q);
   double most = 0.0;
@@ -159,7 +160,7 @@ double ErkStepper::State::error_of_springs(std::span<const double> dq) const {
 }
 
 /// Projects `next` onto the constraint manifold. Returns the correction over the tolerance.
-double ErkStepper::State::project() {
+double ErkStepper::RungeKutta::project() {
   const auto [dq, dv] = halves(difference);
   const auto [v, v_dot] = halves(next.va);
   for (std::size_t i = 0; i < n; ++i) {
@@ -171,19 +172,19 @@ double ErkStepper::State::project() {
     dq[i] += next.q[i];
     dv[i] += v[i];
   }
-  return size();
+  return weighted_norm();
 }
 
 /// The difference of the derivatives of the last stage and of those at the end of a step, times the step, as
 /// a fraction of the scene's size.
-double ErkStepper::State::disagreement(double step) {
+double ErkStepper::RungeKutta::disagreement(double step) {
   for (std::size_t i = 0; i < difference.size(); ++i) difference[i] = step * (k[stages - 1][i] - next.va[i]);
-  return tolerance * size();
+  return tolerance * weighted_norm();
 }
 
 /// The last two stages lie at the same time; the ratio of their derivatives' difference to their
 /// own is the largest rate rho that the step has excited (Hairer, Wanner, Solving ODEs II, IV.2).
-void ErkStepper::State::watch_stability(double step) {
+void ErkStepper::RungeKutta::watch_stability(double step) {
   const double T2 = scales.time * scales.time;
   double rates = 0.0, states = 0.0;
   last_difference.apply(step, k, stage_q.data(), n);

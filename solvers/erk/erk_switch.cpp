@@ -1,5 +1,5 @@
 #include <dalembert/solvers/base/constants.h>
-#include <dalembert/solvers/erk/erk_state.h>
+#include <dalembert/solvers/erk/runge_kutta.h>
 #include <dalembert/solvers/run/sticking.h>
 
 #include <algorithm>
@@ -17,18 +17,18 @@ constexpr double most_weight = 25.0;
 
 /// Stages that a step is made of. All must lie in front of a switch: in its search for the longest step the
 /// bisection below would find the lengths at which some behind it deceive the error estimate.
-bool looks(std::size_t stage) { return verner87.b[stage] != 0.0; }
+bool counts(std::size_t stage) { return verner87.b[stage] != 0.0; }
 
 }  // namespace
 
 /// Which side `node` is on, with the multipliers that its acceleration was found with.
-void ErkStepper::State::find_side(Node& node) {
+void ErkStepper::RungeKutta::find_side(Node& node) {
   manifold.multipliers(multipliers);
   switches.find({node.t, node.q, halves(node.va).first}, multipliers, node.side);
 }
 
 /// Of the last node, where no attempt has led.
-void ErkStepper::State::find_side_anew() {
+void ErkStepper::RungeKutta::find_side_anew() {
   if (!switches.any()) return;
   std::vector<double> unused(n);
   require(manifold.accelerate({to.t, to.q, halves(to.va).first}, unused));
@@ -36,8 +36,8 @@ void ErkStepper::State::find_side_anew() {
 }
 
 /// Whether a stage of a step from `to` lies behind a switch.
-void ErkStepper::State::look(std::size_t i, double t) {
-  if (!looks(i) || !switches.any()) return;
+void ErkStepper::RungeKutta::check_switch(std::size_t i, double t) {
+  if (!counts(i) || !switches.any()) return;
   manifold.multipliers(multipliers);
   switches.find({t, stage_q, halves(stage(i)).first}, multipliers, stage_side);
   if (switches.same(to.side, stage_side)) return;
@@ -47,7 +47,7 @@ void ErkStepper::State::look(std::size_t i, double t) {
 }
 
 /// After a step that failed, whether it passed a switch. Its end may lie off the constraints.
-bool ErkStepper::State::failed_behind_switch() {
+bool ErkStepper::RungeKutta::failed_behind_switch() {
   if (!switches.any()) return false;
   if (passed_switch) return true;
   try {
@@ -62,16 +62,16 @@ bool ErkStepper::State::failed_behind_switch() {
 
 /// The most that a switch between two nodes, crossed in one step, may contribute to its error, over the
 /// tolerance.
-double ErkStepper::State::effect_of_switch(const Node& a, const Node& b, double step) {
+double ErkStepper::RungeKutta::effect_of_switch(const Node& a, const Node& b, double step) {
   const auto [dq, dv] = halves(difference);
   std::ranges::fill(dq, 0.0);
   for (std::size_t i = 0; i < n; ++i) dv[i] = most_weight * step * (b.va[n + i] - a.va[n + i]);
-  return size();
+  return weighted_norm();
 }
 
 /// After a projection: what a switch that was passed may have done to the step, over the tolerance. That is
 /// known if all behind it lies on the side on which the step ends.
-double ErkStepper::State::error_of_switch(double step) {
+double ErkStepper::RungeKutta::error_of_switch(double step) {
   if (!switches.any()) return 0.0;
   find_side(next);
   const bool ends_behind = !switches.same(to.side, next.side);
@@ -83,7 +83,7 @@ double ErkStepper::State::error_of_switch(double step) {
 
 /// After a step that failed: if it passed a switch, finds by bisection the longest one in front of it, and
 /// how far it is from there to behind it. True if `next` is then the end of a step.
-bool ErkStepper::State::stop_short(double step) {
+bool ErkStepper::RungeKutta::stop_short(double step) {
   if (!failed_behind_switch()) return false;
   double before = 0.0, behind = step;
   std::swap(next, beyond);
@@ -91,7 +91,7 @@ bool ErkStepper::State::stop_short(double step) {
     if (before > 0.0 && effect_of_switch(short_of, beyond, behind - before) <= 1.0) break;
     const double middle_of_both = 0.5 * (before + behind);
     const double e = attempt(middle_of_both);
-    if (may_have_crossed()) return false;
+    if (may_have_passed()) return false;
     if (e <= 1.0 && passed_switch) return true;
     if (e <= 1.0) {
       before = middle_of_both;
@@ -118,7 +118,7 @@ bool ErkStepper::State::stop_short(double step) {
 
 /// Why no step from a node, however short, leads over the switch in front of it. `next` goes straight on to
 /// where it is clearly behind.
-StepFailure ErkStepper::State::why_not_over(Node& before) {
+StepFailure ErkStepper::RungeKutta::why_not_over(Node& before) {
   const auto [v, v_dot] = halves(next.va);
   double ahead = shortest();
   do {
@@ -141,7 +141,7 @@ StepFailure ErkStepper::State::why_not_over(Node& before) {
 
 /// After a step over a switch, whether the motion behind it leads back to it at once, as it led to it from
 /// the other side (Filippov): then neither of the two goes on.
-bool ErkStepper::State::driven_back() {
+bool ErkStepper::RungeKutta::driven_back() {
   const double jump = effect_of_switch(from, to, 1.0);
   for (double ahead = 4.0 * (to.t - from.t); ahead < 1e-3 * usual; ahead *= 8.0) {
     next.t = to.t + ahead;
@@ -159,10 +159,10 @@ bool ErkStepper::State::driven_back() {
 }
 
 /// After a step over a switch.
-void ErkStepper::State::go_on_behind() {
+void ErkStepper::RungeKutta::go_on_behind() {
   h = usual;
-  passage.forget();
-  passage.remember(to.t, halves(to.va).second);
+  extrapolation.forget();
+  extrapolation.remember(to.t, halves(to.va).second);
   const auto friction = switches.turned(from.side, to.side);
   if (!friction || !driven_back()) return;
   read(from, before_switch);
@@ -171,7 +171,7 @@ void ErkStepper::State::go_on_behind() {
     end = StepFailure{sticking->would_stick(*friction), to.t};
 }
 
-void ErkStepper::State::read(const Node& node, Motion& out) const {
+void ErkStepper::RungeKutta::read(const Node& node, Motion& out) const {
   const auto half = node.va.begin() + static_cast<std::ptrdiff_t>(n);
   out.t = node.t;
   out.q = node.q;
@@ -180,7 +180,7 @@ void ErkStepper::State::read(const Node& node, Motion& out) const {
 }
 
 /// Before the first step: on which side it begins. A friction law has no direction where nothing slides yet.
-void ErkStepper::State::find_first_side() {
+void ErkStepper::RungeKutta::find_first_side() {
   read(to, before_switch);
   const Departure departure = sticking->leave(before_switch.instant(), before_switch.a, to.side);
   if (departure.held_by) throw StepFailure{sticking->would_stick(*departure.held_by), to.t};

@@ -2,7 +2,7 @@
 
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
-#include <dalembert/solvers/ida/ida_state.h>
+#include <dalembert/solvers/ida/ida_solver.h>
 #include <dalembert/solvers/run/diagnosis.h>
 #include <dalembert/solvers/run/singularity.h>
 
@@ -22,18 +22,18 @@ constexpr double stiff_rate = 1000.0;
 }  // namespace
 
 IdaStepper::IdaStepper(const Problem& problem, const Start& start, const Options& options)
-    : state_(std::make_unique<State>(problem, start, options)) {
-  State& s = *state_;
+    : solver_(std::make_unique<Solver>(problem, start, options)) {
+  Solver& s = *solver_;
   void* ida = s.ida.get();
   const auto residual = [](double t, N_Vector x, N_Vector xp, N_Vector r, void* data) noexcept {
-    State& own = *static_cast<State*>(data);
+    Solver& own = *static_cast<Solver*>(data);
     return guarded(own, t, [&] {
       own.residual(t, x, xp, r);
       return 0;
     });
   };
   const auto weigh = [](N_Vector x, N_Vector weight, void* data) noexcept {
-    State& own = *static_cast<State*>(data);
+    Solver& own = *static_cast<Solver*>(data);
     return guarded(own, own.t, [&] {
       own.weights = weight;
       own.weigh(x, weight);
@@ -42,7 +42,7 @@ IdaStepper::IdaStepper(const Problem& problem, const Start& start, const Options
   };
   const auto record = [](double t, double c, N_Vector x, N_Vector, N_Vector, SUNMatrix, void* data, N_Vector,
                          N_Vector, N_Vector) noexcept {
-    State& own = *static_cast<State*>(data);
+    Solver& own = *static_cast<Solver*>(data);
     own.matrix_t = t;
     own.matrix_c = c;
     own.matrix_y = x;
@@ -70,7 +70,7 @@ IdaStepper::IdaStepper(const Problem& problem, const Start& start, const Options
 
 IdaStepper::~IdaStepper() = default;
 
-std::string IdaStepper::State::explain(int code) const {
+std::string IdaStepper::Solver::explain(int code) const {
   switch (code) {
     case IDA_RES_FAIL:
     case IDA_FIRST_RES_FAIL:
@@ -91,7 +91,7 @@ std::string IdaStepper::State::explain(int code) const {
 }
 
 /// What makes steps fail however short they are, as far as the state tells.
-std::string IdaStepper::State::cause() const {
+std::string IdaStepper::Solver::cause() const {
   if (const auto singular = singular_here(*system, scales, instant(t, y.get())); !singular.empty())
     return singular;
   if (asks_for_too_much())
@@ -103,19 +103,19 @@ std::string IdaStepper::State::cause() const {
   return "look for a discontinuous force";
 }
 
-std::string IdaStepper::State::advice() const {
+std::string IdaStepper::Solver::advice() const {
   return "stiff: " + system->force_of_stiffness(newton.fastest().stiffest) +
          " causes vibrations much faster than the motion; if it is a spring, state it as a constraint with "
          "compliance 1/stiffness, as in compliant(Distance{a, b, length}, 1.0 / stiffness)";
 }
 
 /// Whether most steps were longer than the vibration of a force, or shorter because of it.
-bool IdaStepper::State::has_stiff_force() const {
+bool IdaStepper::Solver::has_stiff_force() const {
   return 2 * unresolved_steps > steps || newton.fastest().of_forces * scales.time > stiff_rate;
 }
 
 /// Whether round-off, which the constraints amplify by 1/sine, exceeds what Newton's iteration may leave.
-bool IdaStepper::State::asks_for_too_much() const {
+bool IdaStepper::Solver::asks_for_too_much() const {
   return constants.newton_tolerance * tolerance * scales.length * sine() <
          scales.rounding(instant(t, y.get()).q);
 }
@@ -123,7 +123,7 @@ bool IdaStepper::State::asks_for_too_much() const {
 /// Of the last step: in IDA's notation the local error of BDF is c E with c = 1/(k + 1) in equal steps, where
 /// E is the sum of Newton's corrections to the predictor. What the iteration left has no sign, as round-off,
 /// nor has what the gradients of constraints, known to the rounding of positions, do to velocities.
-void IdaStepper::State::find_error() {
+void IdaStepper::Solver::find_error() {
   int order = 1;
   check(IDAGetLastOrder(ida.get(), &order), "IDAGetLastOrder");
   check(IDAGetEstLocalErrors(ida.get(), dense.get()), "IDAGetEstLocalErrors");
@@ -146,25 +146,25 @@ void IdaStepper::State::find_error() {
 
 /// Whether a step advances the time by hardly more than its rounding, or the scene by less than a rounding of
 /// its positions: the differences in BDF are round-off then, and lead nowhere.
-bool IdaStepper::State::too_short(double step) const {
+bool IdaStepper::Solver::too_short(double step) const {
   return step <= 4.0 * epsilon * std::abs(t) || step * scales.length <= rounding * scales.time;
 }
 
 /// After a step: changes the highest order if the guard does. IDA can lower it only by beginning anew at
 /// order 1.
-void IdaStepper::State::watch_order() {
+void IdaStepper::Solver::watch_order() {
   double h = 0.0;
   check(IDAGetLastStep(ida.get(), &h), "IDAGetLastStep");
   const int before = guard.order();
   order_changed = guard.watch(h, newton.fastest().of_compliance);
   if (h * newton.fastest().of_forces > unresolved) ++unresolved_steps;
-  begin_anew = order_changed && guard.order() < before;
+  reinitialise = order_changed && guard.order() < before;
 }
 
 /// Before the next step, so that the last can be read until then.
-void IdaStepper::State::change_order() {
+void IdaStepper::Solver::change_order() {
   order_changed = false;
-  if (begin_anew) {
+  if (reinitialise) {
     count_failures(error_tests, convergence);
     check(IDAReInit(ida.get(), t, y.get(), yp.get()), "IDAReInit");
     check(IDASetStopTime(ida.get(), t_end), "IDASetStopTime");
@@ -173,7 +173,7 @@ void IdaStepper::State::change_order() {
 }
 
 /// Newton's iteration that failed with forces left out of its matrix is to have them.
-void IdaStepper::State::watch_convergence() {
+void IdaStepper::Solver::watch_convergence() {
   long failures = 0;
   check(IDAGetNumStepSolveFails(ida.get(), &failures), "IDAGetNumStepSolveFails");
   if (failures > std::exchange(solve_failures, failures)) newton.converged_badly();
@@ -181,14 +181,14 @@ void IdaStepper::State::watch_convergence() {
 
 /// Whether Newton's iteration has failed since IDA began, maybe for round-off: what that may be must be
 /// known.
-bool IdaStepper::State::has_failed() const {
+bool IdaStepper::Solver::has_failed() const {
   long failures = 0;
   check(IDAGetNumStepSolveFails(ida.get(), &failures), "IDAGetNumStepSolveFails");
   return failures > 0;
 }
 
 /// Adds IDA's own counts since it began.
-void IdaStepper::State::count_failures(long& of_tests, long& of_newton) const {
+void IdaStepper::Solver::count_failures(long& of_tests, long& of_newton) const {
   long tests = 0, newtons = 0;
   check(IDAGetNumErrTestFails(ida.get(), &tests), "IDAGetNumErrTestFails");
   check(IDAGetNumStepSolveFails(ida.get(), &newtons), "IDAGetNumStepSolveFails");
@@ -197,7 +197,7 @@ void IdaStepper::State::count_failures(long& of_tests, long& of_newton) const {
 }
 
 void IdaStepper::step(double /*wanted*/) {
-  State& s = *state_;
+  Solver& s = *solver_;
   if (s.order_changed) s.change_order();
   const double before = s.t;
   const int code = IDASolve(s.ida.get(), s.t_end, &s.t, s.y.get(), s.yp.get(), IDA_ONE_STEP);
@@ -213,12 +213,12 @@ void IdaStepper::step(double /*wanted*/) {
   s.watch_order();
 }
 
-double IdaStepper::time() const { return state_->t; }
-double IdaStepper::sine() const { return state_->newton.sine(); }
-StepError IdaStepper::error() const { return state_->reached; }
+double IdaStepper::time() const { return solver_->t; }
+double IdaStepper::sine() const { return solver_->newton.sine(); }
+StepError IdaStepper::error() const { return solver_->reached; }
 
 void IdaStepper::interpolate(double t, std::span<double> q, std::span<double> v) {
-  const State& s = *state_;
+  const Solver& s = *solver_;
   if (s.steps == 0 || t == s.t) {
     std::ranges::copy(s.instant(t, s.y.get()).q, q.begin());
     std::ranges::copy(s.instant(t, s.y.get()).v, v.begin());
@@ -229,8 +229,8 @@ void IdaStepper::interpolate(double t, std::span<double> q, std::span<double> v)
   std::ranges::copy(s.instant(t, s.dense.get()).v, v.begin());
 }
 
-bool IdaStepper::springs(double t, Springs& out) const {
-  const State& s = *state_;
+bool IdaStepper::compliant_multipliers(double t, CompliantMultipliers& out) const {
+  const Solver& s = *solver_;
   if (s.steps == 0) return false;
   const auto read = [&](int derivative, std::vector<double>& numbers) {
     check(IDAGetDky(s.ida.get(), t, derivative, s.dense.get()), "IDAGetDky");
@@ -252,7 +252,7 @@ bool IdaStepper::springs(double t, Springs& out) const {
 }
 
 void IdaStepper::count(Statistics& statistics) const {
-  const State& s = *state_;
+  const Solver& s = *solver_;
   long error_tests = s.error_tests, convergence = s.convergence;
   if (s.steps > 0) s.count_failures(error_tests, convergence);
   statistics.steps += s.steps;

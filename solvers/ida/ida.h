@@ -32,12 +32,12 @@ class IdaStepper final : public TimeStepper {
   void interpolate(double t, std::span<double> q, std::span<double> v) override;
   [[nodiscard]] int degree() const override { return 5; }  // BDF of order 5
   /// False before the first step.
-  [[nodiscard]] bool springs(double t, Springs& out) const override;
+  [[nodiscard]] bool compliant_multipliers(double t, CompliantMultipliers& out) const override;
   void count(Statistics& statistics) const override;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  struct Solver;
+  std::unique_ptr<Solver> solver_;
 };
 
 }  // namespace dalembert

@@ -1,10 +1,10 @@
 #include <dalembert/solvers/base/constants.h>
-#include <dalembert/solvers/ida/ida_state.h>
+#include <dalembert/solvers/ida/ida_solver.h>
 
 namespace dalembert {
 
 /// A direct solver for IDA's interface whose matrix is NewtonMatrix; IDA's own is empty.
-void IdaStepper::State::make_linear_solver() {
+void IdaStepper::Solver::make_linear_solver() {
   matrix.reset(check(SUNMatNewEmpty(context.get())));
   matrix->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
   matrix->ops->zero = [](SUNMatrix) { return 0; };
@@ -14,7 +14,7 @@ void IdaStepper::State::make_linear_solver() {
   solver->content = this;
   solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
   solver->ops->setup = [](SUNLinearSolver self, SUNMatrix) noexcept {
-    State& s = *static_cast<State*>(self->content);
+    Solver& s = *static_cast<Solver*>(self->content);
     return guarded(s, s.matrix_t, [&s] {
       if (s.has_failed()) s.newton.find_sine();
       // IDA weighs once per step, also where it goes on to shorten it; those of multipliers depend on h.
@@ -28,13 +28,13 @@ void IdaStepper::State::make_linear_solver() {
       const bool regular = s.newton.factorise(at, s.e, s.lambda, s.matrix_c);
       s.factored_at = at.t;
       s.corrections = 0;
-      s.error_over_correction = State::unknown_rate;
+      s.error_over_correction = Solver::unknown_rate;
       if (!regular) s.blame(s.matrix_t, "the constraints became linearly dependent");
       return regular ? 0 : 1;
     });
   };
   solver->ops->solve = [](SUNLinearSolver self, SUNMatrix, N_Vector x, N_Vector b, double) noexcept {
-    State& s = *static_cast<State*>(self->content);
+    Solver& s = *static_cast<Solver*>(self->content);
     if (x != b) N_VScale(1.0, b, x);
     return guarded(s, s.evaluated_at, [&] {
       double c = 0.0;

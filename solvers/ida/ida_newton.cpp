@@ -1,5 +1,5 @@
 #include <dalembert/solvers/base/constants.h>
-#include <dalembert/solvers/ida/ida_state.h>
+#include <dalembert/solvers/ida/ida_solver.h>
 
 #include <sunnonlinsol/sunnonlinsol_newton.h>
 
@@ -27,12 +27,12 @@ double rate_of(double correction, double first, int iteration) {
 /// first correction makes up for the predictor and may be small by chance, their second, from the squares of
 /// those of q and v, does not depend on it. Their growth from one to the next proves nothing; the iteration
 /// diverges if the corrections of q and v grow.
-void IdaStepper::State::make_newton() {
+void IdaStepper::Solver::make_newton() {
   nonlinear.reset(check(SUNNonlinSol_Newton(y.get(), context.get())));
   check(IDASetNonlinearSolver(ida.get(), nonlinear.get()), "IDASetNonlinearSolver");
   const auto test = [](SUNNonlinearSolver newton, N_Vector, N_Vector correction, sunrealtype tolerance,
                        N_Vector weight, void* data) noexcept {
-    State& s = *static_cast<State*>(data);
+    Solver& s = *static_cast<Solver*>(data);
     int iteration = 0;
     (void)SUNNonlinSolGetCurIter(newton, &iteration);  // cannot fail
     return s.test_convergence(iteration, correction, weight, tolerance);
@@ -42,8 +42,8 @@ void IdaStepper::State::make_newton() {
   check(SUNNonlinSolSetConvTestFn(nonlinear.get(), test, this), "SUNNonlinSolSetConvTestFn");
 }
 
-int IdaStepper::State::test_convergence(int iteration, N_Vector correction, N_Vector weight,
-                                        double newton_tolerance) {
+int IdaStepper::Solver::test_convergence(int iteration, N_Vector correction, N_Vector weight,
+                                         double newton_tolerance) {
   const double size = N_VWrmsNorm(correction, weight);
   const auto of_motion = [&] { return N_VWrmsNormMask(correction, weight, id.get()); };
   if (iteration == 0) {

@@ -1,7 +1,7 @@
 #include "dalembert/solvers/ida/newton_matrix.h"
 
 #include <dalembert/solvers/linear/rows.h>
-#include <dalembert/solvers/manifold/friction.h>
+#include <dalembert/solvers/manifold/multiplier_forces.h>
 
 #include <algorithm>
 #include <cmath>
@@ -63,8 +63,8 @@ NewtonMatrix::NewtonMatrix(const Problem& problem, const ActiveRows& rows, doubl
     if (row >= system.holonomic_rows() || system.law(row).compliant())
       needs_k1_[islands.of_row(system, row)] = 1;
   }
-  for (std::size_t k = 0; k < system.friction_pattern().size(); ++k) {
-    const auto [coordinate, row] = system.friction_pattern()[k];
+  for (std::size_t k = 0; k < system.multiplier_force_pattern().size(); ++k) {
+    const auto [coordinate, row] = system.multiplier_force_pattern()[k];
     needs_k1_[islands.of_coordinate[coordinate]] = 1;
     const auto active = static_cast<std::size_t>(std::ranges::find(rows.rows, row) - rows.rows.begin());
     if (active < rows.holonomic) friction_.push_back({k, coordinate, active});
@@ -154,9 +154,9 @@ bool NewtonMatrix::factorise(const Instant& at, const System::Evaluation& e, std
   return true;
 }
 
-/// That friction does not turn the sign of the determinant, see FrictionSolver.
+/// That friction does not turn the sign of the determinant, see MultiplierForceSolver.
 void NewtonMatrix::require_acceleration(double c, double t) {
-  if (!system_->frictional() || k1_->matrix.sign_of_determinant() > 0) return;
+  if (!system_->has_multiplier_forces() || k1_->matrix.sign_of_determinant() > 0) return;
   std::vector<double> slope(linear_.friction.size(), 0.0);
   slope.swap(linear_.friction);
   const bool turned = factorise_stiff(c) && k1_->matrix.sign_of_determinant() > 0;

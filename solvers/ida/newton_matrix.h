@@ -57,7 +57,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// Where forces read multipliers, W^T in (2) and (5) is W^T + F_lambda, and -c F_lambda dmu joins the right
 /// of (5). What neglecting dmu leaves is multiplied without bound near Painleve's point, where W M^-1 (W^T +
 /// F_lambda) is singular: there (5) to (7) are solved until dlambda is settled. Friction that changes the
-/// sign of the determinant has passed that point; such a state has no acceleration, see FrictionSolver.
+/// sign of the determinant has passed that point; such a state has no acceleration, see
+/// MultiplierForceSolver.
 ///
 /// Where forces are soft against the inertia in a step, |H|/c^2 + |D|/c small against M, H and D
 /// are left out. Of the forces' own stiffness |H| T/c must be small as well, with the scene's time T: IDA

@@ -27,7 +27,7 @@ bool OrderGuard::watch(double h, double rho) {
   return order_ != before;
 }
 
-void OrderGuard::begin(Phase phase, int order, int windows) {
+void OrderGuard::enter(Phase phase, int order, int windows) {
   phase_ = phase;
   order_ = order;
   windows_left_ = windows;
@@ -37,22 +37,22 @@ void OrderGuard::end_window(double advance, double turned) {
   switch (phase_) {
     case Phase::free:
       by_fifth_ = advance;
-      if (turned > constants.resolved && turned < constants.passed_over) begin(Phase::damping, 2, damping);
+      if (turned > constants.resolved && turned < constants.passed_over) enter(Phase::damping, 2, damping);
       return;
     case Phase::damping:
       by_second_ = advance;
-      return begin(Phase::at_third, 3, trying);
+      return enter(Phase::at_third, 3, trying);
     case Phase::at_third:
       by_third_ = advance;
-      if (by_third_ > std::max(by_fifth_, by_second_)) return begin(Phase::kept, 3, 1);
-      if (by_second_ > by_fifth_) return begin(Phase::kept, 2, 1);
+      if (by_third_ > std::max(by_fifth_, by_second_)) return enter(Phase::kept, 3, 1);
+      if (by_second_ > by_fifth_) return enter(Phase::kept, 2, 1);
       patience_ = std::min(more_patience * patience_, longest_patience);
-      return begin(Phase::free, highest, patience_);
+      return enter(Phase::free, highest, patience_);
     case Phase::kept:
       if (advance >= by_fifth_ && turned > constants.resolved && turned < constants.passed_over)
-        return begin(Phase::kept, order_, 1);
+        return enter(Phase::kept, order_, 1);
       patience_ = advance >= by_fifth_ ? 1 : std::min(more_patience * patience_, longest_patience);
-      return begin(Phase::free, highest, patience_);
+      return enter(Phase::free, highest, patience_);
   }
 }
 

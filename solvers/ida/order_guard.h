@@ -29,7 +29,7 @@ class OrderGuard {
   enum class Phase { free, damping, at_third, kept };
 
   void end_window(double advance, double turned);
-  void begin(Phase phase, int order, int windows);
+  void enter(Phase phase, int order, int windows);
 
   static constexpr int window = 50;  // steps: enough for a change of order to show
   int order_ = highest;

@@ -49,7 +49,7 @@ WholePattern::Plan WholePattern::plan(const System& system, std::span<const std:
       used.push_back(k);
     }
   };
-  add(system.friction_pattern(), place_of_row, plan.slope);
+  add(system.multiplier_force_pattern(), place_of_row, plan.slope);
   if (blocks == SaddleValues::Blocks::slope) return plan;
   add(system.stiffness_pattern(), place, plan.stiffness);
   add(system.damping_pattern(), place, plan.damping);

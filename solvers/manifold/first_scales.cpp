@@ -75,10 +75,10 @@ void set_length(const System& system, const Instant& at, const System::Evaluatio
   const double a = largest_of_lengths(forced_acceleration(system, e), scales.is_angle);
   const double reach = v * duration + a * duration * duration;
   scales.length = reach > 0.0 ? std::min(radius, reach) : std::isfinite(radius) ? radius : 1.0;
-  scales.of_path =
+  scales.length_from_path =
       !system.compliant() && scales.length < radius && std::ranges::count(scales.is_angle, 0) > 0;
   if (std::isinf(radius) && v > 0.0 && a > 0.0) scales.length = v * v / a;
-  if (scales.of_path) {
+  if (scales.length_from_path) {
     const double rounding = epsilon * scales.length;
     scales.length = std::min(scales.length, std::max(nearest_contact, rounding));
   }

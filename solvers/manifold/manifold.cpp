@@ -51,37 +51,37 @@ Manifold::Manifold(const Problem& problem, const ActiveRows& rows, std::vector<d
       redundant_(rows.size() < system_->rows_in_force()) {
   x_.resize(matrix_.size());
   q_before_.resize(system_->coordinates());
-  if (system_->frictional()) friction_.emplace(problem, rows);
+  if (system_->has_multiplier_forces()) friction_.emplace(problem, rows);
   if (!system_->compliant()) return;
   s_.resize(system_->rows(), 0.0);
   reflected_ = s_;
-  springs_before_ = springs_ = Springs(system_->rows());
+  multipliers_before_ = multipliers_ = CompliantMultipliers(system_->rows());
 }
 
-void Manifold::follow(const Springs& springs) {
-  springs_ = springs;
-  following_ = true;
+void Manifold::use_multipliers(const CompliantMultipliers& given) {
+  multipliers_ = given;
+  given_multipliers_ = true;
 }
 
 /// Makes the residuals of compliant rows those of g + C lambda.
-void Manifold::add_springs() {
-  for (std::size_t r = 0; r < springs_.lambda.size(); ++r) {
+void Manifold::add_compliance() {
+  for (std::size_t r = 0; r < multipliers_.lambda.size(); ++r) {
     const RowLaw& law = system_->law(r);
     if (!compliant(r)) continue;
-    if (!following_) {
-      springs_.lambda[r] = law.multiplier(e_.g[r]);
-      springs_.rate[r] = law.multiplier(e_.psi[r]);
+    if (!given_multipliers_) {
+      multipliers_.lambda[r] = law.multiplier(e_.g[r]);
+      multipliers_.rate[r] = law.multiplier(e_.psi[r]);
     }
-    e_.g[r] = following_ ? law.residual(e_.g[r], springs_.lambda[r]) : 0.0;
-    e_.psi[r] = following_ ? law.residual(e_.psi[r], springs_.rate[r]) : 0.0;
+    e_.g[r] = given_multipliers_ ? law.residual(e_.g[r], multipliers_.lambda[r]) : 0.0;
+    e_.psi[r] = given_multipliers_ ? law.residual(e_.psi[r], multipliers_.rate[r]) : 0.0;
   }
 }
 
-void Manifold::weigh_springs() {
+void Manifold::weigh_compliance() {
   for (std::size_t r = 0; r < s_.size(); ++r) {
     if (compliant(r))
-      s_[r] = following_ ? springs_.c * springs_.c * system_->law(r).compliance
-                         : rigid * inverse_effective_mass(*system_, e_.w, r);
+      s_[r] = given_multipliers_ ? multipliers_.c * multipliers_.c * system_->law(r).compliance
+                                 : rigid * inverse_effective_mass(*system_, e_.w, r);
   }
 }
 
@@ -123,7 +123,7 @@ void Manifold::use(ActiveRows rows) {
 }
 
 bool Manifold::factorise_those_in_use() {
-  weigh_springs();
+  weigh_compliance();
   const bool regular = matrix_.factorise({.w = e_.w, .s = s_});
   sine_ = redundant_ && regular && !matrix_.tells_sine()
               ? weakest_.smallest_singular_value(matrix_, rows_, e_.w, problem_.islands())
@@ -137,7 +137,8 @@ bool Manifold::factorise() {
   if (!redundant_) return regular;
   if (best_sine_ == 0.0) best_sine_ = sine_;
   const double own = regular ? sine_ : 0.0;
-  if (own >= constants.worn * best_sine_ && constants.worn * own <= best_sine_) return regular;
+  if (own >= constants.row_exchange_ratio * best_sine_ && constants.row_exchange_ratio * own <= best_sine_)
+    return regular;
   return exchange_rows(own);
 }
 
@@ -149,7 +150,7 @@ bool Manifold::exchange_rows(double own) {
   use(std::move(others));
   bool regular = factorise_those_in_use();
   best_sine_ = std::max(own, sine_);
-  if (regular && own < constants.worn * sine_) {
+  if (regular && own < constants.row_exchange_ratio * sine_) {
     ++exchanges_;
     return true;
   }
@@ -159,13 +160,13 @@ bool Manifold::exchange_rows(double own) {
 
 void Manifold::evaluate(const Instant& at) {
   system_->evaluate(at, e_);
-  add_springs();
+  add_compliance();
   ++evaluations_;
 }
 
 void Manifold::evaluate_with_bias(const Instant& at) {
   system_->evaluate_with_bias(at, e_, gamma_);
-  add_springs();
+  add_compliance();
   ++evaluations_;
 }
 
@@ -188,19 +189,19 @@ Violation Manifold::project_positions(double t, std::span<double> q, std::span<c
     if (!matrix_serves && !factorise()) break;
     solve_for_position_step(q.size());
     std::ranges::copy(q, q_before_.begin());
-    springs_before_ = springs_;
+    multipliers_before_ = multipliers_;
     const Violation before = left;
     double fraction = 1.0;
     for (int halving = 0; halving < most_halvings; ++halving, fraction *= 0.5) {
       for (std::size_t k = 0; k < q.size(); ++k) q[k] = q_before_[k] + fraction * x_[k];
-      if (following_) add_to_springs(springs_before_.lambda, fraction, springs_.lambda);
+      if (given_multipliers_) add_to_multipliers(multipliers_before_.lambda, fraction, multipliers_.lambda);
       evaluate({t, q, v});
       left = position_violation(*system_, e_, lengths_);
       if (left.size < before.size) break;
     }
     if (!(left.size < before.size)) {
       std::ranges::copy(q_before_, q.begin());
-      springs_ = springs_before_;
+      multipliers_ = multipliers_before_;
       evaluate({t, q, v});
       return before;
     }
@@ -211,11 +212,11 @@ Violation Manifold::project_positions(double t, std::span<double> q, std::span<c
 }
 
 /// to = from + c^2 y in compliant rows, with y of the last solve.
-void Manifold::add_to_springs(const std::vector<double>& from, double fraction, std::vector<double>& to) {
+void Manifold::add_to_multipliers(const std::vector<double>& from, double fraction, std::vector<double>& to) {
   const std::size_t n = x_.size() - rows_.rows.size();
   for (std::size_t k = 0; k < rows_.rows.size(); ++k) {
     const auto r = rows_.rows[k];
-    if (system_->law(r).compliant()) to[r] = from[r] + fraction * springs_.c * springs_.c * x_[n + k];
+    if (system_->law(r).compliant()) to[r] = from[r] + fraction * multipliers_.c * multipliers_.c * x_[n + k];
   }
 }
 
@@ -227,31 +228,31 @@ void Manifold::correct_velocities(std::span<double> v) {
   for (std::size_t r = 0; r < rows_.rows.size(); ++r) x_[n + r] = -e_.psi[rows_.rows[r]];
   matrix_.solve(x_);
   for (std::size_t k = 0; k < n; ++k) v[k] += x_[k];
-  if (following_) add_to_springs(springs_.rate, 1.0, springs_.rate);
+  if (given_multipliers_) add_to_multipliers(multipliers_.rate, 1.0, multipliers_.rate);
 }
 
 /// (3) and (4), with the matrix, the forces and gamma at hand.
 bool Manifold::solve_for_accelerations(const Instant& at, std::span<double> a) {
   const std::size_t n = at.q.size();
-  if (!solve_beside_springs(at, springs_.lambda)) return false;
-  if (following_) {
+  if (!solve_with_compliance(at, multipliers_.lambda)) return false;
+  if (given_multipliers_) {
     for (std::size_t k = 0; k < rows_.rows.size(); ++k)
-      reflected_[rows_.rows[k]] = 2.0 * springs_.lambda[rows_.rows[k]] - x_[n + k];
-    if (!solve_beside_springs(at, reflected_)) return false;
+      reflected_[rows_.rows[k]] = 2.0 * multipliers_.lambda[rows_.rows[k]] - x_[n + k];
+    if (!solve_with_compliance(at, reflected_)) return false;
   }
   std::copy_n(x_.begin(), n, a.begin());
   return true;
 }
 
 /// (3), with these multipliers of compliant rows. Friction has a matrix of its own.
-bool Manifold::solve_beside_springs(const Instant& at, std::span<const double> lambda) {
+bool Manifold::solve_with_compliance(const Instant& at, std::span<const double> lambda) {
   const std::size_t n = at.q.size();
   std::ranges::copy(e_.force, x_.begin());
   for (std::size_t k = 0; k < rows_.rows.size(); ++k) {
     const auto r = rows_.rows[k];
     x_[n + k] = -gamma_[r];
     if (system_->law(r).compliant())
-      x_[n + k] += s_[r] * lambda[r] - system_->law(r).compliance * springs_.second[r];
+      x_[n + k] += s_[r] * lambda[r] - system_->law(r).compliance * multipliers_.second[r];
   }
   if (friction_) return friction_->solve(at, e_.w, s_, x_);
   matrix_.solve(x_);
@@ -278,7 +279,7 @@ void Manifold::multipliers(std::span<double> lambda) const {
 bool Manifold::accelerate(const Instant& at, std::span<double> a) {
   evaluate_with_bias(at);
   if (friction_ && !redundant_) {
-    weigh_springs();
+    weigh_compliance();
   } else if (!factorise()) {
     return false;
   }

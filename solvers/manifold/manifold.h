@@ -2,9 +2,9 @@
 
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/linear/problem.h>
-#include <dalembert/solvers/manifold/friction.h>
+#include <dalembert/solvers/manifold/compliant_multipliers.h>
 #include <dalembert/solvers/manifold/minimum_norm.h>
-#include <dalembert/solvers/manifold/springs.h>
+#include <dalembert/solvers/manifold/multiplier_forces.h>
 #include <dalembert/solvers/manifold/weakest_direction.h>
 
 #include <optional>
@@ -39,7 +39,7 @@ struct Violation {
 ///   [ M  -W^T ] [ v'     ]   [    F   ]
 ///   [ W   0   ] [ lambda ] = [ -gamma ].                                              (3)
 ///
-/// Where forces read multipliers (3) is that of FrictionSolver, with its errors.
+/// Where forces read multipliers (3) is that of MultiplierForceSolver, with its errors.
 ///
 /// A compliant row takes part with its multiplier as a variable, s = c^2 C in the lower right block:
 /// its residuals are g + C lambda, psi + C lambda', W v' + gamma + C lambda'', and y changes lambda by
@@ -49,8 +49,8 @@ struct Violation {
 ///
 ///   y := lambda + (S + s)^-1 S (y - lambda),   S = W M^-1 W^T,                         (4)
 ///
-/// which is (3) solved again with 2 lambda - y for lambda. Without `follow` the multipliers are -g/C, the
-/// limit of large s.
+/// which is (3) solved again with 2 lambda - y for lambda. Without `use_multipliers` the multipliers are
+/// -g/C, the limit of large s.
 ///
 /// Where rows are redundant, those in use may come to depend on each other while others do not. Wherever the
 /// matrix is factored others then take over: which ones are in use shows in no motion and no force.
@@ -59,8 +59,8 @@ class Manifold {
   Manifold(const Problem& problem, const ActiveRows& rows, std::vector<double> lengths);
 
   /// From here on the multipliers of compliant rows are these, and projected with the state.
-  void follow(const Springs& springs);
-  [[nodiscard]] bool following() const { return following_; }
+  void use_multipliers(const CompliantMultipliers& given);
+  [[nodiscard]] bool uses_given_multipliers() const { return given_multipliers_; }
 
   /// (1), with steps halved until they bring the state closer, until the distance is at most
   /// `tolerance` or no longer shrinks. Returns what is left. Throws EquationFault.
@@ -72,7 +72,7 @@ class Manifold {
                                   std::span<double> a, std::span<double> lambda);
 
   /// (2) alone, where it takes more than a correction: the impulses that put v onto the constraints, one per
-  /// row of the system, none of compliant ones. Without `follow`. False if singular.
+  /// row of the system, none of compliant ones. Without `use_multipliers`. False if singular.
   [[nodiscard]] bool project_impulsively(double t, std::span<const double> q, std::span<double> v,
                                          std::span<double> impulses);
 
@@ -130,17 +130,17 @@ class Manifold {
   [[nodiscard]] bool compliant(std::size_t row) const {
     return system_->in_force(row) && system_->law(row).compliant();
   }
-  void add_springs();
-  void weigh_springs();
+  void add_compliance();
+  void weigh_compliance();
   void use(ActiveRows rows);
   [[nodiscard]] bool factorise_those_in_use();
   [[nodiscard]] bool exchange_rows(double own);
   [[nodiscard]] bool factorise();
-  void add_to_springs(const std::vector<double>& from, double fraction, std::vector<double>& to);
+  void add_to_multipliers(const std::vector<double>& from, double fraction, std::vector<double>& to);
   void solve_for_position_step(std::size_t n);
   void correct_velocities(std::span<double> v);
   [[nodiscard]] bool solve_for_accelerations(const Instant& at, std::span<double> a);
-  [[nodiscard]] bool solve_beside_springs(const Instant& at, std::span<const double> lambda);
+  [[nodiscard]] bool solve_with_compliance(const Instant& at, std::span<const double> lambda);
 
   Problem problem_;
   const System* system_;  // its own
@@ -148,13 +148,13 @@ class Manifold {
   std::vector<double> lengths_;
   System::Evaluation e_;
   std::vector<double> gamma_, x_, q_before_;
-  Springs springs_, springs_before_;
+  CompliantMultipliers multipliers_, multipliers_before_;
   std::vector<double> s_, reflected_;
-  bool following_ = false;
+  bool given_multipliers_ = false;
   SaddleMatrix matrix_;
   MinimumNorm minimum_norm_;
   WeakestDirection weakest_;
-  std::optional<FrictionSolver> friction_;  // if any force reads a multiplier
+  std::optional<MultiplierForceSolver> friction_;  // if any force reads a multiplier
   bool redundant_;
   double sine_ = 1.0, best_sine_ = 0.0;  // the latter of any rows, where they were compared last
   long evaluations_ = 0, exchanges_ = 0, past_factorisations_ = 0;  // the last by rows that are out of use

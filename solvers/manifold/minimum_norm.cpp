@@ -103,10 +103,10 @@ void MinimumNorm::place(const System& system) {
     }
     first += static_cast<Eigen::Index>(c->rows) * c->inputs;
   }
-  for (const std::size_t number : system.conditional()) {
+  for (const std::size_t number : system.conditional_constraints()) {
     const auto& c = system.layout()->constraints[number];
-    if (c.holds.contact && system.in_force(c.own_rows().front()))
-      one_sided_.push_back({c.first_row, c.holds.contact->sign()});
+    if (c.condition.contact && system.in_force(c.own_rows().front()))
+      one_sided_.push_back({c.first_row, c.condition.contact->sign()});
   }
   for (const Eigen::Index r : dropped_) unique_[static_cast<std::size_t>(r)] = 0;
   const auto d = static_cast<Eigen::Index>(dropped_.size());

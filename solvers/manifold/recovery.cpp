@@ -18,13 +18,13 @@ constexpr double undetermined = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-Moment::Moment(const System& system, const Start& start, bool changes)
+OutputState::OutputState(const System& system, const Start& start, bool changes)
     : q(start.q),
       v(start.v),
       a(start.a),
       lambda(start.lambda),
       forces(system.layout()->slot_coordinate.size()) {
-  if (changes || start.rows.size() < system.rows_in_force() || !system.conditional().empty())
+  if (changes || start.rows.size() < system.rows_in_force() || !system.conditional_constraints().empty())
     unique.resize(lambda.size());
 }
 
@@ -59,7 +59,7 @@ std::vector<double> Recovery::violations(const std::vector<double>& residual,
 
 /// A state moved by more than the tolerance is not better for it, if that is the constraints' doing: if it
 /// obeyed them, all that are stated, much better than it was moved.
-void Recovery::find_moved_too_far(const Moment& m) {
+void Recovery::find_moved_too_far(const OutputState& m) {
   std::vector<double> far(left_out_.size()), fast(left_out_.size());
   for (std::size_t i = 0; i < m.q.size(); ++i) {
     const std::size_t island = problem_.islands().of_coordinate[i];
@@ -83,7 +83,7 @@ void Recovery::find_moved_too_far(const Moment& m) {
 }
 
 /// What the constraints do not determine here stays as it was given.
-void Recovery::project(Manifold& manifold, Moment& m) {
+void Recovery::project(Manifold& manifold, OutputState& m) {
   const double L = scales_.length;
   std::ranges::copy(m.q, q_given_.begin());
   std::ranges::copy(m.v, v_given_.begin());
@@ -101,7 +101,7 @@ void Recovery::project(Manifold& manifold, Moment& m) {
 }
 
 /// But not a state that is off its constraints by more than steps may leave unnoticed.
-void Recovery::keep_given(Manifold& manifold, Moment& m) {
+void Recovery::keep_given(Manifold& manifold, OutputState& m) {
   const auto put = [&](const std::vector<double>& q, const std::vector<double>& v) {
     for (std::size_t i = 0; i < q.size(); ++i) {
       if (!left_out_[problem_.islands().of_coordinate[i]]) continue;
@@ -120,7 +120,7 @@ void Recovery::keep_given(Manifold& manifold, Moment& m) {
 /// How far steps may leave the constraints unnoticed.
 double Recovery::unnoticed() const { return constants.most_correction * tolerance_ * scales_.length; }
 
-void Recovery::require_agreement(const Moment& m) const {
+void Recovery::require_agreement(const OutputState& m) const {
   const auto refuse = [&](const Violation& left, const char* what) {
     std::ostringstream text;
     text << system_->row_label(left.row) << " contradicts the other constraints: it is violated by " << what
@@ -132,7 +132,7 @@ void Recovery::require_agreement(const Moment& m) const {
   if (m.position.size > tolerated) refuse(m.position, "");
 }
 
-void Recovery::require_finite(const Moment& m) const {
+void Recovery::require_finite(const OutputState& m) const {
   const auto& coordinates = system_->layout()->slot_coordinate;
   bool finite = std::isfinite(m.energy);
   for (std::size_t slot = 0; slot < coordinates.size(); ++slot) {
@@ -147,7 +147,7 @@ void Recovery::require_finite(const Moment& m) const {
 }
 
 /// Those of the islands that are left out.
-void Recovery::leave_forces_out(Moment& m) const {
+void Recovery::leave_forces_out(OutputState& m) const {
   const auto coordinate = [this](std::size_t i) {
     return left_out_[problem_.islands().of_coordinate[i]] != 0;
   };
@@ -163,7 +163,7 @@ void Recovery::leave_forces_out(Moment& m) const {
 
 /// Those that differ by as much as a force may not, relative to the largest that there is or that a force of
 /// constraint alone would give.
-void Recovery::mark_accelerations(Moment& m) const {
+void Recovery::mark_accelerations(OutputState& m) const {
   double largest = 0.0;
   const auto& coordinates = system_->layout()->slot_coordinate;
   for (std::size_t slot = 0; slot < coordinates.size(); ++slot) {
@@ -177,7 +177,7 @@ void Recovery::mark_accelerations(Moment& m) const {
 }
 
 /// Compares with a second state, see above.
-void Recovery::mark_undetermined(Manifold& manifold, Moment& m) {
+void Recovery::mark_undetermined(Manifold& manifold, OutputState& m) {
   std::ranges::copy(manifold.equations().w, w_.begin());
   manifold.weakest_directions(n_, response_);
   const double untold = std::max(m.position.size, scales_.rounding(m.q));
@@ -203,7 +203,7 @@ void Recovery::mark_undetermined(Manifold& manifold, Moment& m) {
 
 /// Those that differ by as much as a force may not, relative to the largest that is determined: of a linkage
 /// in line unbounded forces are no reference. Whether there are any.
-bool Recovery::mark_multipliers(Moment& m) const {
+bool Recovery::mark_multipliers(OutputState& m) const {
   const auto force = [&](std::size_t r, double lambda) {
     return std::abs(lambda) * gradient_length(*system_, w_, lengths_, r);
   };
@@ -223,7 +223,7 @@ bool Recovery::mark_multipliers(Moment& m) const {
 }
 
 /// Of constraint, inertia or forces on any coordinate, as forces on lengths.
-double Recovery::largest_force(const Manifold& manifold, const Moment& m) const {
+double Recovery::largest_force(const Manifold& manifold, const OutputState& m) const {
   const auto& [force, g, psi, w] = manifold.equations();
   double largest = 0.0;
   for (std::size_t r = 0; r < m.lambda.size(); ++r)
@@ -236,7 +236,7 @@ double Recovery::largest_force(const Manifold& manifold, const Moment& m) const 
 
 /// Per row, how far its spring will be stretched in the scene's time, by its rate and, where that is
 /// determined, its acceleration.
-std::vector<double> Recovery::stretches_to_come(const Moment& m) const {
+std::vector<double> Recovery::stretches_to_come(const OutputState& m) const {
   auto e = system_->evaluation();
   std::vector<double> gamma(m.lambda.size()), stretches(gamma);
   const Instant at{m.t, m.q, m.v};
@@ -254,7 +254,7 @@ std::vector<double> Recovery::stretches_to_come(const Moment& m) const {
 /// what was stated; each step adds some more, and as nothing damps the vibration they wander, sqrt(n) steps'
 /// far after n steps. As elsewhere a force may be wrong by the root of the tolerance, relative to the largest
 /// that there is; at the start, where there may be none yet, also to what its own will be.
-void Recovery::mark_springs(const Manifold& manifold, Moment& m, long steps) const {
+void Recovery::mark_compliant(const Manifold& manifold, OutputState& m, long steps) const {
   const auto& w = manifold.equations().w;
   const double dx =
       scales_.largest_rounding(m.q) + std::sqrt(static_cast<double>(steps)) * scales_.rounding(m.q);
@@ -274,7 +274,7 @@ void Recovery::mark_springs(const Manifold& manifold, Moment& m, long steps) con
   }
 }
 
-void Recovery::recover(Manifold& manifold, Moment& m, long steps) {
+void Recovery::recover(Manifold& manifold, OutputState& m, long steps) {
   project(manifold, m);
   require_agreement(m);
   if (!m.unique.empty()) std::ranges::copy(manifold.unique(), m.unique.begin());
@@ -291,9 +291,9 @@ void Recovery::recover(Manifold& manifold, Moment& m, long steps) {
   if (system_->slides()) system_->exert_sliding({m.t, m.q, m.v}, m.lambda, m.forces);
 }
 
-void Recovery::mark(Manifold& manifold, Moment& m, long steps) {
+void Recovery::mark(Manifold& manifold, OutputState& m, long steps) {
   if (manifold.sine() <= constants.well_conditioned) mark_undetermined(manifold, m);
-  if (system_->compliant() && !manifold.following()) mark_springs(manifold, m, steps);
+  if (system_->compliant() && !manifold.uses_given_multipliers()) mark_compliant(manifold, m, steps);
 }
 
 }  // namespace dalembert

@@ -10,9 +10,9 @@
 namespace DALEMBERT_HIDDEN dalembert {
 
 /// Everything that can be read at one instant.
-struct Moment {
+struct OutputState {
   /// `changes`: constraints may come into force that repeat others.
-  Moment(const System& system, const Start& start, bool changes = false);
+  OutputState(const System& system, const Start& start, bool changes = false);
 
   double t = 0.0;
   std::vector<double> q, v, a, lambda, forces;
@@ -45,25 +45,25 @@ class Recovery {
   Recovery(const Problem& problem, const Start& start, double tolerance);
 
   /// At m.t, from the stepper's m.q and m.v after so many steps. Throws StepFailure, EquationFault.
-  void recover(Manifold& manifold, Moment& m, long steps);
+  void recover(Manifold& manifold, OutputState& m, long steps);
 
  private:
-  void project(Manifold& manifold, Moment& m);
+  void project(Manifold& manifold, OutputState& m);
   [[nodiscard]] std::vector<double> violations(const std::vector<double>& residual,
                                                std::span<const double> w) const;
-  void find_moved_too_far(const Moment& m);
-  void keep_given(Manifold& manifold, Moment& m);
+  void find_moved_too_far(const OutputState& m);
+  void keep_given(Manifold& manifold, OutputState& m);
   [[nodiscard]] double unnoticed() const;
-  void require_agreement(const Moment& m) const;
-  void mark(Manifold& manifold, Moment& m, long steps);
-  void mark_undetermined(Manifold& manifold, Moment& m);
-  [[nodiscard]] bool mark_multipliers(Moment& m) const;
-  void mark_accelerations(Moment& m) const;
-  [[nodiscard]] double largest_force(const Manifold& manifold, const Moment& m) const;
-  [[nodiscard]] std::vector<double> stretches_to_come(const Moment& m) const;
-  void mark_springs(const Manifold& manifold, Moment& m, long steps) const;
-  void require_finite(const Moment& m) const;
-  void leave_forces_out(Moment& m) const;
+  void require_agreement(const OutputState& m) const;
+  void mark(Manifold& manifold, OutputState& m, long steps);
+  void mark_undetermined(Manifold& manifold, OutputState& m);
+  [[nodiscard]] bool mark_multipliers(OutputState& m) const;
+  void mark_accelerations(OutputState& m) const;
+  [[nodiscard]] double largest_force(const Manifold& manifold, const OutputState& m) const;
+  [[nodiscard]] std::vector<double> stretches_to_come(const OutputState& m) const;
+  void mark_compliant(const Manifold& manifold, OutputState& m, long steps) const;
+  void require_finite(const OutputState& m) const;
+  void leave_forces_out(OutputState& m) const;
 
   Problem problem_;
   const System* system_;  // its own

@@ -33,13 +33,14 @@ double Scales::largest(std::span<const double> x) const {
 /// of h over the time in which the acceleration changes. Round-off in forces of size m a moves it in a step
 /// by eps a h^2, in the positions themselves by eps |q|: that must not count against the tolerance, so the
 /// distance is at least some of these over the tolerance.
-Way Scales::further(std::span<const double> q, std::span<const double> v, double h, double tolerance) const {
+PathExtent Scales::extended_by(std::span<const double> q, std::span<const double> v, double h,
+                               double tolerance) const {
   const double rounding = constants.roundings_of_path * epsilon;
   const double noise = std::max(rounding / tolerance * forced * h, least);
   double least_length = std::max({noise * h, least, lever});
   for (std::size_t i = 0; i < q.size(); ++i)
     if (!is_angle[i]) least_length = std::max(least_length, rounding / tolerance * std::abs(q[i]));
-  Way next{std::max(way.length, least_length), std::max(way.speed, noise), way.rate, h};
+  PathExtent next{std::max(extent.length, least_length), std::max(extent.speed, noise), extent.rate, h};
   for (std::size_t i = 0; i < q.size(); ++i) {
     if (is_angle[i]) {
       next.rate = std::max(next.rate, std::abs(v[i]));
@@ -53,15 +54,15 @@ Way Scales::further(std::span<const double> q, std::span<const double> v, double
   return next;
 }
 
-void Scales::take(const Way& next) {
-  way = next;
-  length = way.length;
-  time = length / way.speed;
+void Scales::adopt(const PathExtent& next) {
+  extent = next;
+  length = extent.length;
+  time = length / extent.speed;
 }
 
 double Scales::velocity_error(std::size_t i, double v, double tolerance) const {
-  const double speed = is_angle[i] ? way.rate : way.speed;
-  return tolerance * ((of_path ? speed : unit(i) / time) + std::abs(v));
+  const double speed = is_angle[i] ? extent.rate : extent.speed;
+  return tolerance * ((length_from_path ? speed : unit(i) / time) + std::abs(v));
 }
 
 }  // namespace dalembert

@@ -10,7 +10,7 @@
 namespace DALEMBERT_HIDDEN dalembert {
 
 /// How far a scene without a characteristic length has moved so far, and how fast it has been.
-struct Way {
+struct PathExtent {
   double length = 0.0;  ///< largest distance of a coordinate from its start
   double speed = 0.0;   ///< largest speed of one that is a length,
   double rate = 0.0;    ///< or an angle
@@ -31,9 +31,9 @@ struct Scales {
 
   /// A lone particle far from anything has no length but that of its path so far. Its start tells nothing: at
   /// the cusp of a cycloid it rests, and its first motion has not yet begun to bend. So errors are relative
-  /// to `way`, which only grows, and with it `length` and `time`.
-  bool of_path = false;
-  Way way{};
+  /// to `extent`, which only grows, and with it `length` and `time`.
+  bool length_from_path = false;
+  PathExtent extent{};
   double lever = 0.0;   ///< by which constraints turn its angles into lengths: it is no shorter than that
   double forced = 0.0;  ///< the acceleration that its forces alone give it at the start
 
@@ -53,10 +53,10 @@ struct Scales {
   /// The error allowed to velocity i: relative to `length` in `time`, or the top speed of a path, and to
   /// itself.
   [[nodiscard]] double velocity_error(std::size_t i, double v, double tolerance) const;
-  /// The way when the next step, of h, is at (q, v).
-  [[nodiscard]] Way further(std::span<const double> q, std::span<const double> v, double h,
-                            double tolerance) const;
-  void take(const Way& next);
+  /// The extent when the next step, of h, is at (q, v).
+  [[nodiscard]] PathExtent extended_by(std::span<const double> q, std::span<const double> v, double h,
+                                       double tolerance) const;
+  void adopt(const PathExtent& next);
   /// A rounding of the coordinate farthest from 0.
   [[nodiscard]] double largest_rounding(std::span<const double> q) const;
   /// How far from its constraints round-off alone may leave a state.

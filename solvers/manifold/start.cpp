@@ -53,7 +53,7 @@ constexpr double loosest = 0.1;
 
 /// Where a rounding of the positions exceeds the loosest tolerance nothing is known of a motion.
 void require_near_origin(const Scales& scales, std::span<const double> q) {
-  if (scales.of_path || scales.rounding(q) <= loosest * scales.length) return;
+  if (scales.length_from_path || scales.rounding(q) <= loosest * scales.length) return;
   std::ostringstream what;
   what << "The scene, of length " << scales.length
        << ", is so far from the origin that double precision resolves " << scales.largest_rounding(q)
@@ -131,7 +131,7 @@ void start_positions(const Problem& problem, Start& start, const System::Evaluat
   const System& system = problem.system();
   const double L = start.scales.length;
   const auto lengths = start.scales.lengths();
-  const double bound = rounding_of_the_user * L + start.scales.rounding(start.q);
+  const double bound = start_tolerance * L + start.scales.rounding(start.q);
   const Violation given = position_violation(system, e, lengths);
   if (given.size > bound && !options.assemble) {
     refuse(system, given, e, Level::position, options.t_start, "is violated by the initial positions",
@@ -148,7 +148,7 @@ void start_positions(const Problem& problem, Start& start, const System::Evaluat
 void start_velocities(const System& system, const Start& start, const System::Evaluation& e,
                       const Options& options) {
   const Violation given = velocity_violation(system, e, start.scales.lengths());
-  if (given.size > rounding_of_the_user * speed_of(system, e, start) && !options.assemble) {
+  if (given.size > start_tolerance * speed_of(system, e, start) && !options.assemble) {
     refuse(system, given, e, Level::velocity, options.t_start, "is violated by the initial velocities",
            "correct the velocities, or set the option assemble to have them changed");
   }
@@ -206,7 +206,7 @@ Start consistent_start(const Problem& problem, std::span<const double> q, std::s
       violation = left();
     }
     require_satisfied(system, violation, manifold.equations(), Level::velocity,
-                      rounding_of_the_user * speed_of(system, manifold.equations(), start), t);
+                      start_tolerance * speed_of(system, manifold.equations(), start), t);
     require_regular(problem, start, t);
     require_consistent_accelerations(system, manifold, start, v, t);
     start.scales.time = time_scale(system, manifold.equations(), start, duration);
@@ -217,8 +217,8 @@ Start consistent_start(const Problem& problem, std::span<const double> q, std::s
   return start;
 }
 
-Start begin_changed(const Problem& problem, const Start& before, double t, std::span<const double> q,
-                    std::span<const double> v, double known) {
+Start restart_with_constraints(const Problem& problem, const Start& before, double t,
+                               std::span<const double> q, std::span<const double> v, double known) {
   const System& system = problem.system();
   Start start = before;
   start.q.assign(q.begin(), q.end());
@@ -236,8 +236,8 @@ Start begin_changed(const Problem& problem, const Start& before, double t, std::
   return start;
 }
 
-std::vector<double> take_over(const Problem& problem, const Scales& scales, double t,
-                              std::span<const double> q, std::span<double> v, double known) {
+std::vector<double> project_impulsively_onto(const Problem& problem, const Scales& scales, double t,
+                                             std::span<const double> q, std::span<double> v, double known) {
   const System& system = problem.system();
   const auto lengths = scales.lengths();
   auto e = system.evaluation();
@@ -247,7 +247,7 @@ std::vector<double> take_over(const Problem& problem, const Scales& scales, doub
     text << system.row_label(by.row) << what << by.size << "; state what holds then, or wait until it does";
     throw StepFailure{text.str(), t};
   };
-  const double least = std::max(rounding_of_the_user, known);
+  const double least = std::max(start_tolerance, known);
   const Violation violation = position_violation(system, e, lengths);
   if (violation.size > least * scales.length)
     refuse(violation, " comes into force where it does not hold: it is violated by ");
@@ -269,8 +269,8 @@ std::vector<double> take_over(const Problem& problem, const Scales& scales, doub
   return impulses;
 }
 
-Start begin_anew(const Problem& problem, const Start& before, double t, std::span<const double> q,
-                 std::span<const double> v) {
+Start restart_with_rows(const Problem& problem, const Start& before, double t, std::span<const double> q,
+                        std::span<const double> v) {
   const System& system = problem.system();
   Start start = before;
   start.q.assign(q.begin(), q.end());

@@ -13,7 +13,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 
 /// A start that violates a constraint by less than this, relative to the scene's length or speed,
 /// is taken for one that obeys it in rounded numbers, and projected silently.
-inline constexpr double rounding_of_the_user = 1e-8;
+inline constexpr double start_tolerance = 1e-8;
 
 /// A state that satisfies the constraints at position, velocity and acceleration level.
 struct Start {
@@ -32,18 +32,20 @@ struct Start {
 /// A start from a state during a run whose constraints have changed since it began with `before`: put
 /// onto those that there are now, of which it is right to `known`, a part of the scene's length. Throws
 /// StepFailure where they contradict each other.
-[[nodiscard]] Start begin_changed(const Problem& problem, const Start& before, double t,
-                                  std::span<const double> q, std::span<const double> v, double known);
+[[nodiscard]] Start restart_with_constraints(const Problem& problem, const Start& before, double t,
+                                             std::span<const double> q, std::span<const double> v,
+                                             double known);
 
 /// Projects the velocities onto the constraints of the system that goes on from a given state, in the scales
 /// of a run; the impulses that this takes, one per row. Throws StepFailure where the positions do not
 /// satisfy them, naming the constraint; EquationFault.
-[[nodiscard]] std::vector<double> take_over(const Problem& problem, const Scales& scales, double t,
-                                            std::span<const double> q, std::span<double> v, double known);
+[[nodiscard]] std::vector<double> project_impulsively_onto(const Problem& problem, const Scales& scales,
+                                                           double t, std::span<const double> q,
+                                                           std::span<double> v, double known);
 
 /// A start from a state during a run that began with `before`, in its scales: put onto the
 /// constraints, with as many rows as before, chosen anew. Throws StepFailure where they are dependent.
-[[nodiscard]] Start begin_anew(const Problem& problem, const Start& before, double t,
-                               std::span<const double> q, std::span<const double> v);
+[[nodiscard]] Start restart_with_rows(const Problem& problem, const Start& before, double t,
+                                      std::span<const double> q, std::span<const double> v);
 
 }  // namespace dalembert

@@ -43,12 +43,12 @@ Comparisons::Comparisons(const Problem& problem, const Start& start, double t, d
   const auto make_manifold = [&] {
     if (!manifold_) manifold_.emplace(problem, start.rows, start.scales.lengths());
   };
-  if (system_->frictional()) make_manifold();
-  if (!hear({t, start.q, start.v}, nullptr, heard_)) heard_.clear();
-  any_ = std::ranges::any_of(heard_, [](const auto& batch) { return !batch.empty(); });
+  if (system_->has_multiplier_forces()) make_manifold();
+  if (!record_comparisons({t, start.q, start.v}, nullptr, recorded_)) recorded_.clear();
+  any_ = std::ranges::any_of(recorded_, [](const auto& batch) { return !batch.empty(); });
   if (!any_) return;
   make_manifold();
-  held_ = heard_;
+  held_ = recorded_;
   choose_sides(start);
   list_margins();
 }
@@ -71,23 +71,23 @@ void Comparisons::choose_sides(const Start& start) {
   for (double ahead = constants.instant_after * scales_.time; least > 0 && ahead < 1e-3 * scales_.time;
        ahead *= clearly) {
     move(at, ahead, other_);
-    if (!hear(other_.instant(), nullptr, heard_) || undecided(heard_) >= least) continue;
-    least = undecided(heard_);
-    held_ = heard_;
+    if (!record_comparisons(other_.instant(), nullptr, recorded_) || undecided(recorded_) >= least) continue;
+    least = undecided(recorded_);
+    held_ = recorded_;
     chosen_ = true;
   }
 }
 
-bool Comparisons::hear(const Instant& at, const Branches::Sides* held, Branches::Sides& out) {
+bool Comparisons::record_comparisons(const Instant& at, const Branches::Sides* held, Branches::Sides& out) {
   const Branches listening(&out, held);
   try {
-    if (!system_->frictional()) {
+    if (!system_->has_multiplier_forces()) {
       system_->evaluate(at, e_);
       return true;
     }
     if (!manifold_->accelerate(at, a_)) return false;
     manifold_->multipliers(lambda_);
-    system_->add_friction(at, lambda_, e_.force);
+    system_->add_multiplier_forces(at, lambda_, e_.force);
     return true;
   } catch (const EquationFault&) {
     return false;
@@ -118,15 +118,15 @@ void Comparisons::list_margins() {
 }
 
 /// What is no longer compared has left its side.
-int Comparisons::side_of(const Margin& of, const Branches::Sides& heard) {
-  const bool is_made = of.batch < heard.size() && of.comparison < heard[of.batch].size();
-  return is_made ? heard[of.batch][of.comparison].side : -1;
+int Comparisons::side_of(const Margin& of, const Branches::Sides& recorded) {
+  const bool is_made = of.batch < recorded.size() && of.comparison < recorded[of.batch].size();
+  return is_made ? recorded[of.batch][of.comparison].side : -1;
 }
 
-/// How far what was heard is from leaving its side: negative behind.
-double Comparisons::margin(const Margin& of, const Branches::Sides& heard) {
-  if (of.batch >= heard.size() || of.comparison >= heard[of.batch].size()) return unknown;
-  const double difference = heard[of.batch][of.comparison].difference;
+/// How far what was recorded is from leaving its side: negative behind.
+double Comparisons::margin(const Margin& of, const Branches::Sides& recorded) {
+  if (of.batch >= recorded.size() || of.comparison >= recorded[of.batch].size()) return unknown;
+  const double difference = recorded[of.batch][of.comparison].difference;
   if (std::isnan(difference)) return unknown;
   return of.side == 0 ? (difference == 0.0 ? 1.0 : -1.0) : of.side * difference;
 }
@@ -140,17 +140,17 @@ bool Comparisons::hear_step(double t, bool sketched) {
   } else {
     stepper_->interpolate(t, motion_.q, motion_.v);
   }
-  return hear(motion_.instant(), &held_, heard_);
+  return record_comparisons(motion_.instant(), &held_, recorded_);
 }
 
 void Comparisons::find_margins(double t, bool sketched, std::vector<double>& all) {
   all.assign(margins_.size(), unknown);
   if (!hear_step(t, sketched)) return;
-  for (std::size_t k = 0; k < all.size(); ++k) all[k] = margin(margins_[k], heard_);
+  for (std::size_t k = 0; k < all.size(); ++k) all[k] = margin(margins_[k], recorded_);
 }
 
-/// Of the motion in the step. All are heard together, each time once: one evaluation of the equations serves
-/// every margin.
+/// Of the motion in the step. All are recorded together, each time once: one evaluation of the equations
+/// serves every margin.
 double Comparisons::margin_at(std::size_t k, double t) {
   std::vector<double>& all = in_step_[t];
   if (all.empty()) find_margins(t, false, all);
@@ -159,10 +159,10 @@ double Comparisons::margin_at(std::size_t k, double t) {
 
 /// By how much margins bend over the part of a step that is looked at: with all their values between its
 /// ends.
-void Comparisons::note_bend(double t, double to, const Branches::Sides& heard) {
+void Comparisons::note_bend(double t, double to, const Branches::Sides& recorded) {
   const double x = (t - from_) / (to - from_);
   for (std::size_t k = 0; k < margins_.size(); ++k) {
-    const double value = margin(margins_[k], heard);
+    const double value = margin(margins_[k], recorded);
     least_[k] = std::min(least_[k], value);
     const double bend = 2.0 * std::abs(value - ((1.0 - x) * at_from_[k] + x * at_end_[k]));
     if (!(bend <= bend_[k])) bend_[k] = bend;
@@ -181,8 +181,8 @@ const std::vector<std::size_t>& Comparisons::suspects(double to) {
   const auto on_the_way = from_ == start_of_step_ ? stepper_->compared() : std::span<const Compared>{};
   for (const Compared& one : on_the_way) note_bend(one.t, to, one.sides);
   const double x = on_the_way.empty() ? 0.5 : between_stages, t = from_ + x * (to - from_);
-  if (!hear_step(t, true)) heard_.clear();
-  note_bend(t, to, heard_);
+  if (!hear_step(t, true)) recorded_.clear();
+  note_bend(t, to, recorded_);
   suspects_.clear();
   for (std::size_t k = 0; k < margins_.size(); ++k) {
     if (std::ranges::find(passed_, margins_[k]) != passed_.end()) continue;
@@ -242,7 +242,7 @@ std::optional<Comparisons::Root> Comparisons::first_switch(double to) {
 /// The margin of a motion that goes on with its own accelerations.
 double Comparisons::margin_ahead(std::size_t k, const Motion& from, double ahead) {
   move(from, ahead, other_);
-  return hear(other_.instant(), &held_, heard_) ? margin(margins_[k], heard_) : -unknown;
+  return record_comparisons(other_.instant(), &held_, recorded_) ? margin(margins_[k], recorded_) : -unknown;
 }
 
 /// What roundings of the coordinates, up and down by turns, make of a margin.
@@ -253,8 +253,8 @@ double Comparisons::rounding(std::size_t k, const Motion& at) {
     move(at, 0.0, other_);
     for (std::size_t i = 0; i < at.q.size(); ++i)
       other_.q[i] *= i / turns % 2 == 0 ? 1.0 + epsilon : 1.0 - epsilon;
-    if (hear(other_.instant(), &held_, heard_))
-      most = std::max(most, std::abs(margin(margins_[k], heard_) - here));
+    if (record_comparisons(other_.instant(), &held_, recorded_))
+      most = std::max(most, std::abs(margin(margins_[k], recorded_) - here));
   }
   return most;
 }
@@ -262,7 +262,7 @@ double Comparisons::rounding(std::size_t k, const Motion& at) {
 /// The sides where a switch has been left.
 bool Comparisons::hear_behind(Switch& one) {
   move(one.at, one.ahead, other_);
-  return hear(other_.instant(), nullptr, one.behind);
+  return record_comparisons(other_.instant(), nullptr, one.behind);
 }
 
 /// The motion behind has left its side: a difference that is 0 there, as of multipliers that are round-off,
@@ -271,7 +271,7 @@ Comparisons::Switch Comparisons::behind(const Root& root, double step) {
   Switch one{};
   one.margin = root.margin;
   one.step = step;
-  one.distance = hear_step(root.t, false) ? std::abs(margin(margins_[root.margin], heard_)) : unknown;
+  one.distance = hear_step(root.t, false) ? std::abs(margin(margins_[root.margin], recorded_)) : unknown;
   one.at = motion_;
   if (!accelerate(one.at, held_)) throw linearly_dependent(root.t);
   one.distance = std::max(one.distance, rounding(root.margin, one.at));

@@ -75,16 +75,16 @@ class Comparisons {
     std::size_t margin;
   };
   void choose_sides(const Start& start);
-  [[nodiscard]] bool hear(const Instant& at, const Branches::Sides* held, Branches::Sides& out);
+  [[nodiscard]] bool record_comparisons(const Instant& at, const Branches::Sides* held, Branches::Sides& out);
   [[nodiscard]] bool accelerate(Motion& at, const Branches::Sides& held);
   void list_margins();
-  [[nodiscard]] static double margin(const Margin& of, const Branches::Sides& heard);
-  [[nodiscard]] static int side_of(const Margin& of, const Branches::Sides& heard);
+  [[nodiscard]] static double margin(const Margin& of, const Branches::Sides& recorded);
+  [[nodiscard]] static int side_of(const Margin& of, const Branches::Sides& recorded);
   [[nodiscard]] bool hear_behind(Switch& one);
   [[nodiscard]] bool hear_step(double t, bool sketched);
   void find_margins(double t, bool sketched, std::vector<double>& all);
   [[nodiscard]] double margin_at(std::size_t k, double t);
-  void note_bend(double t, double to, const Branches::Sides& heard);
+  void note_bend(double t, double to, const Branches::Sides& recorded);
   [[nodiscard]] double margin_ahead(std::size_t k, const Motion& from, double ahead);
   [[nodiscard]] double rounding(std::size_t k, const Motion& at);
 
@@ -104,7 +104,7 @@ class Comparisons {
   System::Evaluation e_;
   std::vector<double> lambda_, a_;
   bool any_ = false, chosen_ = false;
-  Branches::Sides held_, heard_;
+  Branches::Sides held_, recorded_;
   std::vector<Margin> margins_;
   std::vector<Margin> passed_;      // in the step that is looked at, without effect
   TimeStepper* stepper_ = nullptr;  // of the step that is looked at

@@ -42,7 +42,7 @@ EventWatch::EventWatch(std::vector<FlatEvent> events, Rate rate, const Layout& l
   }
 }
 
-void EventWatch::begin_anew(const Beginning& beginning) {
+void EventWatch::restart(const Beginning& beginning) {
   from_ = beginning.start.time;
   asked_for_ = beginning.positive;
   resolved_ = beginning.timed ? events_.size() : asked_for_;
@@ -53,14 +53,15 @@ void EventWatch::begin_anew(const Beginning& beginning) {
     forget_behind(e, from_);
     at_from_.push_back(value(e, beginning.start));
     side_.push_back(e < asked_for_ ? first_side(e, at_from_.back()) : at_from_.back() < 0.0 ? -1 : 1);
-    const auto next = std::ranges::find(beginning.left, e, [](const Found& one) { return one.what.event; });
+    const auto next =
+        std::ranges::find(beginning.left, e, [](const Found& one) { return one.record.source; });
     if (next != beginning.left.end() && side_[e] == 0) side_[e] = next->before;
     if (side_[e] == 0 && largest_[e] > 0.0) depart(e, beginning);
     at_root_[e] = 0.0;
   }
 }
 
-std::optional<std::size_t> EventWatch::fallen_at_start(std::size_t first, std::size_t count) const {
+std::optional<std::size_t> EventWatch::triggered_at_start(std::size_t first, std::size_t count) const {
   for (std::size_t e = first; e < first + count; ++e)
     if (at_from_[e] < 0.0) return e;
   return std::nullopt;
@@ -243,7 +244,7 @@ std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& ste
   return parts;
 }
 
-std::vector<EventWatch::Found> EventWatch::look(const Step& step) {
+std::vector<EventWatch::Found> EventWatch::locate(const Step& step) {
   largest_before_ = largest_;
   for (auto& values : seen_) values.clear();
   const int degree = resolved_ > 0 ? std::max(step.degree, least_degree) : step.degree;
@@ -273,7 +274,7 @@ std::vector<EventWatch::Found> EventWatch::look(const Step& step) {
     at_from_[e] = at_end;
     find(e, step, parts, found);
   }
-  std::ranges::stable_sort(found, {}, [](const Found& one) { return one.what.time; });
+  std::ranges::stable_sort(found, {}, [](const Found& one) { return one.record.time; });
   from_ = step.to;
   return found;
 }

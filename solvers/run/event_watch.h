@@ -36,7 +36,7 @@ class EventWatch {
   };
   /// A crossing, the sign that the function had before, and whether that way was asked for.
   struct Found {
-    Occurrence what;
+    EventRecord record;
     int before;
     bool wanted;
   };
@@ -49,7 +49,7 @@ class EventWatch {
 
   /// Every crossing in a step, in the order of time; of contacts those that were asked for. Throws
   /// StepFailure if a function throws, gives no number or cannot be followed.
-  [[nodiscard]] std::vector<Found> look(const Step& step);
+  [[nodiscard]] std::vector<Found> locate(const Step& step);
   /// Where a run begins, or begins anew.
   struct Beginning {
     const FlatSample& start;
@@ -65,10 +65,10 @@ class EventWatch {
   /// crossing. One that is 0, to round-off of its largest value so far, has the sign to which it leaves 0; as
   /// long as it does not leave it has none. Throws StepFailure where changes of an event accumulate: what one
   /// turned back no longer shows how it leaves.
-  void begin_anew(const Beginning& beginning);
+  void restart(const Beginning& beginning);
   /// The first of `count` functions from this one on, of contacts, that is negative there: no crossing shows
   /// it.
-  [[nodiscard]] std::optional<std::size_t> fallen_at_start(std::size_t first, std::size_t count) const;
+  [[nodiscard]] std::optional<std::size_t> triggered_at_start(std::size_t first, std::size_t count) const;
   /// Throws StepFailure: the changes of an event accumulate.
   [[noreturn]] void chatters(std::size_t event, double t) const;
   [[nodiscard]] const FlatEvent& event(std::size_t number) const { return events_[number]; }

@@ -3,7 +3,7 @@
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/run/chebyshev.h>
-#include <dalembert/solvers/run/reader.h>
+#include <dalembert/solvers/run/output_projection.h>
 
 #include <algorithm>
 #include <iterator>
@@ -24,7 +24,7 @@ std::string at(double t) {
 
 }  // namespace
 
-void KeptSteps::begin(std::shared_ptr<const System> system, const Start& start, double t) {
+void KeptSteps::add_segment(std::shared_ptr<const System> system, const Start& start, double t) {
   segments_.push_back({system, start, t, steps_.size()});
   if (!steps_.empty()) end(t);
   system_ = std::move(system);
@@ -35,7 +35,7 @@ void KeptSteps::end(double t) { steps_.back().end = std::max(t, steps_.back().fr
 void KeptSteps::add(TimeStepper& stepper, double from, long number) {
   const std::size_t n = system_->coordinates(), m = system_->compliant() ? system_->rows() : 0;
   Step step{from, stepper.time(), stepper.time(), number, stepper.degree(), values_.size(), 0.0};
-  Springs springs(m);
+  CompliantMultipliers compliant(m);
   for (int j = 0; j <= step.degree; ++j) {
     const double t = chebyshev_node(step.from, step.to, j, step.degree);
     const std::size_t first = values_.size();
@@ -48,9 +48,9 @@ void KeptSteps::add(TimeStepper& stepper, double from, long number) {
     } else {
       stepper.interpolate(t, q, v);
     }
-    if (m == 0 || !stepper.springs(t, springs)) continue;
-    step.c = springs.c;
-    for (const auto* part : springs.parts()) values_.insert(values_.end(), part->begin(), part->end());
+    if (m == 0 || !stepper.compliant_multipliers(t, compliant)) continue;
+    step.c = compliant.c;
+    for (const auto* part : compliant.parts()) values_.insert(values_.end(), part->begin(), part->end());
   }
   steps_.push_back(step);
 }
@@ -68,10 +68,11 @@ const KeptSteps::Step& KeptSteps::step_at(double t) const {
   return first == steps_.end() ? steps_.back() : *first;
 }
 
-void KeptSteps::interpolate(const Step& step, double t, Moment& m, Springs& springs) const {
+void KeptSteps::interpolate(const Step& step, double t, OutputState& m,
+                            CompliantMultipliers& compliant) const {
   std::vector<std::vector<double>*> parts{&m.q, &m.v};
-  springs.c = step.c;
-  if (step.c > 0.0) std::ranges::copy(springs.parts(), std::back_inserter(parts));
+  compliant.c = step.c;
+  if (step.c > 0.0) std::ranges::copy(compliant.parts(), std::back_inserter(parts));
   for (auto* part : parts) std::ranges::fill(*part, 0.0);
   const double* next = values_.data() + step.first;
   for (const double weight : lagrange_polynomials(step.from, step.to, t, step.degree)) {
@@ -83,22 +84,23 @@ void KeptSteps::interpolate(const Step& step, double t, Moment& m, Springs& spri
 }
 
 void KeptSteps::read(std::span<const double> times, Record& out) const {
-  Springs springs(system_->rows());
-  const Segment* segment = nullptr;
-  std::optional<Reader> reader;
-  std::optional<Moment> now;
+  CompliantMultipliers compliant(system_->rows());
+  const KeptSegment* segment = nullptr;
+  std::optional<OutputProjection> output;
+  std::optional<OutputState> now;
   for (const double t : times) {
     const Step& step = step_at(t);
     const auto number = static_cast<std::size_t>(&step - steps_.data());
-    const Segment& own = *std::prev(std::ranges::upper_bound(segments_, number, {}, &Segment::first_step));
+    const KeptSegment& own =
+        *std::prev(std::ranges::upper_bound(segments_, number, {}, &KeptSegment::first_step));
     if (std::exchange(segment, &own) != &own) {
-      reader.emplace(Problem(own.system), own.start, tolerance_);
+      output.emplace(Problem(own.system), own.start, tolerance_);
       now.emplace(*own.system, own.start);
-      out.go_on_with(own.system->layout());
+      out.use_layout(own.system->layout());
     }
-    interpolate(step, t, *now, springs);
+    interpolate(step, t, *now, compliant);
     try {
-      reader->read(*now, step.c > 0.0 ? &springs : nullptr, step.number);
+      output->read(*now, step.c > 0.0 ? &compliant : nullptr, step.number);
     } catch (const StepFailure& failure) {
       throw EquationFault(at(t) + failure.what);
     }

@@ -2,8 +2,8 @@
 
 #include <dalembert/core/results/trajectory.h>
 #include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/manifold/compliant_multipliers.h>
 #include <dalembert/solvers/manifold/recovery.h>
-#include <dalembert/solvers/manifold/springs.h>
 #include <dalembert/solvers/manifold/start.h>
 #include <dalembert/solvers/run/time_stepper.h>
 
@@ -22,7 +22,7 @@ class KeptSteps final : public DenseOutput {
 
   /// From here on the steps are those of a run that begins, or begins anew, with `start` at time t, maybe
   /// with another system. If it throws nothing has changed.
-  void begin(std::shared_ptr<const System> system, const Start& start, double t);
+  void add_segment(std::shared_ptr<const System> system, const Start& start, double t);
   /// What the last step's polynomial has beyond a time is no part of the run.
   void end(double t);
   [[nodiscard]] double end() const { return steps_.back().end; }
@@ -33,7 +33,7 @@ class KeptSteps final : public DenseOutput {
   void read(std::span<const double> times, Record& out) const override;
 
  private:
-  struct Segment {
+  struct KeptSegment {
     std::shared_ptr<const System> system;
     Start start;
     double from;
@@ -45,14 +45,14 @@ class KeptSteps final : public DenseOutput {
     long number;
     int degree;
     std::size_t first;  // of its values
-    double c;           // see Springs; 0 if the state has none
+    double c;           // see CompliantMultipliers; 0 if the state has none
   };
   [[nodiscard]] const Step& step_at(double t) const;
-  void interpolate(const Step& step, double t, Moment& m, Springs& springs) const;
+  void interpolate(const Step& step, double t, OutputState& m, CompliantMultipliers& compliant) const;
 
   std::shared_ptr<const System> system_;
   double tolerance_;
-  std::vector<Segment> segments_;
+  std::vector<KeptSegment> segments_;
   std::vector<Step> steps_;
   std::vector<double> values_;  // per step and node: q, v, and of springs lambda and its derivatives
 };

@@ -55,8 +55,8 @@ Sticking::Sticking(const Problem& problem, const Start& start, double tolerance)
       lambda_(start.lambda) {}
 
 void Sticking::find_slope(const Motion& at, Slope& side) {
-  side.resize(system_->friction_pattern().size());
-  system_->friction_slope(at.instant(), lambda_, side);
+  side.resize(system_->multiplier_force_pattern().size());
+  system_->multiplier_force_slope(at.instant(), lambda_, side);
 }
 
 bool Sticking::accelerate(Motion& at, Slope& side) {
@@ -101,12 +101,12 @@ void Sticking::watch(double t, std::span<const double> q, std::span<const double
   now_.v.assign(v.begin(), v.end());
   // A step may have crossed what has no acceleration, or several (Painleve): that throws.
   static_cast<void>(accelerate(now_, side_));
-  if (begun_)
+  if (started_)
     require_no_stop();
   else
     require_leaving();
   std::swap(last_, now_);
-  begun_ = true;
+  started_ = true;
 }
 
 /// Whether what is at rest may leave.

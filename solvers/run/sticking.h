@@ -68,7 +68,7 @@ class Sticking {
   std::vector<double> lambda_;
   Motion last_, now_, trial_;
   Slope side_, near_, far_;  // work
-  bool begun_ = false;
+  bool started_ = false;
 };
 
 }  // namespace dalembert

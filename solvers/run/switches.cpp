@@ -9,19 +9,19 @@ namespace dalembert {
 
 Switches::Switches(const System& system) : system_(&system) {
   std::string label;
-  for (std::size_t k = 0; k < system.stated_friction_entries(); ++k) {
-    const std::string own = system.force_of_friction(k);
+  for (std::size_t k = 0; k < system.stated_multiplier_force_entries(); ++k) {
+    const std::string own = system.name_of_multiplier_force(k);
     if (own != std::exchange(label, own)) first_.push_back(k);
   }
-  first_.push_back(system.stated_friction_entries());
+  first_.push_back(system.stated_multiplier_force_entries());
 }
 
-void Switches::make_room(Slope& slope) const { slope.reserve(system_->friction_pattern().size()); }
+void Switches::make_room(Slope& slope) const { slope.reserve(system_->multiplier_force_pattern().size()); }
 
 void Switches::find(const Instant& at, std::span<const double> lambda, Slope& out) const {
-  out.resize(system_->friction_pattern().size());
+  out.resize(system_->multiplier_force_pattern().size());
   try {
-    system_->friction_slope(at, lambda, out);
+    system_->multiplier_force_slope(at, lambda, out);
   } catch (const EquationFault&) {  // where it reverses it may have no derivative
     out.clear();
   }

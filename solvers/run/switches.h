@@ -33,7 +33,9 @@ class Switches {
   [[nodiscard]] bool returns(const Slope& a, const Slope& b, const Slope& c) const;
   /// The friction that turned from `a` to `b`, if one did.
   [[nodiscard]] std::optional<std::size_t> turned(const Slope& a, const Slope& b) const;
-  [[nodiscard]] std::string friction(std::size_t i) const { return system_->force_of_friction(first_[i]); }
+  [[nodiscard]] std::string friction(std::size_t i) const {
+    return system_->name_of_multiplier_force(first_[i]);
+  }
   /// The length of a friction's slope.
   [[nodiscard]] double steepness(const Slope& a, std::size_t i) const { return std::sqrt(turn(a, a, i)); }
   /// Whether some friction has no slope: of Coulomb's, nothing slides.

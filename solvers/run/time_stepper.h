@@ -4,7 +4,7 @@
 #include <dalembert/core/results/statistics.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/base/step_failure.h>
-#include <dalembert/solvers/manifold/springs.h>
+#include <dalembert/solvers/manifold/compliant_multipliers.h>
 #include <dalembert/solvers/run/accumulated_error.h>
 
 #include <span>
@@ -25,9 +25,9 @@ class TimeStepper {
   /// One accepted step, not beyond t_end; `wanted` is the next time of output. Throws StepFailure.
   virtual void step(double wanted) = 0;
   /// Before the first step: that begins at a switch, where the equations may have no higher derivatives.
-  virtual void begins_at_switch() {}
+  virtual void starts_at_switch() {}
   /// Steps are taken on these sides: what they compare on their way may be noted.
-  virtual void listen(const Branches::Sides& /*held*/) {}
+  virtual void hold_sides(const Branches::Sides& /*held*/) {}
   /// Inside the last step, to what a look at the motion needs. Empty if nothing was noted.
   [[nodiscard]] virtual std::span<const Compared> compared() const { return {}; }
   /// Where the last step ended.
@@ -43,7 +43,7 @@ class TimeStepper {
   /// Its degree as a polynomial in t, at most.
   [[nodiscard]] virtual int degree() const = 0;
   /// The multipliers of compliant rows at such a time. False if the positions determine them.
-  [[nodiscard]] virtual bool springs(double t, Springs& out) const = 0;
+  [[nodiscard]] virtual bool compliant_multipliers(double t, CompliantMultipliers& out) const = 0;
   /// Adds its counts.
   virtual void count(Statistics& statistics) const = 0;
 };

@@ -107,7 +107,7 @@ TEST(TorsionSpring, StopsTheRunWhereItsAngleIsNoLongerKnown) {
       ADD_FAILURE() << "must be refused";
     } catch (const IntegrationFailure& failure) {
       EXPECT_NE(std::string(failure.what()).find("coil"), std::string::npos) << failure.what();
-      EXPECT_NE(std::string(failure.what()).find("Winding"), std::string::npos) << failure.what();
+      EXPECT_NE(std::string(failure.what()).find("TurnCounter"), std::string::npos) << failure.what();
     }
   }
 }

@@ -171,8 +171,8 @@ TEST_P(GearTrain, LosesNoTooth) {
   add_joint(scene, Gear{a, b, O, P, z1, z2}, "mesh");
   const Rotor turns_a = scene.add_rotor({.inertia = 1e-3, .angular_velocity = w1});
   const Rotor turns_b = scene.add_rotor({.inertia = 1e-3, .angular_velocity = w2});
-  scene.add(Winding{pin_a, turns_a});
-  scene.add(Winding{pin_b, turns_b});
+  scene.add(TurnCounter{pin_a, turns_a});
+  scene.add(TurnCounter{pin_b, turns_b});
   const auto run = simulate(scene, {.t_end = 60.0, .samples = 13, .tolerance = 1e-3, .stepper = GetParam()});
   for (std::size_t i = 0; i < run.size(); ++i) {
     const double phi_a = run.angle(turns_a, i), phi_b = run.angle(turns_b, i);

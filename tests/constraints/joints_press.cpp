@@ -67,7 +67,7 @@ TEST_P(ScrewPress, LosesNoThread) {
     const auto wheel = add_body<3>(scene, {.mass = 5.0, .inertia = {6e-5, 6e-5, its_J}}, "wheel");
     const auto nut = add_joint(scene, Screw{Ground<3>{}, wheel, {0, 0, 0}, {0, 0, 1}, fine}, "nut");
     const Rotor turns = scene.add_rotor({.inertia = counter}, "turns");
-    scene.add(Winding{nut, turns});
+    scene.add(TurnCounter{nut, turns});
     const double a = 5.0 * gravity / ((its_J + counter) / (per * per) + 5.0), T = std::sqrt(2.0 * drop / a);
     const auto run =
         simulate(scene, {.t_end = T, .samples = 31, .tolerance = tolerance, .stepper = GetParam()});

@@ -1,5 +1,5 @@
 #include "laws.h"
-#include <dalembert/constraints/heading.h>
+#include <dalembert/constraints/knife_edge.h>
 #include <dalembert/constraints/pursuit.h>
 #include <dalembert/constraints/rolling.h>
 
@@ -13,7 +13,7 @@ const bool registered = [] {
         Rolling{a, scene.add_rotor({.inertia = 1.0}), driven([](auto t) { return vec(t, sin(t)); }), b, 0.4});
   });
   invariant<2>("HeadingAlongADrivenDirection", [](auto& scene, auto& at, auto a, auto b) {
-    scene.add(Heading{a, b, driven([at](auto t) { return at.point(2.0 + t, sin(t)); })});
+    scene.add(KnifeEdge{a, b, driven([at](auto t) { return at.point(2.0 + t, sin(t)); })});
   });
   invariant<2>("Pursuit", [](auto& scene, auto& at, auto a, auto) {
     scene.add(Pursuit{a, driven([at](auto t) { return at.point(0.5 * t, 2.0 + sin(t)); })});

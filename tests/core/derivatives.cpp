@@ -257,17 +257,18 @@ TEST(Derivatives, SignedZerosAndTiesGoAsInStd) {
 
 TEST(Derivatives, ReportEveryKinkAndJump) {
   using S = Jet<1>;
-  const auto heard = [](double x, auto f) {
-    Branches::Sides heard;
-    const Branches listen(&heard, nullptr);
-    Branches::begin_batch(0);
+  const auto recorded = [](double x, auto f) {
+    Branches::Sides recorded;
+    const Branches listen(&recorded, nullptr);
+    Branches::enter_batch(0);
     (void)f(S::input(x, 0));
     std::vector<std::pair<int, double>> outcomes;
-    for (const auto& one : heard[0]) outcomes.push_back({one.side, one.piece});
+    for (const auto& one : recorded[0]) outcomes.push_back({one.side, one.piece});
     return outcomes;
   };
-  const auto tells = [&heard](double before, double behind, auto f) {
-    return heard(before, f) != heard(behind, f) && heard(before, f) == heard(std::nextafter(before, -9.0), f);
+  const auto tells = [&recorded](double before, double behind, auto f) {
+    return recorded(before, f) != recorded(behind, f) &&
+           recorded(before, f) == recorded(std::nextafter(before, -9.0), f);
   };
   EXPECT_TRUE(tells(0.9, 1.1, [](const S& x) { return max(x, 1.0); }));
   EXPECT_TRUE(tells(0.9, 1.1, [](const S& x) { return min(x, 1.0); }));
@@ -279,7 +280,8 @@ TEST(Derivatives, ReportEveryKinkAndJump) {
   EXPECT_TRUE(tells(0.9, 1.1, [](const S& x) { return trunc(x); }));
   EXPECT_TRUE(tells(0.4, 0.6, [](const S& x) { return round(x); }));
   EXPECT_TRUE(tells(0.9, 1.1, [](const S& x) { return fmod(x, 1.0); }));
-  EXPECT_EQ(heard(0.9, [](const S& x) { return exp(x); }), heard(1.1, [](const S& x) { return exp(x); }));
+  EXPECT_EQ(recorded(0.9, [](const S& x) { return exp(x); }),
+            recorded(1.1, [](const S& x) { return exp(x); }));
 }
 
 TEST(Derivatives, ThatAreSingularAreNotFinite) {

@@ -38,14 +38,14 @@ TEST(VirtualWork, FindsThePowerThatADrivenWirePutsIn) {
   const double omega = 1.5;
   Scene<2> scene;
   const auto bead = scene.add_particle({.mass = 2.0, .position = {1.0, 0.0}, .velocity = {0.0, omega}});
-  scene.add(LineOffset{bead, Fixed<2>{},
-                       driven([omega](auto t) { return vec(cos(omega * t), sin(omega * t)); }), 0.0},
+  scene.add(PointLineDistance{bead, Fixed<2>{},
+                              driven([omega](auto t) { return vec(cos(omega * t), sin(omega * t)); }), 0.0},
             "wire");
   const auto run = simulate(scene, {.t_end = 1.0, .samples = 2, .tolerance = 1e-10});
   const VirtualWork at = virtual_work(scene, run.sample(1));
   const double r = std::cosh(omega);
   const double rate = omega * std::sinh(omega);
-  EXPECT_EQ(at.constraints[0].name, "LineOffset \"wire\"");
+  EXPECT_EQ(at.constraints[0].name, "PointLineDistance \"wire\"");
   // The run errs by at most about a thousand times its tolerance over this growth by cosh(1.5).
   EXPECT_NEAR(at.constraints[0].power, 2.0 * 2.0 * omega * omega * r * rate, 1e-7 * at.constraints[0].power);
   EXPECT_LE(at.largest, operations * epsilon * at.largest_force);

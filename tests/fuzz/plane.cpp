@@ -35,8 +35,8 @@ void add_wheel_on_track(Draft<2>& draft) {
   const Vec<2> r_a = draft.numbers(foot - draft.plan.length * draft.random.decades(-1.0, 0.5) * e);
   const Fixed<2> a{r_a}, b{foot + draft.plan.length * e};
   if (!draft.take(1, {p.owner})) return;
-  draft.add(call_text("LineOffset", p.text, write<2>(a.position), write<2>(b.position), radius),
-            LineOffset{handle(p), a, b, radius});
+  draft.add(call_text("PointLineDistance", p.text, write<2>(a.position), write<2>(b.position), radius),
+            PointLineDistance{handle(p), a, b, radius});
   if (!draft.take(1, {p.owner, wheel.owner}) && !draft.random.chance(0.3)) return;
   draft.add(call_text("Rolling", p.text, wheel.text, write<2>(a.position), write<2>(b.position), radius),
             Rolling{handle(p), wheel.rotor, a, b, radius});
@@ -50,8 +50,8 @@ void add_bead_on_line(Draft<2>& draft) {
   if (!draft.take(1, {p.owner, a.owner, b.owner})) return;
   const Vec<2> e = (b.r - a.r).normalized(), d = p.r - a.r;
   const double offset = draft.number(e.x() * d.y() - e.y() * d.x());
-  draft.add(call_text("LineOffset", p.text, a.text, b.text, offset),
-            LineOffset{handle(p), handle(a), handle(b), offset});
+  draft.add(call_text("PointLineDistance", p.text, a.text, b.text, offset),
+            PointLineDistance{handle(p), handle(a), handle(b), offset});
 }
 
 void add_upright(Draft<2>& draft) {
@@ -70,7 +70,7 @@ void add_heading(Draft<2>& draft) {
   const Place<2> to = draft.ground();
   const auto* goal = std::get_if<Fixed<2>>(&to.point);
   if (goal == nullptr || !draft.take(1, {p.owner})) return;
-  draft.add(call_text("Heading", p.text, from.text, to.text), Heading{handle(p), handle(from), *goal});
+  draft.add(call_text("Heading", p.text, from.text, to.text), KnifeEdge{handle(p), handle(from), *goal});
 }
 
 /// The prey lies ahead.

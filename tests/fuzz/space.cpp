@@ -60,9 +60,9 @@ void add_in_plane(Draft<3>& draft, const Place<3>& p) {
   const Vec<3> point = p.r + draft.plan.length * draft.random.direction<3>();
   const Axis axis{draft.numbers(point), draft.numbers(draft.random.direction<3>()), p.r - point};
   const Swing angle{0.0, draft.size(1.0), draft.size(1.0 / draft.plan.time), draft.plan.options.t_start};
-  draft.add(call_text("InPlane", p.text, write<3>(axis.point), write<3>(axis.direction), write<3>(axis.zero),
-                      angle.amplitude, angle.omega),
-            InPlane{handle(p), axis, angle});
+  draft.add(call_text("RotatingPlane", p.text, write<3>(axis.point), write<3>(axis.direction),
+                      write<3>(axis.zero), angle.amplitude, angle.omega),
+            RotatingPlane{handle(p), axis, angle});
 }
 
 }  // namespace

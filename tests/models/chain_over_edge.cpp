@@ -194,7 +194,7 @@ TEST_P(ChainOverEdgeBy, HasToBeHeldDownFromWhereTheTensionNoLongerTurnsIt) {
     };
     const auto result = run(system, chain, options(system, 2), {{"pulls", towards_table}});
     ASSERT_FALSE(result.events().empty());
-    ASSERT_EQ(result.events()[0].event, 1U);
+    ASSERT_EQ(result.events()[0].source, 1U);
     // Without friction, sigma R more in (A - h) h = h^2 - B^2 moves h by h sigma R/(4 h - A), on to its
     // second order; less with friction, for what is braked is less.
     const double sharp = system.time_of_pulling(), rate = std::sqrt(system.gravity / system.length);

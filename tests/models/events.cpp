@@ -35,8 +35,8 @@ INSTANTIATE_TEST_SUITE_P(Steppers, ModelsWithEvents, both_steppers, stepper_name
 template <int D>
 std::size_t struck(const Trajectory<D>& run, Constraint<1> contact, int k = 0) {
   for (std::size_t i = 0; i < run.events().size(); ++i) {
-    const Occurrence& its = run.events()[i];
-    if (its.what == Happened::struck && its.event == static_cast<std::size_t>(contact.index) && k-- == 0)
+    const EventRecord& its = run.events()[i];
+    if (its.kind == EventKind::struck && its.source == static_cast<std::size_t>(contact.index) && k-- == 0)
       return i;
   }
   throw Error("no such impact");

@@ -42,7 +42,7 @@ TEST_P(ModelsWithFriction, TheBlockIsWhereTheBeltAndTheSpringTakeIt) {
   const double weight = model.weight(), X = model.balance(), d = model.excess();
   ASSERT_EQ(run.events().size(), 6U);
   for (std::size_t i = 1; i < 6; ++i) {
-    const double place = run.events()[i].what == Happened::slides ? X + d : X - d;
+    const double place = run.events()[i].kind == EventKind::slides ? X + d : X - d;
     EXPECT_NEAR(run.event_sample(i).position(built.block).x(), place, bound * X) << i;
     EXPECT_NEAR(run.event_sample(i).velocity(built.block).x(), model.belt, bound * model.frequency() * X)
         << i;
@@ -57,9 +57,9 @@ TEST_P(ModelsWithFriction, TheConeIsNeverExceeded) {
     for (std::size_t i = 0; i < run.size(); ++i) {
       const auto friction = std::abs(run.multiplier(rough, i)), most = std::abs(run.multiplier(pressing, i));
       bool sticks = false;
-      for (const Occurrence& its : run.events()) {
+      for (const EventRecord& its : run.events()) {
         if (its.time > run.times()[i]) break;
-        sticks = its.what == Happened::sticks;
+        sticks = its.kind == EventKind::sticks;
       }
       EXPECT_LE(friction, (sticks ? mu_static : mu) * most * (1.0 + bound)) << run.times()[i];
     }

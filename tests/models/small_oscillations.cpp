@@ -67,7 +67,7 @@ double period(const Scene<D>& scene, double expected,
 /// The period of the one vibration about the equilibrium near a scene's start. The closed form of its
 /// frequency agrees to the rounding of terms of size 1 to 100 over a few rows.
 template <int D>
-double mode_period(const Scene<D>& scene, double closed_form, const Turning<D>& turning = {}) {
+double mode_period(const Scene<D>& scene, double closed_form, const UniformRotation<D>& turning = {}) {
   const auto modes = normal_modes(scene, equilibrium(scene, {.turning = turning}));
   const double omega = modes.size() > 0 ? modes.frequency(modes.size() - 1) : NAN;
   EXPECT_NEAR(omega, closed_form, 1e3 * std::numeric_limits<double>::epsilon() * closed_form);
@@ -141,7 +141,7 @@ TEST(SmallOscillations, InASlowlyTurningHoopGoAboutTheBottom) {
     });
   };
   const auto hoop = HoopAboutDiameter{.spin = 2.0, .angle = 0.2}.scene();
-  const Turning<3> turning{.rate = {0.0, 0.0, 2.0}};
+  const UniformRotation<3> turning{.rate = {0.0, 0.0, 2.0}};
   expect_quadratic_deviation(mode_period(hoop.scene, std::sqrt(omega2), turning), 0.2, 1.0, period_from,
                              -3 * (2 * Omega2 / 3 - 9.81 / 6) / (8 * omega2));
 }
@@ -162,7 +162,7 @@ TEST(SmallOscillations, InAFastTurningHoopGoAboutWhereTheBeadIsThrown) {
       return Oscillation{s.position(built.bead).z() + std::cos(phi0), s.velocity(built.bead).z()};
     });
   };
-  const Turning<3> turning{.rate = {0.0, 0.0, hoop.spin}};
+  const UniformRotation<3> turning{.rate = {0.0, 0.0, hoop.spin}};
   expect_quadratic_deviation(mode_period(hoop.scene().scene, std::sqrt(omega2), turning), 0.1, 1.0,
                              period_from, 5 * A * A / (12 * omega2 * omega2) - 3 * B / (8 * omega2));
 }
@@ -180,7 +180,7 @@ TEST(SmallOscillations, OfTheGovernorGoAboutItsWorkingAngle) {
       return Oscillation{s.position(sleeve).z() + 2 * cosine, s.velocity(sleeve).z()};
     });
   };
-  const Turning<3> turning{.rate = {0.0, 0.0, governor.spin}};
+  const UniformRotation<3> turning{.rate = {0.0, 0.0, governor.spin}};
   expect_quadratic_deviation(mode_period(governor.scene().scene, two_pi / small, turning), 0.1, 1.0,
                              period_from, NAN);
 }
@@ -232,7 +232,7 @@ TEST(SmallOscillations, InTheConeGoByTheTurningOfTheCircularOrbit) {
     });
   };
   const auto orbit = ConeSlide{.half_angle = half_angle, .start_radius = 1.05}.scene();
-  const Turning<3> turning{.rate = {0.0, 0.0, std::sqrt(9.81 * cotangent)}};
+  const UniformRotation<3> turning{.rate = {0.0, 0.0, std::sqrt(9.81 * cotangent)}};
   expect_quadratic_deviation(mode_period(orbit.scene, two_pi / small, turning), 0.1, 1.0, period_from,
                              5.0 / 12);
 }

@@ -216,7 +216,7 @@ TEST(Branches, OfASkateForkWhereTheSpringAlongItsBladeSoftens) {
         Scene<2> scene("skate");
         const auto body = add_body(scene, {.mass = 2.0, .inertia = 0.1, .centre = {arm, 0.3}}, "skate");
         blade = body.point({-arm, 0.0});
-        edge = scene.add(Heading{blade, blade, body.centre()}, "blade");
+        edge = scene.add(KnifeEdge{blade, blade, body.centre()}, "blade");
         scene.add(potential(points(blade, body.centre()), [p](auto b, auto c) {
           const auto turned = c.y() - b.y(), square = b.x() * b.x();
           return 0.5 * p * square + 0.25 * square * square + 0.5 * b.y() * b.y() + 20.0 * turned * turned;

@@ -43,7 +43,7 @@ TEST_P(CertificateBy, ARestAfterInfinitelyManyImpactsHasATimeAndNoState) {
   ASSERT_TRUE(certificate.complete()) << certificate.statement();
   const std::size_t rest = certificate.run().events().size() - 1;
   const double truth = std::abs(certificate.run().events()[rest].time - 3.0 * std::sqrt(2.0 / g));
-  EXPECT_EQ(certificate.run().events()[rest].what, Happened::rested);
+  EXPECT_EQ(certificate.run().events()[rest].kind, EventKind::rested);
   EXPECT_GE(certificate.event_time_error(rest), 0.8 * truth);
   EXPECT_LT(certificate.event_time_error(rest), 1e-6);
   EXPECT_EQ(certificate.event_doubt(rest), Doubt::at_a_jump);
@@ -211,7 +211,7 @@ TEST_P(CertificateBy, FollowsABallToRest) {
               {.t_end = 1.5 * model.rest_time(), .samples = 11, .tolerance = 1e-6, .stepper = GetParam()});
   EXPECT_GT(certificate.reference().events().size(), certificate.run().events().size());
   ASSERT_TRUE(certificate.complete()) << certificate.statement();
-  ASSERT_EQ(certificate.run().events().back().what, Happened::rested);
+  ASSERT_EQ(certificate.run().events().back().kind, EventKind::rested);
   EXPECT_GE(certificate.event_time_error(certificate.run().events().size() - 1),
             0.8 * std::abs(certificate.run().events().back().time - model.rest_time()));
 }

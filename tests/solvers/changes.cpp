@@ -111,10 +111,10 @@ TEST_P(Changes, KickWhatRestsOnAFloor) {
   ASSERT_EQ(run.events().size(), 6U);  // kicked, and opened; struck, twice
   for (std::size_t k = 0; k < 6; k += 3) {
     const double t = 0.5 + static_cast<double>(k / 3);
-    EXPECT_EQ(run.events()[k].what, Happened::event);
+    EXPECT_EQ(run.events()[k].kind, EventKind::event);
     EXPECT_NEAR(run.events()[k].time, t, bound);
-    EXPECT_EQ(run.events()[k + 1].what, Happened::opened);
-    EXPECT_EQ(run.events()[k + 2].what, Happened::struck);
+    EXPECT_EQ(run.events()[k + 1].kind, EventKind::opened);
+    EXPECT_EQ(run.events()[k + 2].kind, EventKind::struck);
     EXPECT_NEAR(run.events()[k + 2].time, t + 2.0 / g, bound);
     EXPECT_NEAR(run.impulse(floor, k + 2), 1.0, bound);
   }
@@ -185,7 +185,7 @@ TEST_P(Changes, AndImpactsWhereAnEventEndsTheRunAreCarriedOut) {
                               .ends = true}});
   EXPECT_NEAR(run.times().back(), std::sqrt(1.0 / g), bound);
   ASSERT_EQ(run.events().size(), 2U);
-  EXPECT_EQ(run.events()[1].what, Happened::struck);
+  EXPECT_EQ(run.events()[1].kind, EventKind::struck);
   EXPECT_NEAR(run.impulse(floor, 1), std::sqrt(g), 10.0 * bound);
   EXPECT_NEAR(run.event_sample(1).velocity(ball).y(), -std::sqrt(g), 10.0 * bound);
   EXPECT_NEAR(run.sample_after(1).velocity(ball).y(), 0.0, bound);

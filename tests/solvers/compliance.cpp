@@ -119,7 +119,7 @@ TEST_P(Compliance, StuckBlockSlidesWhereItsSpringOvercomesFriction) {
       const auto rod = scene.add(compliant(Distance{pin, block, 1.0}, 1.0 / k), "rod");
       const auto run = simulate(scene, options(0.25, tolerance));
       ASSERT_FALSE(run.events().empty()) << k << ' ' << tolerance;
-      EXPECT_EQ(run.events()[0].what, Happened::slides);
+      EXPECT_EQ(run.events()[0].kind, EventKind::slides);
       EXPECT_NEAR(run.events()[0].time, std::asin(0.4) / 2.0, tolerance + k * 1e-15) << k << ' ' << tolerance;
       EXPECT_NEAR(run.event_sample(0).multiplier(rod), 4.0, 10.0 * tolerance + k * 1e-14);
       EXPECT_NEAR(run.multiplier(rough, 3), -run.multiplier(rod, 3), 10.0 * tolerance + k * 1e-14);

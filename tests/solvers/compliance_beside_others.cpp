@@ -16,8 +16,8 @@ namespace {
 
 constexpr double g = 9.81;
 
-/// Springs as constraints or as forces.
-struct Springs {
+/// CompliantMultipliers as constraints or as forces.
+struct CompliantMultipliers {
   bool compliant;
 
   template <int D, class A, class B>
@@ -59,7 +59,7 @@ constexpr double tolerance = 1e-9, bound = 2e4 * tolerance;
 class CompliantTwin : public testing::TestWithParam<Stepper> {
  protected:
   template <int D>
-  void compare(const std::function<Built<D>(Springs)>& build) {
+  void compare(const std::function<Built<D>(CompliantMultipliers)>& build) {
     const Built<D> own = build({true}), twin = build({false});
     const Options options{.t_end = own.t_end, .samples = 41, .tolerance = tolerance, .stepper = GetParam()};
     Options exact = options;
@@ -119,8 +119,8 @@ class CompliantTwin : public testing::TestWithParam<Stepper> {
       ASSERT_GT(std::min(own.size(), twin.size()), 3U);
     }
     for (std::size_t i = 0; i < (accumulate ? 3 : own.size()); ++i) {
-      EXPECT_EQ(own[i].what, twin[i].what) << i;
-      EXPECT_EQ(own[i].event, twin[i].event) << i;
+      EXPECT_EQ(own[i].kind, twin[i].kind) << i;
+      EXPECT_EQ(own[i].source, twin[i].source) << i;
       EXPECT_NEAR(own[i].time, twin[i].time, bound) << i;
     }
   }
@@ -128,7 +128,7 @@ class CompliantTwin : public testing::TestWithParam<Stepper> {
 INSTANTIATE_TEST_SUITE_P(Steppers, CompliantTwin, both_steppers, stepper_name);
 
 TEST_P(CompliantTwin, BesideRedundantRods) {
-  compare<2>([](Springs springs) {
+  compare<2>([](CompliantMultipliers springs) {
     Built<2> b("redundant");
     const auto bob = b.particle(1.0, {1.0, 0.0}), low = b.particle(0.5, {1.0, -1.0});
     b.constrain(Distance{Fixed<2>{}, bob, 1.0}, "rod");
@@ -139,7 +139,7 @@ TEST_P(CompliantTwin, BesideRedundantRods) {
 }
 
 TEST_P(CompliantTwin, BetweenThePointsOfARod) {
-  compare<2>([](Springs springs) {
+  compare<2>([](CompliantMultipliers springs) {
     Built<2> b("parallel");
     const auto bob = b.particle(1.0, {1.0, 0.0}), low = b.particle(0.5, {2.0, 0.0});
     b.constrain(Distance{Fixed<2>{}, bob, 1.0}, "rod");
@@ -151,7 +151,7 @@ TEST_P(CompliantTwin, BetweenThePointsOfARod) {
 }
 
 TEST_P(CompliantTwin, FromADrivenPin) {
-  compare<2>([](Springs springs) {
+  compare<2>([](CompliantMultipliers springs) {
     Built<2> b("driven");
     const auto bob = b.particle(1.0, {0.3, -1.0}), end = b.particle(0.2, {0.3, -1.5});
     b.constrain(Distance{bob, end, 0.5}, "rod");
@@ -163,7 +163,7 @@ TEST_P(CompliantTwin, FromADrivenPin) {
 }
 
 TEST_P(CompliantTwin, OfADumbbellThatBounces) {
-  compare<2>([](Springs springs) {
+  compare<2>([](CompliantMultipliers springs) {
     Built<2> b("bounces");
     const auto low = b.particle(1.0, {0.0, 0.45}), high = b.particle(2.0, {0.2, 1.4});
     b.constrain(unilateral(OnCurve{low, Plane<2>{}}, {.restitution = 0.8}), "floor");
@@ -175,7 +175,7 @@ TEST_P(CompliantTwin, OfADumbbellThatBounces) {
 }
 
 TEST_P(CompliantTwin, OfAStackThatLandsAndLifts) {
-  compare<2>([](Springs springs) {
+  compare<2>([](CompliantMultipliers springs) {
     Built<2> b("stack");
     const auto a = b.particle(1.0, {0.0, 0.2}), c = b.particle(2.0, {0.0, 1.2}),
                d = b.particle(1.0, {0.0, 2.2});
@@ -188,7 +188,7 @@ TEST_P(CompliantTwin, OfAStackThatLandsAndLifts) {
 }
 
 TEST_P(CompliantTwin, OfABallThatComesToRest) {
-  compare<2>([](Springs springs) {
+  compare<2>([](CompliantMultipliers springs) {
     Built<2> b("rests");
     const auto ball = b.particle(1.0, {0.0, 0.1});
     b.constrain(unilateral(OnCurve{ball, Plane<2>{}}, {.restitution = 0.4}), "floor");
@@ -199,7 +199,7 @@ TEST_P(CompliantTwin, OfABallThatComesToRest) {
 }
 
 TEST_P(CompliantTwin, OfABlockThatSticksAndSlips) {
-  compare<2>([](Springs springs) {
+  compare<2>([](CompliantMultipliers springs) {
     Built<2> b("stick-slip");
     const auto block = b.particle(1.0, {1.0, 0.0});
     const auto floor = b.constrain(OnCurve{block, Plane<2>{}}, "floor");
@@ -211,7 +211,7 @@ TEST_P(CompliantTwin, OfABlockThatSticksAndSlips) {
 }
 
 TEST_P(CompliantTwin, ThatPressesARoughContact) {
-  compare<2>([](Springs springs) {
+  compare<2>([](CompliantMultipliers springs) {
     Built<2> b("pressed");
     const auto block = b.particle(1.0, {0.0, 0.0}, {1.0, 0.0});
     const auto floor = b.constrain(unilateral(OnCurve{block, Plane<2>{}}), "floor");
@@ -222,7 +222,7 @@ TEST_P(CompliantTwin, ThatPressesARoughContact) {
 }
 
 TEST_P(CompliantTwin, OfAWheelThatRolls) {
-  compare<2>([](Springs springs) {
+  compare<2>([](CompliantMultipliers springs) {
     Built<2> b("wheel");
     const auto centre = b.particle(1.0, {0.0, 0.5}), trailer = b.particle(1.0, {-1.0, 0.4});
     const auto wheel = b.scene.add_rotor({.inertia = 0.1});
@@ -234,7 +234,7 @@ TEST_P(CompliantTwin, OfAWheelThatRolls) {
 }
 
 TEST_P(CompliantTwin, OfASkateWithATrailer) {
-  compare<2>([](Springs springs) {
+  compare<2>([](CompliantMultipliers springs) {
     Built<2> b("skate");
     const auto front = b.particle(1.0, {1.0, 0.0}, {1.0, 0.0}),
                rear = b.particle(1.0, {0.0, 0.0}, {1.0, 0.3});
@@ -250,7 +250,7 @@ TEST_P(CompliantTwin, OfASkateWithATrailer) {
 }
 
 TEST_P(CompliantTwin, BetweenHingedBodies) {
-  compare<2>([](Springs springs) {
+  compare<2>([](CompliantMultipliers springs) {
     Built<2> b("hinged");
     const auto arm = add_body<2>(b.scene, {.mass = 1.0, .inertia = 0.1, .centre = {0.5, 0.0}}, "arm");
     const auto hand = add_body<2>(b.scene, {.mass = 0.5, .inertia = 0.05, .centre = {1.5, 0.0}}, "hand");
@@ -264,7 +264,7 @@ TEST_P(CompliantTwin, BetweenHingedBodies) {
 }
 
 TEST_P(CompliantTwin, OfABodyInSpace) {
-  compare<3>([](Springs springs) {
+  compare<3>([](CompliantMultipliers springs) {
     Built<3> b("hung");
     const auto body = add_body<3>(
         b.scene, {.mass = 2.0, .inertia = {0.2, 0.3, 0.4}, .angular_velocity = {0.5, 1.0, -0.5}}, "body");
@@ -278,7 +278,7 @@ TEST_P(CompliantTwin, OfABodyInSpace) {
 }
 
 TEST_P(CompliantTwin, BesideAStringThatGoesTaut) {
-  compare<2>([](Springs springs) {
+  compare<2>([](CompliantMultipliers springs) {
     Built<2> b("string");
     const auto bob = b.particle(1.0, {0.5, -0.2}), low = b.particle(0.3, {0.5, -0.7});
     b.constrain(
@@ -292,7 +292,7 @@ TEST_P(CompliantTwin, BesideAStringThatGoesTaut) {
 }
 
 TEST_P(CompliantTwin, OfBallsInARowBetweenWalls) {
-  compare<2>([](Springs springs) {
+  compare<2>([](CompliantMultipliers springs) {
     Built<2> b("row");
     const auto a = b.particle(1.0, {0.0, 0.0}, {2.1, 0.0}), c = b.particle(1.0, {1.0, 0.0}),
                d = b.particle(1.0, {1.2, 0.0});
@@ -307,7 +307,7 @@ TEST_P(CompliantTwin, OfBallsInARowBetweenWalls) {
 }
 
 TEST_P(CompliantTwin, WhereAConstraintIsImposed) {
-  compare<2>([](Springs springs) {
+  compare<2>([](CompliantMultipliers springs) {
     Built<2> b("imposed");
     const auto ball = b.particle(2.0, {0.6, 0.0}), other = b.particle(1.0, {0.9, 0.3});
     const auto rod = b.constrain(Distance{Fixed<2>{}, ball, 1.0}, "rod");
@@ -321,7 +321,7 @@ TEST_P(CompliantTwin, WhereAConstraintIsImposed) {
 
 TEST_P(CompliantTwin, WhereAChangeThrowsABallUp) {
   // Off the floor, pulled by its spring, and the other onto the ceiling.
-  compare<2>([](Springs springs) {
+  compare<2>([](CompliantMultipliers springs) {
     Built<2> b("thrown");
     const auto low = b.particle(1.0, {0.0, 0.0}), high = b.particle(1.0, {0.0, 1.0});
     for (const auto p : {low, high}) {

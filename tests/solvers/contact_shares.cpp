@@ -160,7 +160,7 @@ TEST_P(ContactShares, StayWhereAnotherContactOpens) {
   beam.scene.add(unilateral(OnCurve{bead, Sphere<2>{{10.0, 0.0}, 1.0}}), "ball");
   const auto run = simulate(beam.scene, options(1.2, 121));
   ASSERT_EQ(run.events().size(), 1U);
-  EXPECT_EQ(run.events().front().what, Happened::opened);
+  EXPECT_EQ(run.events().front().kind, EventKind::opened);
   for (std::size_t i = 0; i < run.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
       EXPECT_NEAR(run.multiplier(beam.props[k], i), (std::array{0.0, 6.0, 54.0})[k], rounding);
@@ -189,7 +189,7 @@ TEST_P(ContactShares, OfABeamThatTipsEndWhereItDoes) {
   ASSERT_EQ(run.events().size(), 2U);
   const double tolerance = std::get<1>(GetParam());
   for (const auto& event : run.events()) {
-    EXPECT_EQ(event.what, Happened::opened);
+    EXPECT_EQ(event.kind, EventKind::opened);
     EXPECT_NEAR(event.time, 0.5, 10.0 * tolerance);
   }
   // The angle stays below 1.2e-3, of which the equation neglects the square.
@@ -218,7 +218,7 @@ TEST_P(ContactShares, OfAFloorUnderAWallLetTheWallBounce) {
   const double height = a * flight * flight / 8.0, error = 1000.0 * std::get<1>(GetParam());
   EXPECT_NEAR(d - run.position(bead, 0).x(), height, error * d);
   EXPECT_NEAR(run.position(bead, 1).x(), d, error * d);
-  EXPECT_EQ(run.events().back().what, Happened::rested);
+  EXPECT_EQ(run.events().back().kind, EventKind::rested);
   EXPECT_NEAR(run.events().back().time, first + 2.0 * v * e / (a * (1.0 - e)), error * first);
 }
 

@@ -39,8 +39,8 @@ TEST_P(ContactsAtRoundOff, OpenWhereTheirForceVanishesAmongImpacts) {
     scene.add(unilateral(holonomic(points(ball), [](auto r) { return r.y(); }), {.restitution = 0.9}));
     const auto run = simulate(scene, options(2.0));
     std::size_t opened = 0;
-    for (const Occurrence& it : run.events()) {
-      if (it.what != Happened::opened) continue;
+    for (const EventRecord& it : run.events()) {
+      if (it.kind != EventKind::opened) continue;
       ++opened;
       EXPECT_NEAR(it.time, 1.0, bound) << height;
     }

@@ -40,8 +40,8 @@ TEST_P(CoulombFriction, BringsABlockToRestThatStays) {
   const double slows = g * (std::sin(angle) + mu * std::cos(angle)), rests = v0 / slows;
   const auto run = simulate(scene.scene, options(1.0));
   ASSERT_EQ(run.events().size(), 1U);
-  EXPECT_EQ(run.events()[0].what, Happened::sticks);
-  EXPECT_EQ(run.events()[0].event, static_cast<std::size_t>(scene.rough.index));
+  EXPECT_EQ(run.events()[0].kind, EventKind::sticks);
+  EXPECT_EQ(run.events()[0].source, static_cast<std::size_t>(scene.rough.index));
   EXPECT_NEAR(run.events()[0].time, rests, bound);
   EXPECT_NEAR(run.multiplier(scene.rough, 0), -mu * 2.0 * g * std::cos(angle), bound * g);
   EXPECT_NEAR(run.constraint_force(scene.rough, scene.block, 0).dot(scene.up),
@@ -57,7 +57,7 @@ TEST_P(CoulombFriction, LetsABlockSlideBackWhereItIsSteep) {
   const double turns = v0 / (g * (std::sin(angle) + mu * std::cos(angle)));
   const auto run = simulate(scene.scene, options(1.0));
   ASSERT_EQ(run.events().size(), 1U);
-  EXPECT_EQ(run.events()[0].what, Happened::slides);
+  EXPECT_EQ(run.events()[0].kind, EventKind::slides);
   EXPECT_NEAR(run.events()[0].time, turns, bound);
   const double back = g * (std::sin(angle) - mu * std::cos(angle));
   EXPECT_NEAR(run.velocity(scene.block, 10).dot(scene.up), -back * (1.0 - turns), bound * g);
@@ -129,7 +129,7 @@ TEST_P(CoulombFriction, LetsGoWhereItsBoundIsReached) {
   const double goes = mu_static * 2.0 * g / k, t = goes + 1.0;
   const auto run = simulate(scene.scene, options(t));
   ASSERT_EQ(run.events().size(), 1U);
-  EXPECT_EQ(run.events()[0].what, Happened::slides);
+  EXPECT_EQ(run.events()[0].kind, EventKind::slides);
   EXPECT_NEAR(run.events()[0].time, goes, bound);
   const double v = (k * (t * t - goes * goes) / 2.0 - mu * 2.0 * g * (t - goes)) / 2.0;
   EXPECT_NEAR(run.velocity(scene.block, 10).x(), v, bound * v);
@@ -195,7 +195,7 @@ TEST_P(CoulombFriction, OfASkiddingWheelEndsInRolling) {
   const auto centre = scene.add_particle({.mass = m, .position = {0.0, R}, .velocity = {v0, 0.0}});
   const auto wheel = scene.add_rotor({.inertia = I});
   const Fixed<2> a{{0.0, 0.0}}, b{{1.0, 0.0}};
-  const auto track = scene.add(LineOffset{centre, a, b, R});
+  const auto track = scene.add(PointLineDistance{centre, a, b, R});
   const auto rough = scene.add(coulomb(track, Rolling{centre, wheel, a, b, R}, mu));
   const auto run = simulate(scene, options(2.0));
   const double rolls = v0 / (mu * g * (1.0 + m * R * R / I));
@@ -253,11 +253,11 @@ TEST_P(CoulombFriction, ThatLetsGoMayOpenAContact) {
   const double goes = 2.0 * g / k;
   const auto run = simulate(scene, options(goes + 0.1));
   ASSERT_EQ(run.events().size(), 2U);
-  for (const Occurrence& it : run.events()) EXPECT_NEAR(it.time, goes, bound);
-  EXPECT_EQ(run.events()[0].what, Happened::slides);
-  EXPECT_EQ(run.events()[0].event, static_cast<std::size_t>(rough.index));
-  EXPECT_EQ(run.events()[1].what, Happened::opened);
-  EXPECT_EQ(run.events()[1].event, static_cast<std::size_t>(wall.index));
+  for (const EventRecord& it : run.events()) EXPECT_NEAR(it.time, goes, bound);
+  EXPECT_EQ(run.events()[0].kind, EventKind::slides);
+  EXPECT_EQ(run.events()[0].source, static_cast<std::size_t>(rough.index));
+  EXPECT_EQ(run.events()[1].kind, EventKind::opened);
+  EXPECT_EQ(run.events()[1].source, static_cast<std::size_t>(wall.index));
   EXPECT_NEAR(run.event_sample(1).multiplier(wall), g, bound * g);
   EXPECT_EQ(run.sample_after(1).multiplier(wall), 0.0);
   EXPECT_NEAR(run.sample_after(1).acceleration(top).x(), g / 3.0, bound * g);

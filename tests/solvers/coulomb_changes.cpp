@@ -84,8 +84,8 @@ TEST_P(CoulombChanges, FollowABeltThatReverses) {
       simulate(its.scene, options(2.0),
                {{"turns", [](const auto& now) { return now.time() - 1.0; }, Crossing::rising, false, turn}});
   ASSERT_EQ(run.events().size(), 3U);
-  EXPECT_EQ(run.events()[1].what, Happened::slides);
-  EXPECT_EQ(run.events()[2].what, Happened::sticks);
+  EXPECT_EQ(run.events()[1].kind, EventKind::slides);
+  EXPECT_EQ(run.events()[2].kind, EventKind::sticks);
   EXPECT_NEAR(run.events()[2].time, 1.0 + 2.0 / (mu * g), bound());
   EXPECT_NEAR(run.sample_after(0).multiplier(its.rough), -mu * 2.0 * g, bound() * g);
   EXPECT_NEAR(run.position(its.block, 10).x(), 1.0 - (2.0 - 1.0 - 2.0 / (mu * g)), bound());
@@ -124,7 +124,7 @@ TEST_P(CoulombChanges, OfABlockThatIsCarriedSlidesBothWays) {
   }
   ASSERT_EQ(run.events().size(), 2U);  // v = 0 at w t = pi/2, 3 pi/2
   EXPECT_NEAR(run.events()[0].time, std::numbers::pi / 4.0, bound());
-  EXPECT_EQ(run.events()[0].what, Happened::slides);
+  EXPECT_EQ(run.events()[0].kind, EventKind::slides);
 }
 
 // The slip grows from rest like t^2, t^3 or after a rest: friction is there as soon as it is a slip.
@@ -162,7 +162,7 @@ TEST_P(CoulombChanges, OfADrivenWheelThatIsHeldSlidesBothWays) {
   const auto centre = scene.add_particle({.mass = m, .position = {0.0, R}});
   const auto wheel = scene.add_rotor({.inertia = I, .angular_velocity = 1.0});
   const Fixed<2> a{{0.0, 0.0}}, b{{1.0, 0.0}};
-  const auto track = scene.add(LineOffset{centre, a, b, R});
+  const auto track = scene.add(PointLineDistance{centre, a, b, R});
   const auto arm = scene.add(Distance{Fixed<2>{{-1.0, R}}, centre, 1.0});
   const auto motor = scene.add(Prescribed{wheel, [](auto t) { return vec(sin(t)); }});
   const auto rough = scene.add(coulomb(track, Rolling{centre, wheel, a, b, R}, mu));
@@ -221,7 +221,7 @@ TEST_P(CoulombChanges, OfThreeFeetHoldsUntilAllOfThemSlide) {
   all.assemble = true;
   const auto run = simulate(its.scene, all);
   ASSERT_EQ(run.events().size(), 3U);
-  for (const Occurrence& it : run.events()) EXPECT_NEAR(it.time, goes, bound());
+  for (const EventRecord& it : run.events()) EXPECT_NEAR(it.time, goes, bound());
   EXPECT_FALSE(run.is_unique(its.rough[0], 5));
   EXPECT_LE(run.multiplier(its.rough[0], 5).norm(), Stool::mu * g);
   const double left = 1.2 - goes;
@@ -242,8 +242,8 @@ TEST_P(CoulombChanges, OfThreeFeetTurnsThemAboutOneThatKeepsStill) {
   ASSERT_GE(run.events().size(), 2U);
   EXPECT_NEAR(run.events()[0].time, goes, bound());
   EXPECT_NEAR(run.events()[1].time, goes, bound());
-  EXPECT_NE(run.events()[0].event, its.number(2));
-  EXPECT_NE(run.events()[1].event, its.number(2));
+  EXPECT_NE(run.events()[0].source, its.number(2));
+  EXPECT_NE(run.events()[1].source, its.number(2));
   for (std::size_t foot = 0; foot < 3; ++foot) {
     const Vec<3> v = run.velocity(its.feet[foot], 10),
                  sigma = run.constraint_force(its.rough[foot], its.feet[foot], 10);
@@ -266,7 +266,7 @@ TEST_P(CoulombChanges, OfTwoFeetIsThatOfBoth) {
   const double goes = 4.0 * mu * g / k;
   const auto run = simulate(scene, options(4.0));
   ASSERT_EQ(run.events().size(), 2U);
-  for (const Occurrence& it : run.events()) EXPECT_NEAR(it.time, goes, bound());
+  for (const EventRecord& it : run.events()) EXPECT_NEAR(it.time, goes, bound());
   const double v = k / 8.0 * (4.0 - goes) * (4.0 - goes);
   EXPECT_NEAR(run.velocity(right, 10).x(), v, bound() * v);
 }
@@ -282,7 +282,7 @@ TEST_P(CoulombChanges, InSpaceTurnsAPuckBackDownAnIncline) {
   const double turns = 2.0 / ((s + mu * c) * g);
   const auto run = simulate(scene, options(1.0));
   ASSERT_EQ(run.events().size(), 1U);
-  EXPECT_EQ(run.events()[0].what, Happened::slides);
+  EXPECT_EQ(run.events()[0].kind, EventKind::slides);
   EXPECT_NEAR(run.events()[0].time, turns, bound());
   EXPECT_NEAR(run.velocity(puck, 10).x(), -(s - mu * c) * g * (1.0 - turns), bound() * g);
   EXPECT_NEAR(run.constraint_force(rough, puck, 10).x(), mu * c * 2.0 * g, bound() * g);

@@ -31,7 +31,7 @@ TEST_P(CoulombFrictionInSpace, IsRound) {
       const auto run = simulate(scene, options(rests + 1.0));
       EXPECT_NEAR((run.constraint_force(rough, puck, 0) + 2.0 * a * along).norm(), 0.0, bound * g);
       ASSERT_EQ(run.events().size(), 1U) << f << ' ' << angle;
-      EXPECT_EQ(run.events()[0].what, Happened::sticks);
+      EXPECT_EQ(run.events()[0].kind, EventKind::sticks);
       EXPECT_NEAR(run.events()[0].time, rests, error_of(run) * rests) << f << ' ' << angle;
       EXPECT_NEAR(run.constraint_force(rough, puck, 10).x(), -2.0 * f, bound * g);
       if (f == 0.0) {
@@ -108,7 +108,7 @@ TEST_P(CoulombFrictionInSpace, OfThreeFeetThatSlideStraightOnStopsThemTogether) 
           << tolerance;
     }
     EXPECT_EQ(run.events().size(), 3U) << tolerance;
-    for (const auto& event : run.events()) EXPECT_EQ(event.what, Happened::sticks);
+    for (const auto& event : run.events()) EXPECT_EQ(event.kind, EventKind::sticks);
   }
 }
 

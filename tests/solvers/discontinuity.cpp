@@ -20,12 +20,12 @@ constexpr double g = 9.81;
 /// The outcomes of the comparisons that f makes.
 template <class F>
 std::vector<int> sides(const F& f, const Branches::Sides* held = nullptr) {
-  Branches::Sides heard;
-  const Branches listening(&heard, held);
-  Branches::begin_batch(0);
+  Branches::Sides recorded;
+  const Branches recording(&recorded, held);
+  Branches::enter_batch(0);
   f();
   std::vector<int> all;
-  for (const auto& one : heard[0]) all.push_back(one.side);
+  for (const auto& one : recorded[0]) all.push_back(one.side);
   return all;
 }
 
@@ -42,18 +42,18 @@ TEST(Branches, ThatAreHeldGoOnBeyondTheirEnd) {
   using S = Jet<1>;
   Branches::Sides held;
   {
-    const Branches listening(&held, nullptr);
-    Branches::begin_batch(0);
+    const Branches recording(&held, nullptr);
+    Branches::enter_batch(0);
     (void)abs(S::input(1.5, 0));
     (void)floor(S::input(1.5, 0));
   }
-  Branches::Sides heard;
-  const Branches holding(&heard, &held);
-  Branches::begin_batch(0);
+  Branches::Sides recorded;
+  const Branches holding(&recorded, &held);
+  Branches::enter_batch(0);
   EXPECT_EQ(abs(S::input(-2.0, 0)).value, -2.0);
   EXPECT_EQ(floor(S::input(2.25, 0)).value, 1.0);
-  EXPECT_EQ(heard[0].front().difference, -2.0);  // from 0
-  EXPECT_EQ(heard[0].back().difference, -0.25);  // behind 2
+  EXPECT_EQ(recorded[0].front().difference, -2.0);  // from 0
+  EXPECT_EQ(recorded[0].back().difference, -0.25);  // behind 2
 }
 
 TEST(Branches, AreHeardOnlyWhileSomebodyListens) {

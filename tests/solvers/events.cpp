@@ -59,7 +59,7 @@ TEST_P(Events, AreAllFoundInTheOrderOfTheirTimes) {
   for (int n = 1; n * quarter < 5.0; ++n) {
     if (n % 4 == 0) continue;  // there it turns back the other way
     ASSERT_LT(k, run.events().size());
-    EXPECT_EQ(run.events()[k].event, n % 2 == 0 ? 1U : 0U);
+    EXPECT_EQ(run.events()[k].source, n % 2 == 0 ? 1U : 0U);
     EXPECT_EQ(run.name_of(run.events()[k]), n % 2 == 0 ? "turns back" : "lowest");
     EXPECT_NEAR(run.events()[k].time, n * quarter, bound);
     if (n % 2 == 1) {
@@ -123,7 +123,7 @@ TEST_P(Events, AreToldByTheWayTheyGo) {
         pendulum.scene, options(4.0),
         {{"lowest", [bob = pendulum.bob](const auto& now) { return now.position(bob).x(); }, crossing}});
     std::vector<double> all;
-    for (const Occurrence& one : run.events()) all.push_back(one.time);
+    for (const EventRecord& one : run.events()) all.push_back(one.time);
     return all;
   };
   const auto either = times(Crossing::either), rising = times(Crossing::rising),

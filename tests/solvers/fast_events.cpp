@@ -134,8 +134,8 @@ TEST_P(FastEvents, AtTheEndOfARunAreListedAndCarriedOut) {
            }}};
   const auto run = simulate(fall.scene, options(2.0), events);
   ASSERT_EQ(run.events().size(), 2U);
-  EXPECT_EQ(run.events()[0].event, 0U);
-  EXPECT_EQ(run.events()[1].event, 1U);
+  EXPECT_EQ(run.events()[0].source, 0U);
+  EXPECT_EQ(run.events()[1].source, 1U);
   EXPECT_EQ(run.events()[1].time, 2.0);
   EXPECT_EQ(*changed, 1);
   EXPECT_EQ(run.sample_after(1).velocity(fall.body).norm(), 0.0);

@@ -1,4 +1,4 @@
-#include <dalembert/solvers/ida/ida_state.h>
+#include <dalembert/solvers/ida/ida_solver.h>
 
 #include <gtest/gtest.h>
 

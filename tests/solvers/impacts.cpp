@@ -35,8 +35,8 @@ TEST_P(Impacts, OfABouncingBallAreAtTheirTimesWithTheirImpulses) {
   ASSERT_EQ(run.events().size(), 8U);
   double time = scene.first, u = g * time;
   for (std::size_t k = 0; k < run.events().size(); ++k) {
-    EXPECT_EQ(run.events()[k].what, Happened::struck);
-    EXPECT_EQ(run.events()[k].event, static_cast<std::size_t>(scene.floor.index));
+    EXPECT_EQ(run.events()[k].kind, EventKind::struck);
+    EXPECT_EQ(run.events()[k].source, static_cast<std::size_t>(scene.floor.index));
     EXPECT_NEAR(run.events()[k].time, time, bound);
     EXPECT_NEAR(run.event_sample(k).velocity(scene.ball).y(), -u, bound);
     EXPECT_NEAR(run.sample_after(k).velocity(scene.ball).y(), e * u, bound);
@@ -54,8 +54,8 @@ TEST_P(Impacts, ThatAccumulateEndInRestAtTheirLimit) {
     const Ball scene(e);
     const double limit = scene.first * (1.0 + e) / (1.0 - e);
     const auto run = simulate(scene.scene, options(limit + 1.0));
-    const Occurrence& last = run.events().back();
-    EXPECT_EQ(last.what, Happened::rested) << e;
+    const EventRecord& last = run.events().back();
+    EXPECT_EQ(last.kind, EventKind::rested) << e;
     EXPECT_NEAR(last.time, limit, bound * limit) << e;
     EXPECT_NEAR(run.multiplier(scene.floor, 10), 2.0 * g, bound) << e;
     EXPECT_NEAR(run.position(scene.ball, 10).y(), 0.0, tolerance) << e;
@@ -88,7 +88,7 @@ TEST_P(Impacts, WithoutRestitutionCloseAtOnce) {
   const Ball scene(0.0);
   const auto run = simulate(scene.scene, options(1.0));
   ASSERT_EQ(run.events().size(), 1U);
-  EXPECT_EQ(run.events()[0].what, Happened::struck);
+  EXPECT_EQ(run.events()[0].kind, EventKind::struck);
   EXPECT_NEAR(run.impulse(scene.floor, 0), 2.0 * std::sqrt(2.0 * g), bound);
   // The normal part of the energy is lost, and no other.
   EXPECT_NEAR(run.sample_after(0).energy(), 0.3 * 0.3, bound);
@@ -211,7 +211,7 @@ TEST_P(Impacts, OfThreeBallsThatNeverPartEndInOneVelocity) {
   Options limited = options(10.0);
   limited.max_steps = 2000;
   const auto run = simulate(scene, limited);
-  EXPECT_EQ(run.events().back().what, Happened::rested);
+  EXPECT_EQ(run.events().back().kind, EventKind::rested);
   for (const auto ball : balls) EXPECT_NEAR(run.velocity(ball, 10).x(), 0.1 / 3.0, bound);
 }
 

@@ -340,7 +340,8 @@ TEST(LowestModes, TellNothingOfTheOthers) {
 
 /// Both methods, which share the terms alone, on a scene that is small enough for the dense one.
 template <int D>
-void expect_as_dense(const Scene<D>& scene, const Turning<D>& turning, std::size_t wanted, double highest) {
+void expect_as_dense(const Scene<D>& scene, const UniformRotation<D>& turning, std::size_t wanted,
+                     double highest) {
   const auto state = equilibrium(scene, {.turning = turning});
   const FlatSample at = state.sample().flat();
   const System system = scene.system();
@@ -431,7 +432,7 @@ TEST(LinearTerms, AreTheDerivativesOfTheResidual) {
   scene.add(Spring{Fixed<2>{}, b, 5.0, 0.7});
   scene.add(force_law(points(a), [](auto r, auto v) { return (-0.4 * r.x() * v).eval(); }));
   const System system = scene.system();
-  const RotatingFrame frame(*system.layout(), Turning<2>{.rate = 0.8, .centre = {0.2, -0.1}});
+  const RotatingFrame frame(*system.layout(), UniformRotation<2>{.rate = 0.8, .centre = {0.2, -0.1}});
   const std::vector<double> q(scene.initial_positions().begin(), scene.initial_positions().end());
   std::vector<double> v(q.size());
   frame.velocity(q, v);

@@ -3,7 +3,7 @@
 #include <dalembert/constraints/nonholonomic.h>
 #include <dalembert/core/scene/scene.h>
 #include <dalembert/models/chain.h>
-#include <dalembert/solvers/stepping.h>
+#include <dalembert/solvers/integration.h>
 
 #include <gtest/gtest.h>
 
@@ -20,15 +20,15 @@ template <int D>
 SaddlePattern::Analyses analyses(const Scene<D>& scene, Stepper stepper) {
   const Options options{.t_end = 0.2, .stepper = stepper};
   const auto system = std::make_shared<const System>(scene.system());
-  Stepping stepping(system, scene.initial_positions(), scene.initial_velocities(), options,
-                    std::numeric_limits<double>::infinity());
-  Moment moment(*system, stepping.start());
+  Integration integration(system, scene.initial_positions(), scene.initial_velocities(), options,
+                          std::numeric_limits<double>::infinity());
+  OutputState moment(*system, integration.start());
   for (int i = 1; i <= 20; ++i) {
     const double t = options.t_end * i / 20;
-    while (stepping.time() < t) stepping.step(t);
-    stepping.read(t, moment);
+    while (integration.time() < t) integration.step(t);
+    integration.read(t, moment);
   }
-  return stepping.problem().analyses();
+  return integration.problem().analyses();
 }
 
 void expect(const SaddlePattern::Analyses& found, int ldl, int klu) {

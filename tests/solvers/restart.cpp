@@ -1,6 +1,6 @@
 #include "readings.h"
 #include <dalembert/models/four_bar.h>
-#include <dalembert/solvers/stepping.h>
+#include <dalembert/solvers/integration.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -93,7 +93,7 @@ struct Counted {
 };
 
 /// All that can be read from a run at its last step, and before it.
-std::vector<double> seen(Stepping& run, Moment& now) {
+std::vector<double> seen(Integration& run, OutputState& now) {
   std::vector<double> all{run.time(), static_cast<double>(run.statistics(run.time()).steps)};
   run.read(run.time(), now);
   for (const auto* part : {&now.q, &now.v, &now.a, &now.lambda})
@@ -105,23 +105,25 @@ std::vector<double> seen(Stepping& run, Moment& now) {
   return all;
 }
 
-/// Wherever in the evaluations of its force begin_changed fails, what a run has computed is read as before.
+/// Wherever in the evaluations of its force restart_with_constraints fails, what a run has computed is read
+/// as before.
 TEST(Restart, ThatFailsLeavesWhatWasComputed) {
   const Counted counted;
   const auto system = std::make_shared<const System>(counted.scene.system());
   const auto other = std::make_shared<const System>(counted.scene.system());
   for (const Stepper stepper : both) {
-    Stepping run(system, counted.scene.initial_positions(), counted.scene.initial_velocities(),
-                 {.t_end = 1.0, .stepper = stepper, .dense = true}, std::numeric_limits<double>::infinity());
+    Integration run(system, counted.scene.initial_positions(), counted.scene.initial_velocities(),
+                    {.t_end = 1.0, .stepper = stepper, .dense = true},
+                    std::numeric_limits<double>::infinity());
     while (run.time() < 0.5) run.step(1.0);
-    Moment now(*system, run.start());
+    OutputState now(*system, run.start());
     const std::vector<double> before = seen(run, now);
     const long enough = *counted.calls_left;
     bool begun = false;
     for (long allowed = 0; !begun; ++allowed) {
       *counted.calls_left = allowed;
       try {
-        run.begin_changed(now.t, other, now.q, now.v);
+        run.restart_with_constraints(now.t, other, now.q, now.v);
         begun = true;
       } catch (const EquationFault&) {
         *counted.calls_left = enough;
@@ -145,12 +147,12 @@ TEST(Restart, ThatFailsAtAHandoverLeavesWhatWasComputed) {
     return (0.0 * v).eval();
   }));
   const auto system = std::make_shared<const System>(linkage.scene.system());
-  const auto stepping = [&] {
+  const auto integration = [&] {
     left = enough;
-    return Stepping(system, linkage.scene.initial_positions(), linkage.scene.initial_velocities(),
-                    {.t_end = 10.0}, std::numeric_limits<double>::infinity());
+    return Integration(system, linkage.scene.initial_positions(), linkage.scene.initial_velocities(),
+                       {.t_end = 10.0}, std::numeric_limits<double>::infinity());
   };
-  Stepping untroubled = stepping(), troubled = stepping();
+  Integration untroubled = integration(), troubled = integration();
   int handovers = 0;
   while (handovers < 2 && untroubled.time() < 10.0) {
     const int degree = untroubled.degree();
@@ -170,7 +172,7 @@ TEST(Restart, ThatFailsAtAHandoverLeavesWhatWasComputed) {
     ASSERT_EQ(troubled.degree(), untroubled.degree());
   }
   EXPECT_EQ(handovers, 2);
-  Moment there(*system, untroubled.start()), also = there;
+  OutputState there(*system, untroubled.start()), also = there;
   untroubled.read(untroubled.time(), there);
   troubled.read(troubled.time(), also);
   EXPECT_EQ(also.q, there.q);

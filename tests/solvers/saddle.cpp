@@ -215,7 +215,7 @@ TEST(SaddleMatrix, SolvesWithWhateverBlocksItIsGiven) {
   symmetric.bottomRightCorner(m, m) = vector(diagonal).asDiagonal();
   Eigen::MatrixXd with_slope = symmetric;
   for (std::size_t i = 0; i < d.friction.size(); ++i) {
-    const auto [coordinate, row] = p.system.friction_pattern()[i];
+    const auto [coordinate, row] = p.system.multiplier_force_pattern()[i];
     with_slope(index(coordinate), n + index(row)) -= d.friction[i];
   }
   Eigen::MatrixXd all = with_slope;

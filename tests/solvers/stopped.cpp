@@ -56,7 +56,7 @@ TEST(StoppedRun, IsNotGoneOnWith) {
         EXPECT_EQ(kept.position(ball, i), whole.position(ball, i));
       for (std::size_t i = 0; i < kept.events().size(); ++i) {
         EXPECT_EQ(kept.events()[i].time, whole.events()[i].time);
-        if (kept.events()[i].what == Happened::rested) continue;  // at the limit of its impacts, still ahead
+        if (kept.events()[i].kind == EventKind::rested) continue;  // at the limit of its impacts, still ahead
         EXPECT_LE(kept.events()[i].time, first->time());
         EXPECT_NO_THROW((void)kept.at({kept.events()[i].time}));
       }

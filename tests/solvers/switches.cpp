@@ -283,7 +283,7 @@ TEST_P(Switches, AreFoundBesideContactsAndEvents) {
   ASSERT_GE(run.events().size(), 3U);
   EXPECT_NEAR(run.events()[0].time, first, bound(run));
   EXPECT_NEAR(run.events()[1].time, first + second + third, bound(run));
-  EXPECT_EQ(run.events()[1].what, Happened::struck);
+  EXPECT_EQ(run.events()[1].kind, EventKind::struck);
   EXPECT_NEAR(run.impulse(floor_, 1), 2.0 * v3, 10.0 * bound(run));
   EXPECT_NEAR(run.events()[2].time, first + 2.0 * (second + third), bound(run));
   for (std::size_t i = 0; i < run.size(); ++i) EXPECT_NEAR(run.energy(i), 0.9 * g + 0.005, 30.0 * bound(run));

@@ -149,7 +149,7 @@ TEST_F(WriteHtml, ShowsEventsBeforeAndAfter) {
   EXPECT_EQ(event.get<std::string>("what"), "is struck");
   EXPECT_EQ(event.get<std::string>("name"), "floor");
   EXPECT_EQ(run.name_of(run.events()[0]), "floor");
-  EXPECT_STREQ(name(run.events()[0].what), "is struck");
+  EXPECT_STREQ(name(run.events()[0].kind), "is struck");
   EXPECT_EQ(vy[row], run.event_sample(0).velocity(p).y());
   EXPECT_EQ(vy[row + 1], run.sample_after(0).velocity(p).y());
   EXPECT_NEAR(vy[row], -10.0, 1e-4);

@@ -10,8 +10,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 
 /// The multipliers of compliant constraints, g + C lambda = 0, where they are part of a stepper's
 /// state. One number per row of the system; those of rigid rows do not count. Empty if none is compliant.
-struct Springs {
-  explicit Springs(std::size_t rows = 0) : lambda(rows), rate(rows), second(rows) {}
+struct CompliantMultipliers {
+  explicit CompliantMultipliers(std::size_t rows = 0) : lambda(rows), rate(rows), second(rows) {}
 
   [[nodiscard]] std::array<std::vector<double>*, 3> parts() { return {&lambda, &rate, &second}; }
 

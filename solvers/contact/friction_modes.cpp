@@ -60,22 +60,24 @@ VectorXd DryFriction::slip_acceleration(const Rough& rough, const Instant& at, c
 /// The difference of two times that are the same to round-off.
 double DryFriction::same_time(double t) const { return round_off() * std::max(std::abs(t), scales_.time); }
 
-bool DryFriction::own(const Rough& rough, Fallen fallen, Watched watched) const {
+bool DryFriction::own(const Rough& rough, Triggered triggered, Watched watched) const {
   const auto index = static_cast<std::size_t>(&rough - all_.data());
-  return fallen == kinds * index + watched;
+  return triggered == kinds * index + watched;
 }
 
 /// What moves slides; what does not sticks, before `decide`. A slip that others prescribe is known to
 /// round-off, another one as exactly as velocities are.
-void DryFriction::begin(Rough& rough, const std::vector<std::size_t>& open, double t, Fallen fallen) {
+void DryFriction::set_mode_by_slip(Rough& rough, const std::vector<std::size_t>& open, double t,
+                                   Triggered triggered) {
   const bool slid = rough.mode == Mode::slides, slow = slid && rough.pace != Pace::fast;
-  const bool due = own(rough, fallen, mode), just = slid && rough.let_go && t - *rough.let_go <= same_time(t);
+  const bool due = own(rough, triggered, mode),
+             just = slid && rough.let_go && t - *rough.let_go <= same_time(t);
   rough.at_rest = rough.reached = false;
   if (std::ranges::find(open, rough.pressed_by) != open.end()) {
     rough.mode = Mode::absent;
     return;
   }
-  if (own(rough, fallen, sign)) rough.sign = -rough.sign;
+  if (own(rough, triggered, sign)) rough.sign = -rough.sign;
   const VectorXd u = slip(rough);
   const double none = no_slip();
   const bool stops = due && slid && (rough.rows == 1 || slow),
@@ -119,7 +121,7 @@ void DryFriction::rest_with_others(const std::vector<std::size_t>& open, const I
 }
 
 /// Whether two slow slip velocities come to rest: then with the direction that they have.
-void DryFriction::begin_slow(Rough& rough, const std::vector<std::size_t>& open, const Instant& at) {
+void DryFriction::find_way_to_rest(Rough& rough, const std::vector<std::size_t>& open, const Instant& at) {
   const SlipCoupling coupling = released({static_cast<std::size_t>(&rough - all_.data())}, open, at);
   const Eigen::Vector2d u = slip(rough);
   const auto left = time_to_rest(coupling, rough.mu, u, vanished * rough.still);
@@ -262,39 +264,39 @@ void DryFriction::refuse(double t) const {
 }
 
 std::vector<DryFriction::Happening> DryFriction::changes(const std::vector<Rough>& before, double t,
-                                                         Fallen fallen) const {
+                                                         Triggered triggered) const {
   std::vector<Happening> what;
   for (std::size_t i = 0; i < all_.size(); ++i) {
     const Rough &was = before[i], &is = all_[i];
-    const bool due = own(is, fallen, mode);
+    const bool due = own(is, triggered, mode);
     const bool turned = was.mode == Mode::slides && is.mode == Mode::slides && due && is.at_rest;
     if (was.mode == Mode::absent || is.mode == Mode::absent || (was.mode == is.mode && !turned)) continue;
-    what.push_back({is.number, is.mode == Mode::sticks ? Happened::sticks : Happened::slides,
+    what.push_back({is.number, is.mode == Mode::sticks ? EventKind::sticks : EventKind::slides,
                     due && was.turns ? t + *was.turns : t});
   }
   return what;
 }
 
-std::vector<DryFriction::Happening> DryFriction::settle(const std::vector<std::size_t>& open,
-                                                        const Instant& at, Fallen fallen) {
+std::vector<DryFriction::Happening> DryFriction::find_modes(const std::vector<std::size_t>& open,
+                                                            const Instant& at, Triggered triggered) {
   const auto before = all_;
   find_slip(at);
-  for (Rough& r : all_) begin(r, open, at.t, fallen);
+  for (Rough& r : all_) set_mode_by_slip(r, open, at.t, triggered);
   rest_with_others(open, at);
   for (Rough& r : all_)
-    if (r.mode == Mode::slides && r.pace == Pace::leaves && r.blur == 0.0) begin_slow(r, open, at);
+    if (r.mode == Mode::slides && r.pace == Pace::leaves && r.blur == 0.0) find_way_to_rest(r, open, at);
   if (std::ranges::any_of(all_, &Rough::at_rest)) decide(open, at);
   std::set<std::vector<double>> tried;
-  Motion settled = solve(open, at);
-  while (amend(at, settled)) {
+  Motion found = solve(open, at);
+  while (amend(at, found)) {
     if (!tried.insert(modes()).second || tried.size() > most_tried) refuse(at.t);
-    settled = solve(open, at);
+    found = solve(open, at);
   }
-  mark_shared(settled);
+  mark_shared(found);
   for (Rough& r : all_)
     if (r.mode == Mode::slides && r.pace == Pace::leaves && r.at_rest) r.blur = r.slow;
   system_ = with_modes(open);
-  return changes(before, at.t, fallen);
+  return changes(before, at.t, triggered);
 }
 
 }  // namespace dalembert

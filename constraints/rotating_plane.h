@@ -13,9 +13,10 @@ namespace dalembert {
 ///
 /// lambda is the force that carries the point round, positive ahead.
 template <Point P, class Angle>
-struct InPlane {
-  static_assert(P::dimension == 3, "InPlane is spatial; in the plane a turning line is a LineOffset");
-  static constexpr std::string_view kind = "InPlane";
+struct RotatingPlane {
+  static_assert(P::dimension == 3,
+                "RotatingPlane is spatial; in the plane a turning line is a PointLineDistance");
+  static constexpr std::string_view kind = "RotatingPlane";
   static constexpr std::string_view meaning = "force that carries the point round; > 0 ahead";
   P point;
   Axis axis;    ///< in the plane
@@ -44,6 +45,6 @@ struct InPlane {
   }
 };
 template <class P, class Angle>
-InPlane(P, Axis, Angle) -> InPlane<P, Angle>;
+RotatingPlane(P, Axis, Angle) -> RotatingPlane<P, Angle>;
 
 }  // namespace dalembert

@@ -16,11 +16,11 @@ namespace dalembert {
 /// joint's angle.
 ///
 ///   const Rotor turns = scene.add_rotor({.inertia = 1e-4, .angular_velocity = speed});
-///   scene.add(Winding{hinge, turns});
+///   scene.add(TurnCounter{hinge, turns});
 ///   scene.add(potential(points(turns), [](auto phi) { return 0.5 * 0.2 * phi[0] * phi[0]; }));
 template <class A, class B>
-struct Winding {
-  static constexpr std::string_view kind = "Winding";
+struct TurnCounter {
+  static constexpr std::string_view kind = "TurnCounter";
   static constexpr std::string_view meaning =
       "torque on the second body about the axis; the opposite is on the rotor";
   JointFrames<A, B> frames;
@@ -28,7 +28,7 @@ struct Winding {
 
   /// Of a joint that turns about its axis, or what add_joint returned for it.
   template <class J>
-  Winding(const J& of, Rotor turning) : frames(detail::turning_frames(of)), rotor(turning) {}
+  TurnCounter(const J& of, Rotor turning) : frames(detail::turning_frames(of)), rotor(turning) {}
 
   auto points() const { return std::tuple_cat(frames.turning(), std::tie(rotor)); }
   [[nodiscard]] Sketch sketch() const { return {"none"}; }
@@ -38,6 +38,6 @@ struct Winding {
   [[nodiscard]] std::string fault() const { return frames.fault("its joint needs a finite nonzero axis"); }
 };
 template <class J>
-Winding(const J&, Rotor) -> Winding<detail::BodyA<J>, detail::BodyB<J>>;
+TurnCounter(const J&, Rotor) -> TurnCounter<detail::BodyA<J>, detail::BodyB<J>>;
 
 }  // namespace dalembert

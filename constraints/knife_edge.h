@@ -6,15 +6,15 @@ namespace dalembert {
 
 /// A point moves only along the direction from one point to another, forwards or backwards, in the
 /// plane: a knife edge or a sleigh's blade along two points of its body
-/// (`Heading{blade, rear, front}`). For a pursuer use Pursuit.
+/// (`KnifeEdge{blade, rear, front}`). For a pursuer use Pursuit.
 ///
 ///   e = (r_to - r_from)/|r_to - r_from|,   n = e turned left
 ///   a = n . v      [speed]
 ///
 /// lambda is the sideways force on the point, towards n. It does no work.
 template <Point P, Point From, Point To>
-struct Heading {
-  static_assert(P::dimension == 2, "Heading is planar");
+struct KnifeEdge {
+  static_assert(P::dimension == 2, "KnifeEdge is planar");
   static constexpr std::string_view kind = "Heading";
   static constexpr std::string_view meaning = "sideways force on the point; > 0 to the left";
   static constexpr std::string_view singular = "the two points of its direction coincide";
@@ -31,6 +31,6 @@ struct Heading {
   }
 };
 template <class P, class From, class To>
-Heading(P, From, To) -> Heading<P, From, To>;
+KnifeEdge(P, From, To) -> KnifeEdge<P, From, To>;
 
 }  // namespace dalembert

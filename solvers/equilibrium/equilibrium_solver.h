@@ -14,13 +14,14 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// A state whose residual no longer falls counts as balanced if it is below this, see Balance::State.
-inline constexpr double balanced = 1e-10;
+/// A state whose residual no longer falls counts as balanced if it is below this, see
+/// EquilibriumSolver::State.
+inline constexpr double residual_tolerance = 1e-10;
 
 /// The search for a state (q, lambda) in which all forces balance, see `equilibrium`:
 ///
 ///   R1 = F + W^T lambda - M A v,   R2 = g + C lambda,   v = A q + b.                                (1)
-class Balance {
+class EquilibriumSolver {
  public:
   struct State {
     std::vector<double> q{}, v{}, lambda{};
@@ -28,17 +29,18 @@ class Balance {
     std::vector<double> acting{};             ///< the largest on the particle of each coordinate
     std::vector<double> force{}, distance{};  ///< R1, and R2 of all holonomic rows
     /// The larger of R1 over the forces on its own particle, and of R2 over the scene's length.
-    double size = 0.0;
-    double off = 0.0;  ///< R2's part of it
+    double relative_residual = 0.0;
+    double relative_violation = 0.0;  ///< R2's part of it
     /// Whether R1 is nowhere more than round-off of the forces, and R2 none.
     bool round_off = false;
   };
 
   /// Projects the guess onto the constraint manifold. Throws InconsistentStart, NoEquilibrium.
-  Balance(const Problem& problem, std::span<const double> guess, double time, const Turning<3>& turning);
-  Balance(const Problem& problem, std::span<const double> guess, double time, RotatingFrame frame);
+  EquilibriumSolver(const Problem& problem, std::span<const double> guess, double time,
+                    const UniformRotation<3>& turning);
+  EquilibriumSolver(const Problem& problem, std::span<const double> guess, double time, RotatingFrame frame);
 
-  /// v, R1, R2 and size of a state's q and lambda. Throws EquationFault.
+  /// v, R1, R2 and relative residual of a state's q and lambda. Throws EquationFault.
   void evaluate(State& s) const;
   /// Independent rows there.
   [[nodiscard]] ActiveRows rows_at(const State& s) const;
@@ -47,7 +49,7 @@ class Balance {
   /// Whether a state is an equilibrium to this part of its forces and lengths: its residual is as small, or
   /// so is Newton's correction (where a force grows as x^3 it is as small as its own change), or what is left
   /// is round-off of the forces of which it is the sum.
-  [[nodiscard]] bool settled(const State& s, double close) const;
+  [[nodiscard]] bool is_equilibrium(const State& s, double close) const;
   /// Newton's iteration from a state; false if it does not converge.
   [[nodiscard]] bool solve(State& s) const;
   /// Descends until Newton's iteration converges. Throws NoEquilibrium.
@@ -71,7 +73,7 @@ class Balance {
 
  private:
   /// The residual of a state relative to the forces in another.
-  [[nodiscard]] static double size(const State& s, std::span<const double> acting);
+  [[nodiscard]] static double relative_residual(const State& s, std::span<const double> acting);
   [[nodiscard]] bool step(const State& s, std::span<const double> shift, std::vector<double>& x) const;
   [[nodiscard]] static double power(const State& s, const std::vector<double>& x);
   [[nodiscard]] State moved(const State& s, const std::vector<double>& x, double part) const;
@@ -81,7 +83,7 @@ class Balance {
   [[nodiscard]] double correction(const State& s) const;
   [[nodiscard]] bool is_round_off_of_its_terms(const State& s) const;
   void newton(State& s, std::span<const double> shift) const;
-  [[nodiscard]] bool balanced_otherwise(State& s) const;
+  [[nodiscard]] bool has_other_multipliers(State& s) const;
   void measure_stiffness(const State& s);
   void share_by_particle(std::span<double> forces) const;
   void share_along_rows(std::span<const double> w);

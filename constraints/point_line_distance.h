@@ -14,9 +14,9 @@ namespace dalembert {
 /// The gradient with respect to r is n: lambda > 0 pushes the point away to the left of the line,
 /// and the line's two points get the opposite force between them. Singular where a meets b.
 template <Point P, Point A, Point B>
-struct LineOffset {
-  static_assert(P::dimension == 2, "LineOffset is planar; in space use OnSurface with a Plane");
-  static constexpr std::string_view kind = "LineOffset";
+struct PointLineDistance {
+  static_assert(P::dimension == 2, "PointLineDistance is planar; in space use OnSurface with a Plane");
+  static constexpr std::string_view kind = "PointLineDistance";
   static constexpr std::string_view meaning = "force on the point across the line; > 0 pushes to its left";
   static constexpr std::string_view singular = "the two points of its line coincide";
   P point;
@@ -36,6 +36,6 @@ struct LineOffset {
   }
 };
 template <class P, class A, class B>
-LineOffset(P, A, B, double) -> LineOffset<P, A, B>;
+PointLineDistance(P, A, B, double) -> PointLineDistance<P, A, B>;
 
 }  // namespace dalembert

@@ -20,8 +20,8 @@ struct FreeIda {
 };
 
 /// IDA's memory and what its callbacks need.
-struct IdaStepper::State {
-  State(const Problem& problem, const Start& start, const Options& options);
+struct IdaStepper::Solver {
+  Solver(const Problem& problem, const Start& start, const Options& options);
 
   // The context is declared first: it dies last.
   Owned<SUNContext, FreeContext> context = make_context();
@@ -43,7 +43,7 @@ struct IdaStepper::State {
   std::vector<double> compliance_row;  // per active row, of a gradient of unit length
   NewtonMatrix newton;
   OrderGuard guard;
-  bool order_changed = false, begin_anew = false;  // by the guard, not yet done
+  bool order_changed = false, reinitialise = false;  // by the guard, not yet done
   double t = 0.0;
   long steps = 0, evaluations = 0, error_tests = 0, convergence = 0;
   StepError reached;            // of the last step
@@ -111,8 +111,8 @@ struct IdaStepper::State {
 
 /// Runs `f` for C: +1, recoverable, for a fault of the user's equations at a time; the step is then
 /// tried shorter. -1 for anything else, which is kept.
-template <class State, class F>
-int guarded(State& state, double at, const F& f) noexcept {
+template <class Solver, class F>
+int guarded(Solver& state, double at, const F& f) noexcept {
   try {
     return f();
   } catch (const EquationFault& error) {

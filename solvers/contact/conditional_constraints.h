@@ -12,19 +12,19 @@
 namespace DALEMBERT_HIDDEN dalembert {
 
 /// All constraints of a run that hold only at times: contacts, and dry friction.
-class Transitions {
+class ConditionalConstraints {
  public:
   /// What happened at an instant, by numbers of constraints in the layout; the velocities before and after
   /// it, and the impulses, one per row of the system.
   struct Change {
     std::vector<double> v_before{}, v{}, impulses{};
-    std::vector<Occurrence> what{};
+    std::vector<EventRecord> what{};
   };
 
   /// At a state that satisfies all constraints that always hold. Throws InconsistentStart where a gap is
   /// negative.
-  Transitions(const std::shared_ptr<const System>& stated, const Scales& scales, double tolerance,
-              const Instant& start);
+  ConditionalConstraints(const std::shared_ptr<const System>& stated, const Scales& scales, double tolerance,
+                         const Instant& start);
 
   /// With those in force that are now, and the others not.
   [[nodiscard]] const std::shared_ptr<const System>& system() const {
@@ -42,26 +42,26 @@ class Transitions {
   void require_open(const FlatSample& now) { contacts_.require_open(now); }
   void require_separation(const FlatSample& now) const { contacts_.require_separation(now); }
 
-  /// What happens at the start. Throws as Contacts::pass and DryFriction::settle.
-  [[nodiscard]] Change begin(const Instant& at);
+  /// What happens at the start. Throws as Contacts::resolve and DryFriction::find_modes.
+  [[nodiscard]] Change resolve_start(const Instant& at);
   /// Goes on from where a switching function has fallen to 0. Throws likewise.
-  [[nodiscard]] Change pass(const FlatSample& at, std::size_t function);
+  [[nodiscard]] Change resolve(const FlatSample& at, std::size_t function);
   /// See Contacts.
   [[nodiscard]] std::optional<std::size_t> approaching() const { return contacts_.approaching(); }
   /// Goes on from a given state, reached by impulses, with equations whose parameters may differ. Throws
   /// likewise.
-  [[nodiscard]] Change restate(const std::shared_ptr<const System>& stated, const Instant& at,
-                               std::span<const double> impulses);
+  [[nodiscard]] Change replace_system(const std::shared_ptr<const System>& stated, const Instant& at,
+                                      std::span<const double> impulses);
   /// The scales of the run, where they differ from those of the constraints that always hold.
   void adopt(const Scales& scales);
   /// See Contacts.
-  [[nodiscard]] bool open_pulling(const FlatSample& now, std::vector<Occurrence>& what);
+  [[nodiscard]] bool open_pulling(const FlatSample& now, std::vector<EventRecord>& what);
 
  private:
-  [[nodiscard]] Change settle(Contacts::Change contacts, const Instant& at,
-                              std::optional<std::size_t> fallen = {});
+  [[nodiscard]] Change resolve_friction(Contacts::Change contacts, const Instant& at,
+                                        std::optional<std::size_t> triggered = {});
   void add(const std::vector<Contacts::Happening>& contacts,
-           const std::vector<DryFriction::Happening>& friction, std::vector<Occurrence>& what) const;
+           const std::vector<DryFriction::Happening>& friction, std::vector<EventRecord>& what) const;
 
   Contacts contacts_;
   DryFriction friction_;

@@ -1,4 +1,4 @@
-#include "dalembert/solvers/ida/ida_state.h"
+#include "dalembert/solvers/ida/ida_solver.h"
 
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
@@ -11,7 +11,7 @@
 
 namespace dalembert {
 
-IdaStepper::State::State(const Problem& problem, const Start& start, const Options& options)
+IdaStepper::Solver::Solver(const Problem& problem, const Start& start, const Options& options)
     : system(&problem.system()),
       rows(start.rows),
       scales(start.scales),
@@ -51,7 +51,7 @@ IdaStepper::State::State(const Problem& problem, const Start& start, const Optio
   make_linear_solver();
 }
 
-void IdaStepper::State::find_impulses() {
+void IdaStepper::Solver::find_impulses() {
   lengths = scales.lengths();
   for (std::size_t r = 0; r < m(); ++r) {
     const auto row = rows.rows[r];
@@ -61,18 +61,18 @@ void IdaStepper::State::find_impulses() {
 }
 
 /// IDA's multipliers, one per active row, into one per row of the system.
-void IdaStepper::State::spread_multipliers(N_Vector x) {
+void IdaStepper::Solver::spread_multipliers(N_Vector x) {
   const auto active = entries(x).subspan(2 * n(), m());
   for (std::size_t r = 0; r < m(); ++r) lambda[rows.rows[r]] = active[r];
 }
 
-void IdaStepper::State::residual(double at, N_Vector x, N_Vector xp, N_Vector r) {
+void IdaStepper::Solver::residual(double at, N_Vector x, N_Vector xp, N_Vector r) {
   ++evaluations;
   const Instant now = instant(at, x);
   system->evaluate(now, e);
-  if (system->frictional()) {
+  if (system->has_multiplier_forces()) {
     spread_multipliers(x);
-    system->add_friction(now, lambda, e.force);
+    system->add_multiplier_forces(now, lambda, e.force);
   }
   evaluated_at = at;
   evaluated = x;
@@ -105,7 +105,7 @@ void IdaStepper::State::residual(double at, N_Vector x, N_Vector xp, N_Vector r)
 }
 
 /// Of a row, the largest |q| that it reads, in units of each coordinate.
-double IdaStepper::State::farthest(std::size_t row, std::span<const double> q) const {
+double IdaStepper::Solver::farthest(std::size_t row, std::span<const double> q) const {
   double far = 0.0;
   for (const std::size_t k : system->row(row)) {
     const auto i = system->w_columns()[k];
@@ -123,7 +123,7 @@ double IdaStepper::State::farthest(std::size_t row, std::span<const double> q) c
 /// vibration of its spring that is what limits its error. In the error test it counts as the length C lambda,
 /// by its share of that weight: it is a differential variable, and where nothing moves the only one. (Other
 /// multipliers have no share; see IDASetSuppressAlg.)
-void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
+void IdaStepper::Solver::weigh(N_Vector x, N_Vector weight) {
   double h = 0.0;
   check(IDAGetCurrentStep(ida.get(), &h), "IDAGetCurrentStep");  // 0 before the first
   if (h == 0.0) h = first_step;
@@ -131,8 +131,8 @@ void IdaStepper::State::weigh(N_Vector x, N_Vector weight) {
   const auto value = entries(x);
   const auto w = entries(weight);
   const auto share = entries(id.get());
-  if (scales.of_path) {
-    scales.take(scales.further(value.first(n()), value.subspan(n(), n()), h, tolerance));
+  if (scales.length_from_path) {
+    scales.adopt(scales.extended_by(value.first(n()), value.subspan(n(), n()), h, tolerance));
     find_impulses();
   }
   const double eps = constants.roundings_of_newton * epsilon;

@@ -33,9 +33,9 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// in |lambda| a second solution may lie where multipliers have the other sign: `require_unique` asks for
 /// the sign of (2) at -lambda, which settles that for one multiplier and catches for several those that
 /// change their signs together.
-class FrictionSolver {
+class MultiplierForceSolver {
  public:
-  FrictionSolver(const Problem& problem, const ActiveRows& rows);
+  MultiplierForceSolver(const Problem& problem, const ActiveRows& rows);
 
   /// In place: (F, b) becomes (v', lambda), n and then one number per active row; w and s as in SaddleValues.
   /// False if W is singular. Throws EquationFault, naming the force, if there is no solution.
@@ -55,9 +55,9 @@ class FrictionSolver {
   void find_what_is_read(const Instant& at);
   /// y += factor dF_f/dlambda x, for one number per row of the system.
   void add_slope(double factor, std::span<const double> x, std::span<double> y) const;
-  [[nodiscard]] bool settled() const;
+  [[nodiscard]] bool converged() const;
   enum class Outcome { solved, none, singular };  // none: no solution, or no unique one; singular: W is
-  [[nodiscard]] bool begin(std::span<const double> w, std::span<const double> s);
+  [[nodiscard]] bool solve_without(std::span<const double> w, std::span<const double> s);
   [[nodiscard]] Outcome iterate(const Instant& at, std::span<const double> w, std::span<const double> s,
                                 std::span<double> x);
   [[nodiscard]] Outcome iterate_from_last(const Instant& at, std::span<const double> w,
@@ -69,7 +69,7 @@ class FrictionSolver {
   const System* system_;
   ActiveRows rows_;
   SaddleMatrix matrix_;
-  bool begun_ = false;  // lambda_ solved (1) the last time
+  bool last_solved_ = false;  // lambda_ solved (1) the last time
   std::vector<double> given_, without_, lambda_, mirrored_, slope_, slope_mirrored_;
   std::vector<double> force_, predicted_, balanced_;
   std::vector<char> reads_;  // per entry of the slope; empty until it is asked for

@@ -1,4 +1,4 @@
-#include "dalembert/solvers/manifold/friction.h"
+#include "dalembert/solvers/manifold/multiplier_forces.h"
 
 #include <dalembert/core/autodiff/branches.h>
 #include <dalembert/core/errors.h>
@@ -30,34 +30,34 @@ void refuse_friction(const System& system, std::span<const double> slope, double
     if (std::abs(slope[k]) > std::abs(slope[steepest])) steepest = k;
   std::ostringstream what;
   what.precision(10);
-  what << system.force_of_friction(steepest) << " changes the multiplier of "
-       << system.row_label(system.friction_pattern()[steepest].column)
+  what << system.name_of_multiplier_force(steepest) << " changes the multiplier of "
+       << system.row_label(system.multiplier_force_pattern()[steepest].column)
        << " that it reads so strongly that there is no acceleration, or no unique one (Painleve's paradox; "
           "t = "
        << t << "); make the friction smaller, or end the run before";
   throw EquationFault(what.str());
 }
 
-FrictionSolver::FrictionSolver(const Problem& problem, const ActiveRows& rows)
+MultiplierForceSolver::MultiplierForceSolver(const Problem& problem, const ActiveRows& rows)
     : system_(&problem.system()),
       rows_(rows),
       matrix_(problem.pattern(rows.rows), SaddleValues::Blocks::slope),
       given_(matrix_.size()),
       lambda_(system_->rows()),
-      slope_(system_->friction_pattern().size()),
+      slope_(system_->multiplier_force_pattern().size()),
       slope_mirrored_(slope_.size()),
       force_(system_->coordinates()),
       predicted_(force_.size()),
       balanced_(force_.size()) {}
 
-void FrictionSolver::add_slope(double factor, std::span<const double> x, std::span<double> y) const {
+void MultiplierForceSolver::add_slope(double factor, std::span<const double> x, std::span<double> y) const {
   for (std::size_t k = 0; k < slope_.size(); ++k) {
-    const auto [coordinate, row] = system_->friction_pattern()[k];
+    const auto [coordinate, row] = system_->multiplier_force_pattern()[k];
     y[coordinate] += factor * slope_[k] * x[row];
   }
 }
 
-bool FrictionSolver::settled() const {
+bool MultiplierForceSolver::converged() const {
   double difference = 0.0;
   for (std::size_t i = 0; i < force_.size(); ++i)
     difference = std::max(difference, std::abs(force_[i] - predicted_[i]));
@@ -65,7 +65,7 @@ bool FrictionSolver::settled() const {
 }
 
 /// The multipliers that the motion would have without friction.
-bool FrictionSolver::begin(std::span<const double> w, std::span<const double> s) {
+bool MultiplierForceSolver::solve_without(std::span<const double> w, std::span<const double> s) {
   if (!matrix_.factorise({.w = w, .s = s})) return false;
   without_.assign(given_.begin(), given_.end());
   matrix_.solve(without_);
@@ -77,8 +77,8 @@ bool FrictionSolver::begin(std::span<const double> w, std::span<const double> s)
 
 /// The multipliers of a solution. One that is the rounding of what its row balances is 0: it has no sign that
 /// a law could read.
-void FrictionSolver::read_multipliers(std::span<const double> w, std::span<const double> s,
-                                      std::span<double> x) {
+void MultiplierForceSolver::read_multipliers(std::span<const double> w, std::span<const double> s,
+                                             std::span<double> x) {
   const auto columns = system_->w_columns();
   const auto masses = system_->masses();
   const auto own = x.subspan(force_.size());
@@ -98,13 +98,14 @@ void FrictionSolver::read_multipliers(std::span<const double> w, std::span<const
   }
 }
 
-FrictionSolver::Outcome FrictionSolver::iterate(const Instant& at, std::span<const double> w,
-                                                std::span<const double> s, std::span<double> x) {
+MultiplierForceSolver::Outcome MultiplierForceSolver::iterate(const Instant& at, std::span<const double> w,
+                                                              std::span<const double> s,
+                                                              std::span<double> x) {
   const std::size_t n = force_.size();
   std::ranges::fill(force_, 0.0);
-  system_->add_friction(at, lambda_, force_);
+  system_->add_multiplier_forces(at, lambda_, force_);
   for (int step = 0; step < most_newton_steps; ++step) {
-    system_->friction_slope(at, lambda_, slope_);
+    system_->multiplier_force_slope(at, lambda_, slope_);
     if (!matrix_.factorise({.w = w, .s = s, .slope = slope_}))
       return matrix_.factorise({.w = w, .s = s}) ? Outcome::none : Outcome::singular;
     // F_f(lambda) - slope lambda: what stands on the right of (2), and with slope times the new lambda
@@ -118,52 +119,54 @@ FrictionSolver::Outcome FrictionSolver::iterate(const Instant& at, std::span<con
     read_multipliers(w, s, x);
     add_slope(1.0, lambda_, predicted_);
     std::ranges::fill(force_, 0.0);
-    system_->add_friction(at, lambda_, force_);
-    if (settled()) return matrix_.sign_of_determinant() > 0 ? Outcome::solved : Outcome::none;
+    system_->add_multiplier_forces(at, lambda_, force_);
+    if (converged()) return matrix_.sign_of_determinant() > 0 ? Outcome::solved : Outcome::none;
   }
   return Outcome::none;
 }
 
 /// From the multipliers of the last solution, if there is one and that leads to another.
-FrictionSolver::Outcome FrictionSolver::iterate_from_last(const Instant& at, std::span<const double> w,
-                                                          std::span<const double> s,
-                                                          std::span<double> x) try {
-  return std::exchange(begun_, false) ? iterate(at, w, s, x) : Outcome::none;
+MultiplierForceSolver::Outcome MultiplierForceSolver::iterate_from_last(const Instant& at,
+                                                                        std::span<const double> w,
+                                                                        std::span<const double> s,
+                                                                        std::span<double> x) try {
+  return std::exchange(last_solved_, false) ? iterate(at, w, s, x) : Outcome::none;
 } catch (const EquationFault&) {
   return Outcome::none;
 }
 
-bool FrictionSolver::solve(const Instant& at, std::span<const double> w, std::span<const double> s,
-                           std::span<double> x) {
+bool MultiplierForceSolver::solve(const Instant& at, std::span<const double> w, std::span<const double> s,
+                                  std::span<double> x) {
   std::ranges::copy(x, given_.begin());
   Outcome outcome = iterate_from_last(at, w, s, x);
   if (outcome == Outcome::none) {
-    if (!begin(w, s)) return false;
+    if (!solve_without(w, s)) return false;
     outcome = iterate(at, w, s, x);
   }
   if (outcome == Outcome::none) refuse_friction(*system_, slope_, at.t);
-  begun_ = outcome == Outcome::solved;
-  return begun_;
+  last_solved_ = outcome == Outcome::solved;
+  return last_solved_;
 }
 
 /// A law that has no slope at -lambda has no solution there either.
-bool FrictionSolver::mirrored_slope(const Instant& at) try {
+bool MultiplierForceSolver::mirrored_slope(const Instant& at) try {
   for (const double value : lambda_) mirrored_.push_back(-value);
   const Branches anywhere(nullptr, nullptr);
-  system_->friction_slope(at, mirrored_, slope_mirrored_);
+  system_->multiplier_force_slope(at, mirrored_, slope_mirrored_);
   return true;
 } catch (const EquationFault&) {
   return false;
 }
 
-void FrictionSolver::require_unique(const Instant& at, std::span<const double> w, std::span<const double> s) {
+void MultiplierForceSolver::require_unique(const Instant& at, std::span<const double> w,
+                                           std::span<const double> s) {
   mirrored_.clear();
   if (!mirrored_slope(at) || slope_mirrored_ == slope_) return;
   const bool regular = matrix_.factorise({.w = w, .s = s, .slope = slope_mirrored_});
   require_regular(regular && matrix_.sign_of_determinant() > 0, at.t);
 }
 
-void FrictionSolver::find_what_is_read(const Instant& at) {
+void MultiplierForceSolver::find_what_is_read(const Instant& at) {
   constexpr int trials = 4;
   reads_.assign(slope_.size(), 0);
   std::vector<double> v(at.v.size()), lambda(lambda_.size()), slope(slope_.size());
@@ -178,7 +181,7 @@ void FrictionSolver::find_what_is_read(const Instant& at) {
     std::ranges::generate(v, [&] { return any_up_to(speed); });
     std::ranges::generate(lambda, [&] { return any_up_to(force); });
     try {
-      system_->friction_slope({at.t, at.q, v}, lambda, slope);
+      system_->multiplier_force_slope({at.t, at.q, v}, lambda, slope);
     } catch (const EquationFault&) {
       std::ranges::fill(slope, 1.0);  // a law without values there may read anything
     }
@@ -188,20 +191,20 @@ void FrictionSolver::find_what_is_read(const Instant& at) {
   }
 }
 
-void FrictionSolver::require_determined(const Instant& at, std::span<const char> determined) {
+void MultiplierForceSolver::require_determined(const Instant& at, std::span<const char> determined) {
   if (std::ranges::find(determined, 0) == determined.end()) return;
   if (reads_.empty()) find_what_is_read(at);
   for (std::size_t k = 0; k < slope_.size(); ++k) {
-    const std::size_t row = system_->friction_pattern()[k].column;
+    const std::size_t row = system_->multiplier_force_pattern()[k].column;
     if (determined[row] || (!reads_[k] && slope_[k] == 0.0)) continue;
-    throw InconsistentStart(system_->force_of_friction(k) + " reads the multiplier of " +
+    throw InconsistentStart(system_->name_of_multiplier_force(k) + " reads the multiplier of " +
                             system_->row_label(row) +
                             ", which the motion does not determine: that constraint is redundant; "
                             "remove what repeats it");
   }
 }
 
-void FrictionSolver::require_regular(bool regular, double t) {
+void MultiplierForceSolver::require_regular(bool regular, double t) {
   if (!regular) refuse_friction(*system_, slope_, t);
 }
 

@@ -1,4 +1,4 @@
-#include "dalembert/solvers/erk/erk_state.h"
+#include "dalembert/solvers/erk/runge_kutta.h"
 
 #include <dalembert/solvers/base/constants.h>
 
@@ -24,7 +24,7 @@ std::array<double, stages> difference_of_last_rows() {
 
 }  // namespace
 
-ErkStepper::State::State(const Problem& problem, const Start& start, const Options& options)
+ErkStepper::RungeKutta::RungeKutta(const Problem& problem, const Start& start, const Options& options)
     : system(&problem.system()),
       n(start.q.size()),
       scales(start.scales),
@@ -41,12 +41,12 @@ ErkStepper::State::State(const Problem& problem, const Start& start, const Optio
       noise(start.q.size()),
       noise_q(start.q.size()),
       noise_v(start.q.size()),
-      covered(start.scales.way),
+      covered(start.scales.extent),
       usual(constants.first_explicit_step * std::pow(options.tolerance, 1.0 / pair.order) *
             start.scales.time),
       longest(longest_step(options)),
       h(std::min(usual, longest)),
-      passage(n),
+      extrapolation(n),
       switches(*system),
       multipliers(start.lambda.size()) {
   for (Node* node : {&from, &to, &middle, &next, &short_of, &beyond}) {
@@ -63,7 +63,7 @@ ErkStepper::State::State(const Problem& problem, const Start& start, const Optio
       switches.make_room(*side);
   }
   for (std::size_t i = 1; i < k.size(); ++i) k[i] = stage(i).data();
-  passage.remember(to.t, start.a);
+  extrapolation.remember(to.t, start.a);
   find_sine(to);
   if (!system->compliant()) return;
   auto e = system->evaluation();
@@ -75,23 +75,23 @@ ErkStepper::State::State(const Problem& problem, const Start& start, const Optio
   }
 }
 
-void ErkStepper::State::require(bool regular) {
+void ErkStepper::RungeKutta::require(bool regular) {
   if (!regular) throw EquationFault("the constraints became linearly dependent");
 }
 
-void ErkStepper::State::find_sine(Node& node) {
+void ErkStepper::RungeKutta::find_sine(Node& node) {
   (void)manifold.sine({node.t, node.q, halves(node.va).first});
   note_sine(node);
 }
 
 /// Where the matrix was factored last.
-void ErkStepper::State::note_sine(Node& node) const {
+void ErkStepper::RungeKutta::note_sine(Node& node) const {
   node.sine = manifold.sine();
   node.rows = manifold.exchanges();
 }
 
 /// At stage i, on whose way other rows may have taken over.
-void ErkStepper::State::note_angle(std::size_t i, double t) {
+void ErkStepper::RungeKutta::note_angle(std::size_t i, double t) {
   angles[i] = {t, manifold.sine()};
   if (manifold.exchanges() != rows_of_angles) {
     rows_of_angles = manifold.exchanges();
@@ -103,20 +103,20 @@ void ErkStepper::State::note_angle(std::size_t i, double t) {
 
 /// Whether the angle between constraints changes much in a step. An error e of a stage off the manifold is
 /// one of e/sin^2 in its accelerations; projected stages do not have it.
-bool ErkStepper::State::close_to_singular(double step) const {
+bool ErkStepper::RungeKutta::close_to_singular(double step) const {
   const bool known = steps > 0 && from.rows == to.rows;
   const double rate = known ? std::abs(to.sine - from.sine) / (to.t - from.t) : 0.0;
   return to.sine < constants.close_to_dependent && step * rate > constants.changing_angle * to.sine;
 }
 
-void ErkStepper::State::run_stage(std::size_t i, double t, bool onto_constraints) {
+void ErkStepper::RungeKutta::run_stage(std::size_t i, double t, bool onto_constraints) {
   const auto [v, v_dot] = halves(stage(i));
   require(onto_constraints ? manifold.project(t, stage_q, v, v_dot)
                            : manifold.accelerate({t, stage_q, v}, v_dot));
 }
 
 /// Of an attempt.
-void ErkStepper::State::listen_to_stage(std::size_t i, double t, bool onto_constraints) {
+void ErkStepper::RungeKutta::record_comparisons_of_stage(std::size_t i, double t, bool onto_constraints) {
   const auto its = std::ranges::find(noted, i);
   if (its == noted.end()) return run_stage(i, t, onto_constraints);
   Compared& here = compared[static_cast<std::size_t>(its - noted.begin())];
@@ -126,7 +126,8 @@ void ErkStepper::State::listen_to_stage(std::size_t i, double t, bool onto_const
   strayed = strayed || Branches::strayed();
 }
 
-void ErkStepper::State::run_stages(const Node& start, double step, std::size_t last, bool onto_constraints) {
+void ErkStepper::RungeKutta::run_stages(const Node& start, double step, std::size_t last,
+                                        bool onto_constraints) {
   k[0] = start.va.data();
   angles.fill(start.angle());
   least = angles[0];
@@ -135,22 +136,22 @@ void ErkStepper::State::run_stages(const Node& start, double step, std::size_t l
     a[i].move(step, k, start.q.data(), stage_q.data(), start.va.data(), stage(i).data(), n);
     const double t = start.t + pair.c[i] * step;
     if (held != nullptr && &start == &to)
-      listen_to_stage(i, t, onto_constraints);
+      record_comparisons_of_stage(i, t, onto_constraints);
     else
       run_stage(i, t, onto_constraints);
     note_angle(i, t);
-    if (&start == &to) look(i, t);
+    if (&start == &to) check_switch(i, t);
   }
 }
 
-void ErkStepper::State::finish(const Node& start, double step, Node& end) const {
+void ErkStepper::RungeKutta::finish(const Node& start, double step, Node& end) const {
   end.t = start.t + step;
   b.move(step, k, start.q.data(), end.q.data(), start.va.data(), end.va.data(), n);
 }
 
 /// Half a step of the method itself from where the last step began; on the constraints, if on its way their
 /// angle was smaller than at its ends.
-void ErkStepper::State::find_middle() {
+void ErkStepper::RungeKutta::find_middle() {
   if (has_middle) return;
   const double half = 0.5 * (to.t - from.t);
   const bool dips = least.sine < (1.0 - constants.changing_angle) * std::min(from.sine, to.sine);

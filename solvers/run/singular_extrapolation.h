@@ -17,20 +17,20 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// eps/sin^2, accelerations to eps/sin^3. Nodes whose distances from t* double, and a point as far beyond t*
 /// as the last one is before it, amplify the noise in a (t - t0) by about 20 whatever their number. A
 /// polynomial through q and v as well would be of higher order, but amplify the noise in q by 1e4.
-class Passage {
+class SingularExtrapolation {
  public:
   static constexpr std::size_t most_nodes = 7;
 
-  explicit Passage(std::size_t n);
-  Passage(const Passage&) = delete;
-  Passage& operator=(const Passage&) = delete;
+  explicit SingularExtrapolation(std::size_t n);
+  SingularExtrapolation(const SingularExtrapolation&) = delete;
+  SingularExtrapolation& operator=(const SingularExtrapolation&) = delete;
 
   /// After each step, and before the first: the accelerations at t.
   void remember(double t, std::span<const double> a);
   /// Forgets accelerations that the next ones do not continue.
   void forget() { known_ = 0; }
 
-  /// Chooses, from the last node back, those whose distances from `singular` grow by at least `spread`.
+  /// Chooses, from the last node back, those whose distances from `singular` grow by at least `node_ratio`.
   /// Returns how many: at most `most_nodes`.
   std::size_t choose(double singular);
   /// Forgets all others: closer to `singular` they will not be needed.

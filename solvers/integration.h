@@ -3,7 +3,7 @@
 #include <dalembert/solvers/run/accumulated_error.h>
 #include <dalembert/solvers/run/comparisons.h>
 #include <dalembert/solvers/run/kept_steps.h>
-#include <dalembert/solvers/run/reader.h>
+#include <dalembert/solvers/run/output_projection.h>
 #include <dalembert/solvers/run/singularity.h>
 #include <dalembert/solvers/run/sticking.h>
 #include <dalembert/solvers/run/time_stepper.h>
@@ -23,42 +23,42 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// A system's way through time: the stepper that the options ask for, restarted with other rows where those
 /// in use come to depend on each other, and handed over to the explicit one at isolated singular positions.
 /// What is read from it lies on the constraints.
-class Stepping {
+class Integration {
  public:
   /// See first_start. Throws InconsistentStart; StepFailure and EquationFault at the start.
-  Stepping(std::shared_ptr<const System> system, std::span<const double> q, std::span<const double> v,
-           const Options& options, double nearest_contact);
+  Integration(std::shared_ptr<const System> system, std::span<const double> q, std::span<const double> v,
+              const Options& options, double nearest_contact);
 
   /// Where the last step ended, or where it came to a switch of the equations.
-  [[nodiscard]] double time() const { return switch_ ? switch_->at.t : stretch_->stepper->time(); }
+  [[nodiscard]] double time() const { return switch_ ? switch_->at.t : segment_->stepper->time(); }
   /// Where the run ends.
   [[nodiscard]] double end() const { return options_.t_end; }
   [[nodiscard]] bool at_end() const { return time() >= end(); }
-  [[nodiscard]] const Problem& problem() const { return stretch_->problem; }
+  [[nodiscard]] const Problem& problem() const { return segment_->problem; }
   /// The one whose equations are stepped.
   [[nodiscard]] const System& system() const { return problem().system(); }
   [[nodiscard]] const std::shared_ptr<const System>& shared_system() const {
     return problem().shared_system();
   }
   /// See TimeStepper.
-  [[nodiscard]] int degree() const { return stretch_->stepper->degree(); }
+  [[nodiscard]] int degree() const { return segment_->stepper->degree(); }
   [[nodiscard]] double tolerance() const { return options_.tolerance; }
   /// Throws StepFailure, EquationFault.
   void step(double wanted);
   /// Begins anew at a time inside the last step, with constraints that changed and velocities that may have.
   /// Throws StepFailure, EquationFault, and then it has not begun.
-  void begin_changed(double t, std::shared_ptr<const System> system, std::span<const double> q,
-                     std::span<const double> v);
+  void restart_with_constraints(double t, std::shared_ptr<const System> system, std::span<const double> q,
+                                std::span<const double> v);
   /// Everything at a time inside the last step (or at the start, before the first). Throws StepFailure,
   /// EquationFault.
-  void read(double t, Moment& m);
+  void read(double t, OutputState& m);
   /// The same a while after the last beginning, by its velocities and accelerations instead of steps.
-  void read_ahead(double while_after, Moment& m);
+  void read_ahead(double while_after, OutputState& m);
 
   /// The stepper's own velocities where the last step ended.
   [[nodiscard]] std::span<const double> velocities() { return interpolate(time()).v; }
   /// What it began from, or last began anew from.
-  [[nodiscard]] const Start& start() const { return stretch_->start; }
+  [[nodiscard]] const Start& start() const { return segment_->start; }
   /// Those of the scene at a time inside the last step: a length of its path grows.
   [[nodiscard]] Scales scales(double t) const;
   /// The constraint whose force has grown without bound where the last step ended, in words; empty if there
@@ -71,16 +71,16 @@ class Stepping {
 
  private:
   /// What each beginning makes anew.
-  struct Stretch {
+  struct Segment {
     Problem problem;
     Start start;
     Comparisons comparisons;
     Stepper by;  // that of the options, or close to a singular position the explicit one
-    Reader reader;
+    OutputProjection output;
     std::unique_ptr<TimeStepper> stepper;
     std::optional<Sticking> sticking;  // in a run by the implicit stepper, if there is friction
 
-    /// As long as it lives equations are evaluated on the sides of this stretch.
+    /// As long as it lives equations are evaluated on the sides of this segment.
     [[nodiscard]] Branches hold() const { return {nullptr, comparisons.held()}; }
   };
   /// A state of the stepper's own, not put onto the constraints.
@@ -88,16 +88,16 @@ class Stepping {
     std::vector<double> q, v;
   };
   const State& interpolate(double t);
-  [[nodiscard]] const Springs* springs_at(double t);
+  [[nodiscard]] const CompliantMultipliers* compliant_multipliers_at(double t);
 
-  void cover(Scales& way, double t, State& at) const;
+  void extend_path(Scales& scales, double t, State& at) const;
   [[nodiscard]] Start start_of_rest(double t) const;
   [[nodiscard]] Options options_from(double t, Stepper by) const;
-  [[nodiscard]] std::unique_ptr<Stretch> stretch(const Problem& problem, Start start, double t,
-                                                 Stepper by) const;
-  [[nodiscard]] std::unique_ptr<Stretch> stretch(const Problem& problem, Start start, double t, Stepper by,
-                                                 Comparisons comparisons) const;
-  void go_on_with(std::unique_ptr<Stretch> next);
+  [[nodiscard]] std::unique_ptr<Segment> make_segment(const Problem& problem, Start start, double t,
+                                                      Stepper by) const;
+  [[nodiscard]] std::unique_ptr<Segment> make_segment(const Problem& problem, Start start, double t,
+                                                      Stepper by, Comparisons comparisons) const;
+  void enter_segment(std::unique_ptr<Segment> next);
   [[nodiscard]] KeptSteps& own_steps();
   void keep_step(double from);
   void exchange_rows();
@@ -106,14 +106,14 @@ class Stepping {
   void watch_sine();
   void hand_over(double sine);
   void watch_sliding();
-  void restart(Stepper by);
+  void restart_with_rows(Stepper by);
   void find_switch(double from);
-  void put_on_springs(double t, State& now);
-  void pass_switch();
+  void project_onto_compliant(double t, State& now);
+  void restart_behind_switch();
   void stepper_at(double t, std::span<double> q, std::span<double> v);
 
   Options options_;
-  std::unique_ptr<Stretch> stretch_;
+  std::unique_ptr<Segment> segment_;
   std::vector<double> lambda_at_start_;
   std::shared_ptr<KeptSteps> kept_;  // if the options ask for it
 
@@ -122,12 +122,12 @@ class Stepping {
   double last_switch_ = 0.0;
   int switches_at_once_ = 0;  // in a row
   long steps_ = 0;
-  Scales covered_;     // where the last step began
-  double from_ = 0.0;  // when that was
-  Angle angle_;        // at the last step
+  Scales scales_at_step_;  // where the last step began
+  double from_ = 0.0;      // when that was
+  Angle angle_;            // at the last step
   double sine_at_handover_ = 0.0;
 
-  Springs springs_;  // of the implicit stepper's state, if any constraint is compliant
+  CompliantMultipliers compliant_;  // of the implicit stepper's state, if any constraint is compliant
   State state_;
   Statistics past_;  // of the steppers and readers before
 };

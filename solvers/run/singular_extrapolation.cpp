@@ -1,4 +1,4 @@
-#include "dalembert/solvers/run/passage.h"
+#include "dalembert/solvers/run/singular_extrapolation.h"
 
 #include <dalembert/solvers/base/constants.h>
 
@@ -13,7 +13,7 @@ namespace {
 /// So many steps are kept: what error control adds to the halvings of the distance.
 constexpr std::size_t kept = 16;
 /// Of two more than the nodes, where an end is known too: c[k] of x^k.
-using Polynomial = std::array<double, Passage::most_nodes + 2>;
+using Polynomial = std::array<double, SingularExtrapolation::most_nodes + 2>;
 
 /// p(x), and its integrals int p and int (x - s) p(s) ds from 0 to x.
 struct Weights {
@@ -65,11 +65,11 @@ Polynomial lagrange(std::span<const double> x, std::size_t node) {
 
 }  // namespace
 
-Passage::Passage(std::size_t n) : accelerations_(kept * n), past_(kept) {
+SingularExtrapolation::SingularExtrapolation(std::size_t n) : accelerations_(kept * n), past_(kept) {
   for (std::size_t i = 0; i < past_.size(); ++i) past_[i].a = accelerations_.data() + i * n;
 }
 
-void Passage::remember(double t, std::span<const double> a) {
+void SingularExtrapolation::remember(double t, std::span<const double> a) {
   std::rotate(past_.begin(), past_.end() - 1, past_.end());  // clang 14 has no std::ranges::rotate
   past_.front().t = t;
   std::ranges::copy(a, past_.front().a);
@@ -77,19 +77,19 @@ void Passage::remember(double t, std::span<const double> a) {
   for (std::size_t& i : chosen_) ++i;
 }
 
-std::size_t Passage::choose(double singular) {
+std::size_t SingularExtrapolation::choose(double singular) {
   count_ = 0;
   double farthest = 0.0;
   for (std::size_t i = 0; i < known_ && count_ < most_nodes; ++i) {
     const double distance = std::abs(singular - past_[i].t);
-    if (distance < constants.spread * farthest) continue;
+    if (distance < constants.node_ratio * farthest) continue;
     chosen_[count_++] = i;
     farthest = distance;
   }
   return count_;
 }
 
-void Passage::keep_chosen() {
+void SingularExtrapolation::keep_chosen() {
   for (std::size_t j = 0; j < count_; ++j) {
     std::swap(past_[j], past_[chosen_[j]]);
     chosen_[j] = j;
@@ -97,14 +97,15 @@ void Passage::keep_chosen() {
   known_ = count_;
 }
 
-std::array<double, Passage::most_nodes> Passage::places(double length) const {
+std::array<double, SingularExtrapolation::most_nodes> SingularExtrapolation::places(double length) const {
   std::array<double, most_nodes> x{};
   for (std::size_t j = 0; j < count_; ++j) x[j] = (past_[chosen_[j]].t - past_[chosen_[0]].t) / length;
   return x;
 }
 
-void Passage::go(std::size_t nodes, double t, std::span<const double> q0, std::span<const double> v0,
-                 std::span<double> q, std::span<double> v, std::span<double> a) const {
+void SingularExtrapolation::go(std::size_t nodes, double t, std::span<const double> q0,
+                               std::span<const double> v0, std::span<double> q, std::span<double> v,
+                               std::span<double> a) const {
   const double length = t - past_[chosen_[0]].t;
   const auto all = places(length);
   const auto x = std::span(all).first(nodes);
@@ -119,8 +120,8 @@ void Passage::go(std::size_t nodes, double t, std::span<const double> q0, std::s
   }
 }
 
-void Passage::read(std::size_t nodes, double t, const End& from, const End& to, std::span<double> q,
-                   std::span<double> v) const {
+void SingularExtrapolation::read(std::size_t nodes, double t, const End& from, const End& to,
+                                 std::span<double> q, std::span<double> v) const {
   const double length = to.t - from.t, at = (t - from.t) / length;
   const auto all = places(length);
   const auto x = std::span(all).first(nodes);

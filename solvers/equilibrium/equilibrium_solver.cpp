@@ -1,4 +1,4 @@
-#include "dalembert/solvers/equilibrium/balance.h"
+#include "dalembert/solvers/equilibrium/equilibrium_solver.h"
 
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/numbers.h>
@@ -20,7 +20,7 @@ constexpr int most_corrections = 60, most_halvings = 6, most_descents = 2000;
 /// A sum of forces counts as 0 below this many roundings of the largest of them.
 constexpr double roundings = 100.0;
 
-RotatingFrame frame_of(double time, const Turning<3>& turning, const Layout& layout) {
+RotatingFrame frame_of(double time, const UniformRotation<3>& turning, const Layout& layout) {
   const int dimension = layout.dimension;
   if (!std::isfinite(time)) throw InvalidArgument("Option time of an equilibrium must be finite");
   if (!turning.rate.allFinite() || !turning.centre.allFinite())
@@ -31,8 +31,8 @@ RotatingFrame frame_of(double time, const Turning<3>& turning, const Layout& lay
 }
 
 void require_frictionless(const System& system) {
-  if (!system.frictional()) return;
-  throw NoEquilibrium(system.force_of_friction(0) +
+  if (!system.has_multiplier_forces()) return;
+  throw NoEquilibrium(system.name_of_multiplier_force(0) +
                       " reads a multiplier: at rest friction takes any value up to its limit, and equilibria "
                       "fill a region; leave it out to find the one without friction, or let a run come to "
                       "rest");
@@ -51,11 +51,12 @@ void require_bilateral(const System& system) {
 
 }  // namespace
 
-Balance::Balance(const Problem& problem, std::span<const double> guess, double time,
-                 const Turning<3>& turning)
-    : Balance(problem, guess, time, frame_of(time, turning, *problem.system().layout())) {}
+EquilibriumSolver::EquilibriumSolver(const Problem& problem, std::span<const double> guess, double time,
+                                     const UniformRotation<3>& turning)
+    : EquilibriumSolver(problem, guess, time, frame_of(time, turning, *problem.system().layout())) {}
 
-Balance::Balance(const Problem& problem, std::span<const double> guess, double time, RotatingFrame frame)
+EquilibriumSolver::EquilibriumSolver(const Problem& problem, std::span<const double> guess, double time,
+                                     RotatingFrame frame)
     : problem_(problem), system_(&problem_.system()), time_(time), frame_(std::move(frame)) {
   const System& system = *system_;
   require_frictionless(system);
@@ -75,14 +76,14 @@ Balance::Balance(const Problem& problem, std::span<const double> guess, double t
   measure_stiffness(begin);
 }
 
-Balance::State Balance::start() const {
+EquilibriumSolver::State EquilibriumSolver::start() const {
   State s{q0_, std::vector<double>(q0_.size()), lambda0_};
   evaluate(s);
   return s;
 }
 
 /// Gives each coordinate of a particle the largest force on any of them.
-void Balance::share_by_particle(std::span<double> forces) const {
+void EquilibriumSolver::share_by_particle(std::span<double> forces) const {
   const Layout& layout = *system_->layout();
   for (const auto& particle : layout.particles) {
     const auto own = forces.subspan(static_cast<std::size_t>(particle.coordinate),
@@ -93,7 +94,7 @@ void Balance::share_by_particle(std::span<double> forces) const {
 
 /// A particle is in balance if the residual is small against the forces on itself: a stiff spring elsewhere
 /// holds nothing up.
-void Balance::evaluate(State& s) const {
+void EquilibriumSolver::evaluate(State& s) const {
   frame_.velocity(s.q, s.v);
   auto e = system_->evaluation();
   system_->evaluate({time_, s.q, s.v}, e);
@@ -117,31 +118,32 @@ void Balance::evaluate(State& s) const {
   s.scale = largest(acting);
   s.round_off = true;
   for (std::size_t i = 0; i < least_force_.size(); ++i) {
-    const double rounding = roundings * epsilon * acting[i] + balanced * least_force_[i];
+    const double rounding = roundings * epsilon * acting[i] + residual_tolerance * least_force_[i];
     s.round_off = s.round_off && std::abs(s.force[i]) <= rounding;
     acting[i] = std::max(acting[i], least_force_[i]);
   }
   s.acting = std::move(acting);
   s.distance = std::move(e.g);
-  s.off = 0.0;
+  s.relative_violation = 0.0;
   const auto lengths = scales_.lengths();
   for (std::size_t r = 0; r < s.distance.size(); ++r) {
     s.distance[r] = system_->law(r).residual(s.distance[r], s.lambda[r]);
-    s.off = std::max(s.off,
-                     std::abs(s.distance[r]) / gradient_length(*system_, e.w, lengths, r) / scales_.length);
+    s.relative_violation =
+        std::max(s.relative_violation,
+                 std::abs(s.distance[r]) / gradient_length(*system_, e.w, lengths, r) / scales_.length);
   }
-  s.size = size(s, s.acting);
-  s.round_off = s.round_off && s.off <= roundings * epsilon;
+  s.relative_residual = relative_residual(s, s.acting);
+  s.round_off = s.round_off && s.relative_violation <= roundings * epsilon;
 }
 
-double Balance::size(const State& s, std::span<const double> acting) {
+double EquilibriumSolver::relative_residual(const State& s, std::span<const double> acting) {
   double unbalanced = 0.0;
   for (std::size_t i = 0; i < s.force.size(); ++i)
     if (s.force[i] != 0.0) unbalanced = std::max(unbalanced, std::abs(s.force[i]) / acting[i]);
-  return std::max(unbalanced, s.off);
+  return std::max(unbalanced, s.relative_violation);
 }
 
-ActiveRows Balance::rows_at(const State& s) const {
+ActiveRows EquilibriumSolver::rows_at(const State& s) const {
   if (rows_.size() == system_->rows()) return rows_;
   auto e = system_->evaluation();
   system_->evaluate({time_, s.q, s.v}, e);
@@ -156,7 +158,7 @@ ActiveRows Balance::rows_at(const State& s) const {
 /// the stiffest in its uncoupled part of the scene: what is soft is not held by what is stiff elsewhere. The
 /// least that K's round-off allows serves where something is soft beside something stiff on the same
 /// coordinate. Round-off of the rates of a motion that no force bends is neither a stiffness nor a force.
-void Balance::measure_stiffness(const State& s) {
+void EquilibriumSolver::measure_stiffness(const State& s) {
   const LinearTerms terms = linear_terms(*system_, frame_, {time_, s.q, s.v}, s.lambda);
   const Islands& parts = problem_.islands();
   std::vector<double> own(s.q.size(), 0.0), of_part(parts.count, 0.0),
@@ -172,7 +174,7 @@ void Balance::measure_stiffness(const State& s) {
     own[row] = std::max(own[row], size);
     of_part[parts.of_coordinate[row]] = std::max(of_part[parts.of_coordinate[row]], size);
     const double rounding = 10.0 * epsilon * std::max(scales_.unit(column), std::abs(s.q[column]));
-    least_force_[row] += std::abs(entry.value()) * rounding / balanced;
+    least_force_[row] += std::abs(entry.value()) * rounding / residual_tolerance;
   }
   stiffest_.resize(s.q.size());
   shift_.resize(s.q.size());
@@ -180,7 +182,7 @@ void Balance::measure_stiffness(const State& s) {
   for (std::size_t i = 0; i < s.q.size(); ++i) {
     const double part = of_part[parts.of_coordinate[i]], turning = rate[parts.of_coordinate[i]];
     const double rounding = 10.0 * epsilon * turning * turning;
-    least_force_[i] += rounding * system_->masses()[i] * scales_.unit(i) / balanced;
+    least_force_[i] += rounding * system_->masses()[i] * scales_.unit(i) / residual_tolerance;
     stiffest_[i] = part > rounding ? part : 1.0 / (scales_.time * scales_.time);
     shift_[i] = constants.no_stiffness * (own[i] > rounding ? own[i] : stiffest_[i]);
     least_shift_[i] = roundings * epsilon / constants.no_stiffness * shift_[i];
@@ -190,7 +192,7 @@ void Balance::measure_stiffness(const State& s) {
 
 /// Forces of round-off spread along constraints: the torque of a wheel that nothing turns is the round-off of
 /// the force that its contact transmits.
-void Balance::share_along_rows(std::span<const double> w) {
+void EquilibriumSolver::share_along_rows(std::span<const double> w) {
   const auto lengths = scales_.lengths();
   const auto share = [&](std::size_t r) {
     const double gradient = gradient_length(*system_, w, lengths, r);
@@ -217,7 +219,7 @@ void Balance::share_along_rows(std::span<const double> w) {
 }
 
 /// A step (dq, dlambda) of (K + s M) dq - W^T dlambda = R1, W dq + C dlambda = -R2.
-bool Balance::step(const State& s, std::span<const double> shift, std::vector<double>& x) const {
+bool EquilibriumSolver::step(const State& s, std::span<const double> shift, std::vector<double>& x) const {
   const ActiveRows rows = rows_at(s);
   const LinearTerms terms = linear_terms(*system_, frame_, {time_, s.q, s.v}, s.lambda);
   TangentMatrix matrix(*system_, rows, terms, shift);
@@ -236,7 +238,7 @@ bool Balance::step(const State& s, std::span<const double> shift, std::vector<do
 /// The part of a step downhill that ends in the valley it leads into: where the forces have turned against
 /// it, if they lead on again farther away. It is looked for at distances that grow; a short step leaps over
 /// nothing.
-double Balance::part_in_the_valley(const State& s, const std::vector<double>& x) const {
+double EquilibriumSolver::part_in_the_valley(const State& s, const std::vector<double>& x) const {
   constexpr double short_step = 0.1, growth = 1.25;
   double length = 0.0;
   for (std::size_t i = 0; i < s.q.size(); ++i) length = std::max(length, std::abs(x[i]) / scales_.unit(i));
@@ -255,12 +257,13 @@ double Balance::part_in_the_valley(const State& s, const std::vector<double>& x)
 }
 
 /// The power of the forces in a state along a step.
-double Balance::power(const State& s, const std::vector<double>& x) {
+double EquilibriumSolver::power(const State& s, const std::vector<double>& x) {
   return std::inner_product(s.force.begin(), s.force.end(), x.begin(), 0.0);
 }
 
 /// The state a part of a step away. Throws EquationFault.
-Balance::State Balance::moved(const State& s, const std::vector<double>& x, double part) const {
+EquilibriumSolver::State EquilibriumSolver::moved(const State& s, const std::vector<double>& x,
+                                                  double part) const {
   const std::size_t n = s.q.size();
   State there = s;
   for (std::size_t i = 0; i < n; ++i) there.q[i] += part * x[i];
@@ -271,12 +274,14 @@ Balance::State Balance::moved(const State& s, const std::vector<double>& x, doub
 
 /// Line search: as far along a step as the residual falls enough, relative to the forces where the step
 /// begins: where a single force acts on a particle the residual relative to its own would always be 1.
-bool Balance::improve(State& s, const std::vector<double>& x) const {
+bool EquilibriumSolver::improve(State& s, const std::vector<double>& x) const {
   double fraction = part_in_the_valley(s, x);
   for (int halving = 0; halving <= most_halvings; ++halving, fraction *= 0.5) {
     try {
       State next = moved(s, x, fraction);
-      if (!(size(next, s.acting) < (1.0 - constants.sufficient_decrease * fraction) * s.size)) continue;
+      if (!(relative_residual(next, s.acting) <
+            (1.0 - constants.sufficient_decrease * fraction) * s.relative_residual))
+        continue;
       s = std::move(next);
       return true;
     } catch (const EquationFault&) {
@@ -289,46 +294,47 @@ bool Balance::improve(State& s, const std::vector<double>& x) const {
 /// Whether a step climbs against the forces without being near what it climbs to: by Newton and Kantorovich's
 /// theorem it is, where a full step leaves less than a quarter of the residual; of a step longer than the
 /// scene, whose end says less of what lies between, less by the square of its lengths.
-bool Balance::leaps_uphill(const State& s, const std::vector<double>& x) const {
+bool EquilibriumSolver::leaps_uphill(const State& s, const std::vector<double>& x) const {
   if (power(s, x) >= 0.0 || s.round_off) return false;
   double lengths = 1.0;
   for (std::size_t i = 0; i < s.q.size(); ++i) lengths = std::max(lengths, std::abs(x[i]) / scales_.unit(i));
   try {
-    return size(moved(s, x, 1.0), s.acting) * lengths * lengths > 0.25 * s.size;
+    return relative_residual(moved(s, x, 1.0), s.acting) * lengths * lengths > 0.25 * s.relative_residual;
   } catch (const EquationFault&) {
     return true;
   }
 }
 
-void Balance::newton(State& s, std::span<const double> shift) const {
+void EquilibriumSolver::newton(State& s, std::span<const double> shift) const {
   std::vector<double> x;
-  for (int i = 0; i < most_corrections && s.size > 0.0; ++i)
+  for (int i = 0; i < most_corrections && s.relative_residual > 0.0; ++i)
     if (!step(s, shift, x) || leaps_uphill(s, x) || !improve(s, x)) break;
 }
 
 /// Where that leaves more than round-off something may be softer than the shift: the stiffness is measured
 /// anew there, and the least shift taken. So it is where the stiffness has fallen to 0 on the way, and what
 /// was round-off beside that of the guess no longer is.
-bool Balance::solve(State& s) const {
+bool EquilibriumSolver::solve(State& s) const {
   newton(s, shift_);
-  Balance here = *this;
+  EquilibriumSolver here = *this;
   here.measure_stiffness(s);
   State closer = s;
   here.evaluate(closer);
-  if (s.round_off && here.settled(closer, balanced)) return true;
+  if (s.round_off && here.is_equilibrium(closer, residual_tolerance)) return true;
   here.newton(closer, here.least_shift_);
-  bool better = here.settled(closer, balanced);
+  bool better = here.is_equilibrium(closer, residual_tolerance);
   evaluate(closer);
-  better = better || (!s.round_off && settled(closer, balanced));
+  better = better || (!s.round_off && is_equilibrium(closer, residual_tolerance));
   if (better) s = std::move(closer);
   return better || s.round_off;
 }
 
 /// The largest part of Newton's correction, in units of the coordinates; infinite where it is the shift and
 /// no stiffness that keeps it small.
-double Balance::correction(const State& s) const {
+double EquilibriumSolver::correction(const State& s) const {
   std::vector<double> x;
-  if (s.off > balanced || !step(s, least_shift_, x)) return std::numeric_limits<double>::infinity();
+  if (s.relative_violation > residual_tolerance || !step(s, least_shift_, x))
+    return std::numeric_limits<double>::infinity();
   double most = 0.0;
   for (std::size_t i = 0; i < s.q.size(); ++i) {
     const double held = least_shift_[i] * system_->masses()[i] * std::abs(x[i]);
@@ -341,7 +347,7 @@ double Balance::correction(const State& s) const {
 
 /// Forces may cancel each other before they are added to those of the constraints: a residual is round-off if
 /// it is so of their magnitudes, summed without sign.
-bool Balance::is_round_off_of_its_terms(const State& s) const {
+bool EquilibriumSolver::is_round_off_of_its_terms(const State& s) const {
   constexpr std::size_t most_looked_at = 100;
   std::size_t looked_at = 0;
   const Layout& layout = *system_->layout();
@@ -366,18 +372,18 @@ bool Balance::is_round_off_of_its_terms(const State& s) const {
          std::ranges::all_of(layout.rotors, [&](const auto& r) { return small(r.coordinate, 0.0, 1); });
 }
 
-bool Balance::settled(const State& s, double close) const {
-  if (s.size <= close) return true;
-  Balance here = *this;
+bool EquilibriumSolver::is_equilibrium(const State& s, double close) const {
+  if (s.relative_residual <= close) return true;
+  EquilibriumSolver here = *this;
   here.measure_stiffness(s);
   State now = s;
   here.evaluate(now);
-  if (now.size <= close) return true;
-  if (now.off <= close && here.is_round_off_of_its_terms(now)) return true;
+  if (now.relative_residual <= close) return true;
+  if (now.relative_violation <= close && here.is_round_off_of_its_terms(now)) return true;
   return here.correction(now) <= close;
 }
 
-bool Balance::project(State& s) const {
+bool EquilibriumSolver::project(State& s) const {
   Manifold manifold(problem_, rows_at(s), scales_.lengths());
   const double close = 1e-12 * scales_.length + scales_.rounding(s.q);
   if (manifold.project_positions(time_, s.q, s.v, close).size > 1e-8 * scales_.length + close) return false;
@@ -388,7 +394,7 @@ bool Balance::project(State& s) const {
   return true;
 }
 
-void Balance::descend(State& s) const {
+void EquilibriumSolver::descend(State& s) const {
   const double longest = constants.longest_descent * scales_.length;
   double part = 1e6 * constants.no_stiffness;  // of the stiffest, as the shift
   std::vector<double> x, shift(s.q.size());
@@ -417,7 +423,7 @@ void Balance::descend(State& s) const {
   refuse(s, "no equilibrium was found from this guess");
 }
 
-void Balance::refuse(const State& s, const std::string& why) const {
+void EquilibriumSolver::refuse(const State& s, const std::string& why) const {
   const Layout& layout = *system_->layout();
   std::size_t worst = 0;
   for (std::size_t i = 0; i < s.force.size(); ++i) {
@@ -441,9 +447,9 @@ void Balance::refuse(const State& s, const std::string& why) const {
 
 /// Whether other multipliers balance a state: a bearing that does not turn with what it carries takes up the
 /// load with one row, then with another.
-bool Balance::balanced_otherwise(State& s) const {
+bool EquilibriumSolver::has_other_multipliers(State& s) const {
   const std::vector<double> q = s.q;
-  if (!project(s) || s.size > 1e-8) return false;
+  if (!project(s) || s.relative_residual > 1e-8) return false;
   for (std::size_t i = 0; i < q.size(); ++i) {
     if (std::abs(s.q[i] - q[i]) > 1e-8 * scales_.unit(i)) return false;
   }
@@ -451,7 +457,7 @@ bool Balance::balanced_otherwise(State& s) const {
 }
 
 /// What to do about a row that moves.
-std::string Balance::remedy(std::size_t row) const {
+std::string EquilibriumSolver::remedy(std::size_t row) const {
   if (!frame_.rotates() || system_->layout()->dimension == 2)
     return "; give the turning of its drive as an option, or a scene whose constraints do not move";
   bool of_rotor = false;
@@ -467,7 +473,7 @@ std::string Balance::remedy(std::size_t row) const {
 
 /// An equilibrium persists; a state that is at rest only for an instant does not. The instants tried are no
 /// likely fraction of a period.
-void Balance::require_lasting(const State& s) const {
+void EquilibriumSolver::require_lasting(const State& s) const {
   const double t = frame_.rotates() ? 1.0 / frame_.rate() : scales_.time;
   const auto lengths = scales_.lengths();
   const double speed =
@@ -486,17 +492,17 @@ void Balance::require_lasting(const State& s) const {
            << remedy(moving.row);
       throw NoEquilibrium(what.str());
     }
-    Balance then = *this;
+    EquilibriumSolver then = *this;
     then.time_ += later;
     then.evaluate(at);
-    if (!then.settled(at, 1e-8) && !then.balanced_otherwise(at))
+    if (!then.is_equilibrium(at, 1e-8) && !then.has_other_multipliers(at))
       then.refuse(at, frame_.rotates()
                           ? "the forces or constraints do not turn with the scene"
                           : "the forces or constraints change with time, and so does the balance");
   }
 }
 
-std::shared_ptr<const Record> Balance::record(const State& found) const {
+std::shared_ptr<const Record> EquilibriumSolver::record(const State& found) const {
   State s = found;
   auto e = system_->evaluation();
   system_->evaluate({time_, s.q, s.v}, e);
@@ -520,11 +526,11 @@ std::shared_ptr<const Record> Balance::record(const State& found) const {
 }
 
 std::shared_ptr<const Record> find_equilibrium(System system, std::span<const double> guess, double time,
-                                               const Turning<3>& turning) {
+                                               const UniformRotation<3>& turning) {
   try {
-    const Balance balance(Problem(std::move(system)), guess, time, turning);
-    const Balance::State start = balance.start();
-    Balance::State s = start;
+    const EquilibriumSolver balance(Problem(std::move(system)), guess, time, turning);
+    const EquilibriumSolver::State start = balance.start();
+    EquilibriumSolver::State s = start;
     if (!balance.solve(s)) {
       s = start;
       balance.descend(s);

@@ -59,7 +59,7 @@ void Contacts::solve_impact(const Coupling& coupling, const std::vector<std::siz
     for (Index i = 0; i < after.size(); ++i) {
       if (!((*p)[i] > 0.0)) continue;
       after[i] = before[i] - q[i];  // -e U-
-      change.what.push_back({its[static_cast<std::size_t>(i)], Happened::struck, t});
+      change.what.push_back({its[static_cast<std::size_t>(i)], EventKind::struck, t});
     }
     U(island) = after;
     P(island) = *p;
@@ -107,7 +107,7 @@ void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& to
     if (limit == limits.end()) continue;
     P(island) = dense::least_squares(coupling.S(island), -rates(island), rank_threshold);
     U(island).setZero();
-    for (const std::size_t i : its) change.what.push_back({i, Happened::rested, limit->time});
+    for (const std::size_t i : its) change.what.push_back({i, EventKind::rested, limit->time});
   }
   std::ranges::sort(change.what, {}, &Happening::contact);
   coupling.apply_impulses(P, change.v, change.impulses);
@@ -115,10 +115,10 @@ void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& to
 
 /// Rates that count as 0, of velocities at the start and after impacts at one time.
 double Contacts::still(const Contact& contact) const {
-  return rounding_of_the_user * scales_.speed() * contact.gradient;
+  return start_tolerance * scales_.speed() * contact.gradient;
 }
 
-Contacts::Change Contacts::begin(const Instant& start) {
+Contacts::Change Contacts::resolve_start(const Instant& start) {
   std::vector<std::size_t> stay;
   find_gaps(start);
   for (const std::size_t i : touching_at_start_) {
@@ -130,7 +130,7 @@ Contacts::Change Contacts::begin(const Instant& start) {
       open(c, start.t, rate);
     }
   }
-  return pass(start, stay);
+  return resolve(start, stay);
 }
 
 /// Updates the rates of contacts that opened at this very time, after the impacts of others.
@@ -162,12 +162,12 @@ bool Contacts::add_slow(const Instant& at, std::vector<std::size_t>& touched) co
   return touched.size() > before;
 }
 
-Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t>& fallen) {
+Contacts::Change Contacts::resolve(const Instant& at, const std::vector<std::size_t>& triggered) {
   const std::vector<double> v(at.v.begin(), at.v.end());
   Change change{v, v, std::vector<double>(stated_->rows())};
-  const bool known_roughly = !begun_ || approaching();
-  begun_ = true;
-  auto touched = touching(at, fallen);
+  const bool known_roughly = !started_ || approaching();
+  started_ = true;
+  auto touched = touching(at, triggered);
   if (touched.empty()) return change;
   std::optional<Coupling> coupling(std::in_place, only(touched), numbers(touched), at);
   VectorXd U = coupling->rates(at.v);
@@ -175,7 +175,7 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
     const Contact& c = contacts_[touched[k]];
     double& rate = U[static_cast<Index>(k)];
     // What has not left the surface, within the error of a step, and no longer leaves it, rests.
-    const bool returns = among(fallen, touched[k]) && !c.parted && c.opened_at != at.t &&
+    const bool returns = among(triggered, touched[k]) && !c.parted && c.opened_at != at.t &&
                          std::abs(rate) <= tolerance_ * scales_.speed() * c.gradient;
     const bool slow = known_roughly && std::abs(rate) <= still(c);
     if ((c.closed && !c.moved) || returns || slow) rate = 0.0;
@@ -208,21 +208,21 @@ Contacts::Change Contacts::pass(const Instant& at, const std::vector<std::size_t
   }
   const auto resting = open_separating(touched, U, at.t, change);
   if (friction_) {
-    close(touched, fallen, resting, at.t, change);
+    close(touched, triggered, resting, at.t, change);
   } else {
-    accelerate(*coupling, touched, fallen, resting, at, change);
+    accelerate(*coupling, touched, triggered, resting, at, change);
   }
   update_rates(after);
-  settle();
+  rebuild_system();
   return change;
 }
 
 /// What touches and does not separate is closed, what has fallen open.
-void Contacts::close(const std::vector<std::size_t>& touched, const std::vector<std::size_t>& fallen,
+void Contacts::close(const std::vector<std::size_t>& touched, const std::vector<std::size_t>& triggered,
                      const std::vector<Index>& resting, double t, Change& change) {
   for (const Index k : resting) {
     const std::size_t i = touched[static_cast<std::size_t>(k)];
-    if (among(fallen, i) && contacts_[i].closed) {
+    if (among(triggered, i) && contacts_[i].closed) {
       open(i, t, 0.0, change);
     } else {
       close(contacts_[i], t);
@@ -246,7 +246,7 @@ std::vector<Index> Contacts::open_separating(const std::vector<std::size_t>& tou
 
 /// Solves (2) for the velocities after the change, of each island; closes and opens.
 void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& touched,
-                          const std::vector<std::size_t>& fallen, const std::vector<Index>& resting,
+                          const std::vector<std::size_t>& triggered, const std::vector<Index>& resting,
                           const Instant& at, Change& change) {
   const VectorXd all = coupling.accelerations_without({at.t, at.q, change.v});
   std::vector<Pair> pairs(touched.size());
@@ -269,16 +269,16 @@ void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& to
   }
   for (const Index k : resting) {
     const auto place = static_cast<std::size_t>(k);
-    settle(touched[place], fallen, pairs[place], at.t, change);
+    open_or_close(touched[place], triggered, pairs[place], at.t, change);
   }
 }
 
 /// By the acceleration and the force of (2).
-void Contacts::settle(std::size_t i, const std::vector<std::size_t>& fallen, const Pair& pair, double t,
-                      Change& change) {
+void Contacts::open_or_close(std::size_t i, const std::vector<std::size_t>& triggered, const Pair& pair,
+                             double t, Change& change) {
   // A force that has fallen to 0 goes on falling: the contact opens, though nothing separates it yet.
   const double own = scales_.speed() / scales_.time * contacts_[i].gradient * pair.unit;
-  const bool falls = among(fallen, i) && contacts_[i].closed &&
+  const bool falls = among(triggered, i) && contacts_[i].closed &&
                      pair.force <= tolerance_ * std::max(pair.largest, own) * pair.unit;
   if ((pair.acceleration > 0.0 && pair.force == 0.0) || falls) {
     open(i, t, 0.0, change);

@@ -7,7 +7,7 @@
 #include <dalembert/solvers/erk/verner.h>
 #include <dalembert/solvers/manifold/manifold.h>
 #include <dalembert/solvers/run/accumulated_error.h>
-#include <dalembert/solvers/run/passage.h>
+#include <dalembert/solvers/run/singular_extrapolation.h>
 #include <dalembert/solvers/run/singularity.h>
 #include <dalembert/solvers/run/sticking.h>
 
@@ -21,12 +21,12 @@
 namespace DALEMBERT_HIDDEN dalembert {
 
 /// The pair and what a step of it needs.
-struct ErkStepper::State {
+struct ErkStepper::RungeKutta {
   static constexpr const ButcherTable<13>& pair = verner87;
   static constexpr int stages = pair.stages;
   static constexpr long check_interval = 8;  // steps
 
-  State(const Problem& problem, const Start& start, const Options& options);
+  RungeKutta(const Problem& problem, const Start& start, const Options& options);
 
   /// An instant between two steps: positions, and velocities and accelerations in one piece, as the
   /// first stage of the next step.
@@ -52,7 +52,7 @@ struct ErkStepper::State {
   /// Stages 2 to `last` of a step from `start`: a stage's velocity is written where its derivative is kept.
   void run_stages(const Node& start, double step, std::size_t last, bool onto_constraints);
   void run_stage(std::size_t i, double t, bool onto_constraints);
-  void listen_to_stage(std::size_t i, double t, bool onto_constraints);
+  void record_comparisons_of_stage(std::size_t i, double t, bool onto_constraints);
   [[nodiscard]] bool close_to_singular(double step) const;
   void find_sine(Node& node);
   void note_sine(Node& node) const;
@@ -61,13 +61,13 @@ struct ErkStepper::State {
   void find_middle();
 
   void weigh(const Node& at, double step, double allowed);
-  void take(const Way& way);
-  [[nodiscard]] double size() const;
-  [[nodiscard]] double size_of(const Combination<stages>& sum, double step);
+  void adopt(const PathExtent& extent);
+  [[nodiscard]] double weighted_norm() const;
+  [[nodiscard]] double weighted_norm_of(const Combination<stages>& sum, double step);
   [[nodiscard]] double error(double step, double doubt);
   void estimate(double step, double of_order_8);
   void measure_noise();
-  [[nodiscard]] double error_of_springs(std::span<const double> dq) const;
+  [[nodiscard]] double error_of_compliant_forces(std::span<const double> dq) const;
   [[nodiscard]] double project();
   [[nodiscard]] double disagreement(double step);
   void watch_stability(double step);
@@ -77,7 +77,7 @@ struct ErkStepper::State {
   void find_first_side();
   void find_side(Node& node);
   void find_side_anew();
-  void look(std::size_t i, double t);
+  void check_switch(std::size_t i, double t);
   [[nodiscard]] bool failed_behind_switch();
   [[nodiscard]] double effect_of_switch(const Node& a, const Node& b, double step);
   [[nodiscard]] double error_of_switch(double step);
@@ -91,18 +91,18 @@ struct ErkStepper::State {
   void accept(bool by_extrapolation);
 
   /// The outcome of an attempt to pass a singular position.
-  enum class Crossing { none, ahead, passed };
-  [[nodiscard]] Crossing cross();
+  enum class Passing { none, ahead, passed };
+  [[nodiscard]] Passing pass_singular_position();
   [[nodiscard]] double time_left() const;
-  [[nodiscard]] bool may_have_crossed() const;
+  [[nodiscard]] bool may_have_passed() const;
   [[nodiscard]] double least_between_stages() const;
   [[nodiscard]] double find_singular(double& t);
-  [[nodiscard]] bool pass(double singular);
+  [[nodiscard]] bool extrapolate_past(double singular);
   [[nodiscard]] bool passes_beside(double singular);
   [[nodiscard]] bool worth_taking(double error);
-  /// From the last node to t, see Passage.
+  /// From the last node to t, see SingularExtrapolation.
   void extrapolate(std::size_t nodes, double t, Node& out);
-  void read_crossing(double t, std::span<double> q, std::span<double> v) const;
+  void read_extrapolation(double t, std::span<double> q, std::span<double> v) const;
   [[nodiscard]] double shortest() const;
   [[nodiscard]] double shorter(double step, double factor) const;
   [[nodiscard]] std::string cause() const;
@@ -120,10 +120,10 @@ struct ErkStepper::State {
   Node from, to;  // the last step; before the first, both are the start
   Node middle;    // of that step, if `has_middle`
   bool has_middle = false;
-  bool begins_at_switch = false;
-  bool projected = false;  // the stages of the last attempt
-  bool crossed = false;    // the last step passed a singular position
-  Node next;               // where a step goes until it is accepted
+  bool starts_at_switch = false;
+  bool projected = false;     // the stages of the last attempt
+  bool extrapolated = false;  // the last step passed a singular position
+  Node next;                  // where a step goes until it is accepted
   std::vector<double> stages_after_first;
   std::array<const double*, stages> k{};
   /// Stages 4, 5 and 9 at 0.16, 0.39 and 0.90 of the step, whose comparisons are noted.
@@ -138,22 +138,22 @@ struct ErkStepper::State {
   StepError estimated, reached;                                // of an attempt; of the last step
   std::minstd_rand chance;
   std::vector<double> force_of_spring;  // per row, 0 in rigid ones; empty if all are
-  Way covered;                          // by the steps taken; `scales` may be those of one that is tried
+  PathExtent covered;                   // by the steps taken; `scales` may be those of one that is tried
   double usual;                         // step, however near the end of the run is
   double longest;                       // that is allowed
   double h;                             // to try next
   long steps = 0, failures = 0, stability_limited = 0;
 
-  Passage passage;
-  std::size_t passage_nodes = 0;  // of the step that crossed
+  SingularExtrapolation extrapolation;
+  std::size_t extrapolation_nodes = 0;  // of the step that extrapolated
   static constexpr double none_yet = std::numeric_limits<double>::infinity();
   std::array<Angle, stages> angles{};  // at the stages of an attempt, since other rows took over,
   Angle least{};                       // and the least of them
   long rows_of_angles = 0;
-  bool only_close = false;         // the constraints, not dependent, where the angle falls now
-  double next_passage = none_yet;  // the distance from which it is worth another attempt
-  double best_passage = none_yet;  // error over the tolerance, of
-  Node best_passed;                // a passage that was not taken yet
+  bool only_close = false;               // the constraints, not dependent, where the angle falls now
+  double next_attempt = none_yet;        // the distance from which it is worth another attempt
+  double best_extrapolation = none_yet;  // error over the tolerance, of
+  Node best_extrapolated;                // a passage that was not taken yet
   int singular_positions = 0;
   std::string fault;  // of the last attempt that failed
 
