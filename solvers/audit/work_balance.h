@@ -23,7 +23,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///
 /// in its energy: what a position errs by across the constraints, which output is put onto, does no work, so
 /// that m dv/dt stands for the force. Steps' errors add up, and a sample within a step errs by as much as
-/// one. CompliantMultipliers that vibrate faster than the steps keep what `accuracy` leaves of that, once.
+/// one. Springs that vibrate faster than the steps keep what `accuracy` leaves of that, once.
 ///
 /// Errors of the state grow with the motion, which is not in `accuracy`. Up to `Constants::growth` times (1)
 /// the balance is kept, by the accuracy that it shows, see `shown`.

@@ -8,9 +8,9 @@ namespace dalembert {
 
 namespace {
 
-/// Those in use, those of NewtonMatrix (7) and of its islands, and others that a OutputProjection tries: four
-/// at once, so that twice as many find the last ones still there where rows are exchanged to and fro. Only
-/// time depends on it.
+/// Those in use, those of NewtonMatrix (7) and of its islands, and others that an OutputProjection tries:
+/// four at once, so that twice as many find the last ones still there where rows are exchanged to and fro.
+/// Only time depends on it.
 constexpr std::size_t most_patterns = 8;
 
 }  // namespace

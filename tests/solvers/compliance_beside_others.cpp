@@ -16,7 +16,7 @@ namespace {
 
 constexpr double g = 9.81;
 
-/// CompliantMultipliers as constraints or as forces.
+/// Springs as constraints or as forces.
 struct CompliantMultipliers {
   bool compliant;
 

@@ -168,7 +168,7 @@ TEST(RelativeEquilibrium, PullsAtABearingThatDoesNotTurnWithIt) {
 }
 
 TEST(RelativeEquilibrium, RunsOnAsItBegan) {
-  // As a second proof that knows no UniformRotation: a run from the governor's state keeps its angle.
+  // As a second proof that knows no rotation: a run from the governor's state keeps its angle.
   models::Governor governor{.angle = 0.7};
   auto built = governor.scene();
   const auto found = equilibrium(built.scene, {.turning = {.rate = {0.0, 0.0, governor.spin}}});
