@@ -201,7 +201,8 @@ double terms(const System& system, const System::Evaluation& e, const NearbyStat
   return most;
 }
 
-/// How far a state is off its constraints, as a part of the scene's length or of its speed. Springs follow.
+/// How far a state is off its constraints, as a part of the scene's length or of its speed.
+/// Springs follow.
 double violation(const System& system, System::Evaluation& e, const Scales& scales, double speed) {
   for (std::size_t r = 0; r < system.rows(); ++r)
     if (system.law(r).compliant()) e.g[r] = e.psi[r] = 0.0;
