@@ -107,7 +107,7 @@ std::vector<double> seen(Integration& run, OutputState& now) {
 
 /// Wherever in the evaluations of its force restart_with_constraints fails, what a run has computed is read
 /// as before.
-TEST(Restart, FailureLeavesWhatWasComputed) {
+TEST(Restart, ThatFailsLeavesWhatWasComputed) {
   const Counted counted;
   const auto system = std::make_shared<const System>(counted.scene.system());
   const auto other = std::make_shared<const System>(counted.scene.system());
@@ -138,7 +138,7 @@ TEST(Restart, FailureLeavesWhatWasComputed) {
 
 /// The same where the implicit stepper hands over to the explicit one, in front of a singular position, and
 /// takes over again behind it: their polynomials differ in degree.
-TEST(Restart, FailureAtAHandoverLeavesWhatWasComputed) {
+TEST(Restart, ThatFailsAtAHandoverLeavesWhatWasComputed) {
   long left = 0;
   const long enough = std::numeric_limits<long>::max();
   models::FourBarScene linkage = models::FourBar{.loops = 1}.scene();
