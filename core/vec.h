@@ -1,10 +1,19 @@
 #pragma once
 
-#include <Eigen/Core>
-
+#include <cassert>
 #include <cmath>
 #include <concepts>
+#include <cstddef>
+#include <iosfwd>
 #include <type_traits>
+
+// Named here, not included.
+namespace Eigen {
+template <class Scalar, int Rows, int Cols, int Options, int MaxRows, int MaxCols>
+class Matrix;
+template <class Xpr>
+struct CommaInitializer;
+}  // namespace Eigen
 
 /// Loops over the few components of a vector, written out also at -O2. (g++ does so by itself at -O3 only,
 /// and clang always.)
@@ -23,6 +32,9 @@ namespace dalembert {
 template <class S, int N>
 struct VecOf;
 
+template <class S, int Rows, int Cols>
+struct MatOf;
+
 namespace detail {
 
 /// What multiplies a vector: a number, or one that carries derivatives.
@@ -34,53 +46,97 @@ inline constexpr bool is_vector = false;
 template <class S, int N>
 inline constexpr bool is_vector<VecOf<S, N>> = true;
 
+/// A matrix or an expression of Eigen, told by what it says of itself: Eigen need not be included.
 template <class E>
-void take_matrix(const Eigen::MatrixBase<E>&);
-/// A matrix or an expression of Eigen, no vector of the library. (A VectorBlock is one whose MatrixBase is
-/// that of a Block.)
-template <class E>
-concept OfEigen = !is_vector<E> && requires(const E& e) {
-  take_matrix(e);
+concept OfEigen = requires {
+  typename E::PlainObject;
+  E::RowsAtCompileTime;
+  E::ColsAtCompileTime;
 };
 /// One that is a column of N numbers.
 template <class E, int N>
 concept ColumnOfEigen = OfEigen<E> &&(E::RowsAtCompileTime == N && E::ColsAtCompileTime == 1);
+/// One that may be, as far as its type says, or a row of as many.
+template <class E, int N>
+concept MaybeColumnOfEigen = OfEigen<E> &&
+    ((E::ColsAtCompileTime == 1 && (E::RowsAtCompileTime == N || E::RowsAtCompileTime == -1)) ||
+     (E::RowsAtCompileTime == 1 && E::ColsAtCompileTime == N));
+
+/// As `operator<<` of Eigen: columns of numbers of one width.
+void print(std::ostream& out, const double* x, int rows, int cols);
 
 }  // namespace detail
 
 /// A column of N numbers of type S: positions, velocities and forces, and what a constraint's equation
-/// computes with, S being `double` or a number that carries derivatives. It is one of Eigen's, so that all of
-/// Eigen takes it; but sums, products and what else equations consist of are vectors, loops over components:
-/// Eigen's expressions refer to what may be gone, and cost a compiler much more for every equation.
+/// computes with, S being `double` or a number that carries derivatives. Sums, products and what else
+/// equations consist of are vectors, loops over components: expressions such as Eigen's would refer to what
+/// may be gone, and cost a compiler much more for every equation. Vectors of Eigen become ones of these, and
+/// these become vectors of Eigen, by themselves; only the functions of an Eigen vector take none of these:
+/// `n.dot(eigen(r))` (dalembert/eigen.h), or `r.dot(n)`.
 template <class S, int N>
-struct VecOf : Eigen::Matrix<S, N, 1> {
+struct VecOf {
   static_assert(N > 0);
-  using Base = Eigen::Matrix<S, N, 1>;  ///< what Eigen takes it for
+  using Scalar = S;  ///< of its components
+  static constexpr int RowsAtCompileTime = N, ColsAtCompileTime = 1;
 
   VecOf() = default;
+  VecOf(const VecOf&) = default;
+  VecOf& operator=(const VecOf&) & = default;  // not of what a function returned: r.head<2>() is no place
   /// @{
-  /// Of its components, or of a column of Eigen's.
+  /// Of its components, of numbers of another type, or of a column of Eigen's.
   DALEMBERT_INLINE explicit VecOf(const S& x) requires(N == 1) { at(0) = x; }
   template <class... T>
     requires(N > 1 && sizeof...(T) == N && (std::convertible_to<T, S> && ...))
   DALEMBERT_INLINE VecOf(const T&... x) {
-    S* place = this->data();
+    S* place = c_;
     ((*place++ = S(x)), ...);
   }
-  VecOf(const Base& of_eigen) : Base(of_eigen) {}  // NOLINT(google-explicit-constructor)
-  template <class E>
+  template <class T>
+    requires(!std::is_same_v<T, S> && std::convertible_to<T, S>)
+  VecOf(const VecOf<T, N>& x) {  // NOLINT(google-explicit-constructor)
+    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) at(i) = S(x[i]);
+  }
+  template <detail::MaybeColumnOfEigen<N> E>
     requires(std::convertible_to<typename E::Scalar, S>)
-  VecOf(const Eigen::MatrixBase<E>& of_eigen) : Base(of_eigen) {}  // NOLINT(google-explicit-constructor)
+  VecOf(const E& of_eigen) {  // NOLINT(google-explicit-constructor)
+    const auto& x = of_eigen.eval();
+    assert(x.size() == N);
+    for (int i = 0; i < N; ++i) at(i) = S(x.coeff(i));
+  }
   /// @}
+  /// @{
+  /// As one of Eigen's, for who has included Eigen.
+  operator Eigen::Matrix<S, N, 1, 0, N, 1>() const {  // NOLINT(google-explicit-constructor)
+    return Eigen::Matrix<S, N, 1, 0, N, 1>(c_);
+  }
+  operator Eigen::Matrix<S, -1, 1, 0, -1, 1>() const requires(N > 1) {  // NOLINT(google-explicit-constructor)
+    return Eigen::Matrix<S, N, 1, 0, N, 1>(c_);
+  }
+  /// @}
+  friend bool operator==(const VecOf& a, const VecOf& b) {
+    for (int i = 0; i < N; ++i)
+      if (!(a.at(i) == b.at(i))) return false;
+    return true;
+  }
+
+  /// Where its numbers are, one after the other.
+  [[nodiscard]] DALEMBERT_INLINE S* data() { return c_; }
+  [[nodiscard]] DALEMBERT_INLINE const S* data() const { return c_; }
+  [[nodiscard]] static constexpr int size() { return N; }
+  [[nodiscard]] static constexpr int rows() { return N; }
+  [[nodiscard]] static constexpr int cols() { return 1; }
+  [[nodiscard]] const S* begin() const { return c_; }
+  [[nodiscard]] const S* end() const { return c_ + N; }
 
   /// @{
   /// A component, not checked; of a vector that is about to go by value.
-  DALEMBERT_INLINE S& operator[](Eigen::Index i) & { return at(i); }
-  DALEMBERT_INLINE const S& operator[](Eigen::Index i) const& { return at(i); }
-  DALEMBERT_INLINE S operator[](Eigen::Index i) && { return at(i); }
-  DALEMBERT_INLINE S& operator()(Eigen::Index i) & { return at(i); }
-  DALEMBERT_INLINE const S& operator()(Eigen::Index i) const& { return at(i); }
-  DALEMBERT_INLINE S operator()(Eigen::Index i) && { return at(i); }
+  DALEMBERT_INLINE S& operator[](std::ptrdiff_t i) & { return at(i); }
+  DALEMBERT_INLINE const S& operator[](std::ptrdiff_t i) const& { return at(i); }
+  DALEMBERT_INLINE S operator[](std::ptrdiff_t i) && { return at(i); }
+  DALEMBERT_INLINE S& operator()(std::ptrdiff_t i) & { return at(i); }
+  DALEMBERT_INLINE const S& operator()(std::ptrdiff_t i) const& { return at(i); }
+  DALEMBERT_INLINE S operator()(std::ptrdiff_t i) && { return at(i); }
+  [[nodiscard]] S value() const requires(N == 1) { return at(0); }
   DALEMBERT_INLINE S& x() & { return at(0); }
   DALEMBERT_INLINE const S& x() const& { return at(0); }
   DALEMBERT_INLINE S x() && { return at(0); }
@@ -93,38 +149,22 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
   /// @}
 
   /// @{
-  /// Some of the components: a place to write to, or else by value, so that of a sum they may be kept.
+  /// Some of the components.
   template <int M>
-  [[nodiscard]] auto head() & {
-    return Base::template head<M>();
+  [[nodiscard]] VecOf<S, M> head() const {
+    return VecOf<S, M>::from(c_);
   }
   template <int M>
-  [[nodiscard]] VecOf<S, M> head() const& {
-    return VecOf<S, M>::from(this->data());
+  [[nodiscard]] VecOf<S, M> tail() const {
+    return VecOf<S, M>::from(c_ + N - M);
   }
   template <int M>
-  [[nodiscard]] auto tail() & {
-    return Base::template tail<M>();
-  }
-  template <int M>
-  [[nodiscard]] VecOf<S, M> tail() const& {
-    return VecOf<S, M>::from(this->data() + N - M);
-  }
-  template <int M>
-  [[nodiscard]] auto segment(Eigen::Index first) & {
-    return Base::template segment<M>(first);
-  }
-  template <int M>
-  [[nodiscard]] VecOf<S, M> segment(Eigen::Index first) const& {
-    return VecOf<S, M>::from(this->data() + first);
+  [[nodiscard]] VecOf<S, M> segment(std::ptrdiff_t first) const {
+    return VecOf<S, M>::from(c_ + first);
   }
   /// @}
-  /// @{
-  /// As a row; of a vector that is about to go by value.
-  [[nodiscard]] auto transpose() & { return Base::transpose(); }
-  [[nodiscard]] auto transpose() const& { return Base::transpose(); }
-  [[nodiscard]] Eigen::Matrix<S, 1, N> transpose() && { return Base::transpose(); }
-  /// @}
+  /// As a row.
+  [[nodiscard]] MatOf<S, 1, N> transpose() const;
   /// @{
   /// Component by component.
   template <class E>
@@ -139,12 +179,13 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
     DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r[i] = at(i) / b[i];
     return r;
   }
-  [[nodiscard]] VecOf cwiseAbs() const {
+  [[nodiscard]] auto cwiseAbs() const {
     using std::abs;
-    VecOf r;
-    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.at(i) = abs(at(i));
+    VecOf<std::remove_cvref_t<decltype(abs(at(0)))>, N> r;
+    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r[i] = abs(at(i));
     return r;
   }
+  [[nodiscard]] VecOf cwiseAbs2() const { return cwiseProduct(*this); }
   /// @}
   /// Itself: equations may be written for Eigen's expressions, too.
   [[nodiscard]] DALEMBERT_INLINE VecOf eval() const { return *this; }
@@ -164,7 +205,7 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
   }
   [[nodiscard]] static VecOf Zero() { return Constant(S(0.0)); }
   [[nodiscard]] static VecOf Ones() { return Constant(S(1.0)); }
-  [[nodiscard]] static VecOf Unit(Eigen::Index k) {
+  [[nodiscard]] static VecOf Unit(std::ptrdiff_t k) {
     VecOf r = Zero();
     r.at(k) = S(1.0);
     return r;
@@ -187,19 +228,19 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
   }
   /// @{
   /// As those of Eigen, but by value.
-  DALEMBERT_INLINE VecOf& operator+=(const VecOf& b) {
+  DALEMBERT_INLINE VecOf& operator+=(const VecOf& b) & {
     DALEMBERT_UNROLL for (int i = 0; i < N; ++i) at(i) += b.at(i);
     return *this;
   }
-  DALEMBERT_INLINE VecOf& operator-=(const VecOf& b) {
+  DALEMBERT_INLINE VecOf& operator-=(const VecOf& b) & {
     DALEMBERT_UNROLL for (int i = 0; i < N; ++i) at(i) -= b.at(i);
     return *this;
   }
-  DALEMBERT_INLINE VecOf& operator*=(S b) {  // by value: r *= r.x()
+  DALEMBERT_INLINE VecOf& operator*=(S b) & {  // by value: r *= r.x()
     DALEMBERT_UNROLL for (int i = 0; i < N; ++i) at(i) *= b;
     return *this;
   }
-  DALEMBERT_INLINE VecOf& operator/=(S b) {
+  DALEMBERT_INLINE VecOf& operator/=(S b) & {
     DALEMBERT_UNROLL for (int i = 0; i < N; ++i) at(i) /= b;
     return *this;
   }
@@ -241,8 +282,19 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
     if (square > 0.0) return *this / sqrt(square);
     return *this;
   }
+  /// One across it, of length 1.
+  [[nodiscard]] VecOf unitOrthogonal() const requires(N == 2 || N == 3) {
+    if constexpr (N == 2) {
+      return VecOf(-at(1), at(0)).normalized();
+    } else {  // across it and the axis of space that is farther from it
+      using std::abs;
+      const S low = 1e-12 * abs(at(2));
+      if (abs(at(0)) > low || abs(at(1)) > low) return VecOf(-at(1), at(0), S(0.0)).normalized();
+      return VecOf(S(0.0), -at(2), at(1)).normalized();
+    }
+  }
   /// Of 0 likewise.
-  void normalize() { *this = normalized(); }
+  void normalize() & { *this = normalized(); }
   /// Of the components.
   [[nodiscard]] S sum() const {
     S s = at(0);
@@ -250,11 +302,41 @@ struct VecOf : Eigen::Matrix<S, N, 1> {
     return s;
   }
 
+  /// @{
+  /// The largest and the smallest component.
+  [[nodiscard]] S maxCoeff() const {
+    S s = at(0);
+    for (int i = 1; i < N; ++i) s = at(i) > s ? at(i) : s;
+    return s;
+  }
+  [[nodiscard]] S minCoeff() const {
+    S s = at(0);
+    for (int i = 1; i < N; ++i) s = at(i) < s ? at(i) : s;
+    return s;
+  }
+  /// @}
+  /// Whether all components are finite.
+  [[nodiscard]] bool allFinite() const {
+    using std::isfinite;
+    for (int i = 0; i < N; ++i)
+      if (!isfinite(at(i))) return false;
+    return true;
+  }
+  /// Makes all components 0.
+  void setZero() & { *this = Zero(); }
+  /// Whether both differ by little beside the smaller of them.
+  [[nodiscard]] bool isApprox(const VecOf& b, double precision = 1e-12) const {
+    const S a2 = squaredNorm(), b2 = b.squaredNorm();
+    return (*this - b).squaredNorm() <= precision * precision * (a2 < b2 ? a2 : b2);
+  }
+
  private:
   template <class T, int M>
   friend struct VecOf;
-  DALEMBERT_INLINE S& at(Eigen::Index i) { return this->data()[i]; }
-  DALEMBERT_INLINE const S& at(Eigen::Index i) const { return this->data()[i]; }
+  DALEMBERT_INLINE S& at(std::ptrdiff_t i) { return c_[i]; }
+  DALEMBERT_INLINE const S& at(std::ptrdiff_t i) const { return c_[i]; }
+
+  S c_[N];
 };
 
 /// @{
@@ -312,43 +394,6 @@ auto operator-(const E& a, const VecOf<A, N>& b) {
 }
 /// @}
 
-namespace detail {
-/// A row times a column: a number, and as in Eigen a matrix of one.
-template <class S>
-struct InnerProduct : VecOf<S, 1> {
-  using VecOf<S, 1>::VecOf;
-  operator const S&() const { return this->data()[0]; }  // NOLINT(google-explicit-constructor)
-};
-template <class S>
-inline constexpr bool is_vector<InnerProduct<S>> = true;
-}  // namespace detail
-
-/// A matrix of Eigen, with a fixed number of rows, times a vector.
-template <detail::OfEigen M, class S, int N>
-  requires(M::ColsAtCompileTime == N && M::RowsAtCompileTime > 0)
-auto operator*(const M& matrix, const VecOf<S, N>& x) {
-  constexpr int rows = M::RowsAtCompileTime;
-  const auto& m = matrix.eval();
-  using R = std::remove_cvref_t<decltype(m.coeff(0, 0) * x[0])>;
-  std::conditional_t<rows == 1, detail::InnerProduct<R>, VecOf<R, rows>> r;
-  for (int i = 0; i < rows; ++i) {
-    r[i] = m.coeff(i, 0) * x[0];
-    for (int k = 1; k < N; ++k) r[i] += m.coeff(i, k) * x[k];
-  }
-  return r;
-}
-/// A column times a row.
-template <class S, int N, detail::OfEigen M>
-  requires(M::RowsAtCompileTime == 1 && M::ColsAtCompileTime > 1)
-auto operator*(const VecOf<S, N>& x, const M& row) {
-  const auto& m = row.eval();
-  using R = std::remove_cvref_t<decltype(x[0] * m.coeff(0, 0))>;
-  Eigen::Matrix<R, N, M::ColsAtCompileTime> r;
-  for (int i = 0; i < N; ++i)
-    for (int k = 0; k < M::ColsAtCompileTime; ++k) r(i, k) = x[i] * m.coeff(0, k);
-  return r;
-}
-
 /// A position, velocity or force in D dimensions, in the user's own consistent units.
 template <int D>
 using Vec = VecOf<double, D>;
@@ -379,12 +424,4 @@ namespace detail {
 
 }  // namespace dalembert
 
-namespace Eigen::internal {
-// For a Map of one.
-template <class S, int N>
-struct traits<dalembert::VecOf<S, N>> : traits<Matrix<S, N, 1>> {};
-template <class S, int N>
-struct evaluator<dalembert::VecOf<S, N>> : evaluator<Matrix<S, N, 1>> {
-  using evaluator<Matrix<S, N, 1>>::evaluator;
-};
-}  // namespace Eigen::internal
+#include <dalembert/core/mat.h>

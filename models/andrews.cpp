@@ -61,13 +61,13 @@ State at_rest(const Andrews& a) {
 /// theta'' and then the forces at E.
 VecOf<Real, 13> solve_motion(const Andrews& a, const State& y) {
   Eigen::Matrix<Real, 13, 13> K = Eigen::Matrix<Real, 13, 13>::Zero();
-  VecOf<Real, 13> b = VecOf<Real, 13>::Zero();
+  Eigen::Matrix<Real, 13, 1> b = Eigen::Matrix<Real, 13, 1>::Zero();
   for (std::size_t k = 0; k < count; ++k) {
     const AndrewsLink& link = a.links[k];
     const PointMotion centre = motion(a, k, link.centre, y);
     K.topLeftCorner<7, 7>() += centre.slope.transpose() * (link.mass * centre.slope);
     K(static_cast<int>(k), static_cast<int>(k)) += link.inertia;
-    b.head<7>() -= link.mass * centre.slope.transpose() * centre.bias;
+    b.head<7>() -= link.mass * (centre.slope.transpose() * centre.bias);
   }
   b[0] += a.torque;
   const PointMotion D = motion(a, 2, a.D, y);
@@ -81,7 +81,7 @@ VecOf<Real, 13> solve_motion(const Andrews& a, const State& y) {
     const PointMotion E = joint_motion(a, link, y);
     K.block<2, 7>(row, 0) = E.slope - E2.slope;
     K.block<7, 2>(0, row) = -(E.slope - E2.slope).transpose();
-    b.segment<2>(row) = E2.bias - E.bias;
+    b.segment<2>(row) = Eigen::Matrix<Real, 2, 1>(E2.bias - E.bias);
     row += 2;
   }
   return K.partialPivLu().solve(b);

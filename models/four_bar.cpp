@@ -83,7 +83,7 @@ Model<2> FourBar::model() const {
                       for (const auto& pin : pins) known = known && sample.is_determined(pin);
                       for (const auto& pin : pins)
                         if (known) ground += sample.multiplier(pin);
-                      if (!known) ground.fill(not_determined);
+                      if (!known) ground = Vec<2>::Constant(not_determined);
                       seen.forces = {ground.x(), ground.y()};
                       return seen;
                     }};

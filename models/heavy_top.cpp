@@ -10,14 +10,12 @@ HeavyTopScene HeavyTop::scene() const {
   scene.add(UniformGravity<3>{{0.0, 0.0, -gravity}});
   const Vec<3> axis(std::sin(lean), 0.0, std::cos(lean)), y = Vec<3>::UnitY(), x = y.cross(axis);
   const Vec<3> rate = spin * axis - precession * std::sin(lean) * x, centre = arm * axis;
-  Eigen::Matrix3d axes;
-  axes << x, y, axis;
   const double central = across - mass * arm * arm;
   const auto top = add_body(scene,
                             {.mass = mass,
                              .inertia = {central, central, along},
                              .centre = centre,
-                             .axes = axes,
+                             .axes = Mat<3, 3>(x, y, axis),
                              .velocity = rate.cross(centre),
                              .angular_velocity = rate},
                             "top");

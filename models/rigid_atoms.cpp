@@ -21,8 +21,7 @@ using Matrix = Eigen::Matrix<Real, 3, 3>;
 struct Attitude {
   Vector w;
   Matrix R;
-  explicit Attitude(const State& y)
-      : w(Eigen::Map<const Vector>(y.data())), R(Eigen::Map<const Matrix>(y.data() + 3)) {}
+  explicit Attitude(const State& y) : w(Vector::from(y.data())), R(Eigen::Map<const Matrix>(y.data() + 3)) {}
 };
 
 /// Euler's equations.
@@ -32,11 +31,9 @@ class Top {
   [[nodiscard]] Vector acceleration(const Vector& w) const { return inverse_ * (inertia_ * w).cross(w); }
   void operator()(const State& y, State& y_rate) const {
     const Attitude now(y);
-    Eigen::Map<Vector>(y_rate.data()) = acceleration(now.w);
-    Eigen::Map<Matrix> turning(y_rate.data() + 3);
-    turning.col(0) = now.R * now.w.cross(Vector::UnitX());
-    turning.col(1) = now.R * now.w.cross(Vector::UnitY());
-    turning.col(2) = now.R * now.w.cross(Vector::UnitZ());
+    std::ranges::copy(acceleration(now.w), y_rate.begin());
+    for (int k = 0; k < 3; ++k)
+      std::ranges::copy(now.R * now.w.cross(Vector::Unit(k)), y_rate.begin() + 3 + 3 * k);
   }
 
  private:
@@ -72,10 +69,10 @@ std::vector<Vec<3>> RigidAtoms::places() const {
   return s;
 }
 
-Eigen::Matrix3d RigidAtoms::inertia() const {
-  Eigen::Matrix3d I = Eigen::Matrix3d::Zero();
+Mat<3, 3> RigidAtoms::inertia() const {
+  Mat<3, 3> I = Mat<3, 3>::Zero();
   for (const Vec<3>& s : places())
-    I += mass / atoms * (s.squaredNorm() * Eigen::Matrix3d::Identity() - s * s.transpose());
+    I += mass / atoms * (s.squaredNorm() * Mat<3, 3>::Identity() - s * s.transpose());
   return I;
 }
 
@@ -89,7 +86,7 @@ std::vector<Observation<3>> RigidAtoms::reference(std::span<const double> times)
   const Top top(inertia().cast<Real>());
   const std::vector<Vec<3>> in_body = places();
   State start(12, 0);
-  Eigen::Map<Vector>(start.data()) = angular_velocity.cast<Real>();
+  std::ranges::copy(angular_velocity, start.begin());
   Eigen::Map<Matrix>(start.data() + 3).setIdentity();
   std::vector<Observation<3>> seen;
   integrate(std::cref(top), start, times, [&](const State& y) {

@@ -45,7 +45,7 @@ struct RigidAtoms {
   [[nodiscard]] std::vector<Observation<3>> reference(std::span<const double> times) const;
   [[nodiscard]] Observation<3> reference(double t) const;
   [[nodiscard]] std::vector<Vec<3>> places() const;  ///< of the atoms in the body, from the centre of mass
-  [[nodiscard]] Eigen::Matrix3d inertia() const;     ///< about the centre of mass
+  [[nodiscard]] Mat<3, 3> inertia() const;           ///< about the centre of mass
   [[nodiscard]] Model<3> model() const;
 };
 

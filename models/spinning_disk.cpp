@@ -47,13 +47,11 @@ SpinningDiskScene SpinningDisk::scene() const {
   Scene<3> scene("spinning-disk");
   scene.add(UniformGravity<3>{{0.0, 0.0, -gravity}});
   const double across = mass * radius * radius / 4.0;
-  Eigen::Matrix3d axes;
-  axes << t, rho, n;
   const Lamina disk = add_lamina(scene,
                                  {.mass = mass,
                                   .inertia = {across, across},
                                   .centre = {0.0, 0.0, radius * s},
-                                  .axes = axes,
+                                  .axes = Mat<3, 3>(t, rho, n),
                                   .velocity = radius * (lean_rate * n - spin * t),
                                   .angular_velocity = spin * n + precession * s * rho + lean_rate * t},
                                  "disk");

@@ -5,6 +5,8 @@
 #include <dalembert/sweep/hdf5.h>
 #include <dalembert/sweep/hdf5_table.h>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>

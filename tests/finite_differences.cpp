@@ -1,5 +1,6 @@
 #include "finite_differences.h"
 
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -1,13 +1,13 @@
 # cmake -D root=<source folder> -P includes.cmake
 #
 # The rooms from the ground up: fails where a file includes one from a room further down this list, where the
-# solvers know a constraint, and where a header that users include needs one of SUNDIALS, SuiteSparse or of the
-# solvers' own.
+# solvers know a constraint, and where a header that users include needs Eigen, or one of SUNDIALS, SuiteSparse or
+# of the solvers' own.
 
 set(rooms core core/autodiff core/points core/equations core/forces core/results core/scene core/analysis core/lagrange
           constraints/geometry constraints constraints/bodies constraints/joints
           solvers/base solvers/audit solvers/linear solvers/manifold solvers/contact solvers/run solvers/ida solvers/erk solvers solvers/certificate solvers/equilibrium solvers/lagrange view sweep)
-set(public "solvers/base/options|solvers/integrator|solvers/simulation|solvers/certificate/(certificate|largest_errors|report|simulate_to|two_runs|work_precision)|solvers/equilibrium/(branches|equilibrium|floquet|normal_modes|steady|steady_branches|uniform_rotation|uniform_motion)|solvers/lagrange/(cross_check|lagrangian_simulation)|view/write_(gltf|html)|sweep/(parameters|runs|sweep|write_hdf5)")
+set(public "solvers/base/options|solvers/integrator|solvers/simulation|solvers/certificate/(certificate|largest_errors|report|simulate_to|two_runs|work_precision)|solvers/equilibrium/(branches|equilibrium|floquet|normal_modes|steady|steady_branches|uniform_rotation)|solvers/lagrange/(cross_check|lagrangian_simulation)|view/write_(gltf|html)|sweep/(parameters|runs|sweep|write_hdf5)")
 set(theirs "(sundials|ida|nvector|sunlinsol|sunmatrix|sunnonlinsol)/|(suitesparse/)?(klu|amd|colamd|btf|ldl|hdf5|mpi)\\.h|(boost|tbb|oneapi)/")
 
 foreach(room IN LISTS rooms)
@@ -25,6 +25,10 @@ foreach(room IN LISTS rooms)
     foreach(line IN LISTS lines)
       if(for_users AND line MATCHES "[<\"](${theirs})")
         message(SEND_ERROR "${file}: users do not have ${line}")
+      endif()
+      if(file MATCHES "^(core|constraints)/.*\\.h$|^(${public})\\.h$" AND NOT file STREQUAL "core/analysis/rank.h"
+         AND line MATCHES "<Eigen/")
+        message(SEND_ERROR "${file}: Eigen costs each of a user's files half a second; include it in a .cpp: ${line}")
       endif()
       if(line MATCHES "\"" AND NOT line MATCHES "\"dalembert/"
          OR line MATCHES "dalembert/dalembert\\.h" AND NOT room STREQUAL models)

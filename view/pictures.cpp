@@ -59,7 +59,7 @@ Pictures::Drawn Pictures::drawn(const Drawing& drawing) {
     its.pose = all_->add(12, [&](const FlatSample& at, std::span<double> out) {
       const Pose pose = drawing.sketch.pose(at.time);
       Eigen::Matrix<double, 3, 4, Eigen::RowMajor> rows;
-      rows << pose.rotation, pose.shift;
+      rows << Eigen::Matrix3d(pose.rotation), Eigen::Vector3d(pose.shift);
       std::ranges::copy_n(rows.data(), 12, out.begin());
     });
   }

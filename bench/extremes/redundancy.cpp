@@ -180,13 +180,12 @@ Mechanism ring(bool balls) {
   std::vector<Eigen::Isometry3d> frames;
   for (std::size_t i = 0; i < 5; ++i) {
     const Vec<3> along = hinges[i + 1].at - hinges[i].at, side = hinges[i].axis;
-    Eigen::Matrix3d axes;
-    axes << along, side, along.cross(side);
+    const Mat<3, 3> axes(along, side, along.cross(side));
     const Vec<3> centre = 0.5 * (hinges[i].at + hinges[i + 1].at);
     m.bodies.push_back(
         add_body<3>(m.scene, {.mass = 1.0, .inertia = {0.04, 0.09, 0.1}, .centre = centre, .axes = axes},
                     "body " + std::to_string(i + 1)));
-    frames.push_back(Eigen::Translation3d(centre) * Eigen::AngleAxisd(axes));
+    frames.push_back(Eigen::Translation3d(centre) * Eigen::AngleAxisd(Eigen::Matrix3d(axes)));
   }
   const auto in = [&](std::size_t i) {
     return [&, i](const Vec<3>& p) { return m.bodies[i].point(frames[i].inverse() * p); };

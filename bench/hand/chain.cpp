@@ -1,5 +1,7 @@
 #include "dalembert/bench/hand/chain.h"
 
+#include <Eigen/Core>
+
 namespace dalembert::bench {
 
 CartesianChain::CartesianChain(const models::Chain& chain)

@@ -34,9 +34,10 @@ struct Equimomental {
   }
   /// (3), from particle 0 on.
   [[nodiscard]] Vec<n + 1> weights(const Vec<n>& x) const {
+    const Vec<n> others = s * (1.0 - x.sum() / (R * (1.0 + c))) + x / R;
     Vec<n + 1> w;
-    w.template tail<n>() = s * (1.0 - x.sum() / (R * (1.0 + c))) + x / R;
-    w[0] = 1.0 - w.template tail<n>().sum();
+    w[0] = 1.0 - others.sum();
+    for (int i = 0; i < n; ++i) w[i + 1] = others[i];
     return w;
   }
 };

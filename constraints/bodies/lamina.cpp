@@ -3,8 +3,6 @@
 #include <dalembert/constraints/bodies/equimomental.h>
 #include <dalembert/constraints/bodies/orthonormal.h>
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 
 namespace dalembert {
@@ -27,7 +25,8 @@ void check(const LaminaState& s, const std::string& name) {
 BodyPoint<3, 3> Lamina::point(const Vec<2>& local) const {
   const Vec<3> w = Equimomental<2>(arms).weights(local);
   BodyPoint<3, 3> p{particles, {}};
-  for (int i = 0; i < 3; ++i) p.L.middleCols<3>(3 * i) = w[i] * Eigen::Matrix3d::Identity();
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) p.L.set_col(3 * i + k, w[i] * Vec<3>::Unit(k));
   return p;
 }
 
@@ -37,12 +36,10 @@ BodyPoint<3, 3> Lamina::vector(const Vec<2>& local) const {
   return v;
 }
 
-Eigen::Matrix3d Lamina::axes(const Sample<3>& sample) const {
+Mat<3, 3> Lamina::axes(const Sample<3>& sample) const {
   const double far = arms.norm();  // as far as particles, for small round-off
   const Vec<3> x = sample.position(vector({far, 0.0})) / far, y = sample.position(vector({0.0, far})) / far;
-  Eigen::Matrix3d axes;
-  axes << x, y, x.cross(y);
-  return axes;
+  return Mat<3, 3>(x, y, x.cross(y));
 }
 
 Lamina add_lamina(Scene<3>& scene, const LaminaState& s, const std::string& name) {
@@ -53,7 +50,8 @@ Lamina add_lamina(Scene<3>& scene, const LaminaState& s, const std::string& name
   const Equimomental<2> set(lamina.arms);
   std::array<Vec<3>, 3> arm;
   for (std::size_t i = 0; i < 3; ++i) {
-    arm[i] = s.axes.leftCols<2>() * set.place(static_cast<int>(i));
+    const Vec<2> place = set.place(static_cast<int>(i));
+    arm[i] = s.axes.col(0) * place.x() + s.axes.col(1) * place.y();
     lamina.particles[i] = scene.add_particle({.mass = s.mass * set.share(static_cast<int>(i)),
                                               .position = s.centre + arm[i],
                                               .velocity = s.velocity + s.angular_velocity.cross(arm[i])},

@@ -15,10 +15,10 @@ struct LaminaState {
   double mass = 0.0;  ///< finite and > 0
   Vec<2> inertia =
       Vec<2>::Zero();  ///< about its two axes in the plane [mass length^2]; their sum is the third
-  Vec<3> centre = Vec<3>::Zero();                      ///< of mass
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: two in the plane, then the normal
-  Vec<3> velocity = Vec<3>::Zero();                    ///< of the centre of mass
-  Vec<3> angular_velocity = Vec<3>::Zero();            ///< components along the axes of space [rad / time]
+  Vec<3> centre = Vec<3>::Zero();            ///< of mass
+  Mat<3, 3> axes = Mat<3, 3>::Identity();    ///< columns: two in the plane, then the normal
+  Vec<3> velocity = Vec<3>::Zero();          ///< of the centre of mass
+  Vec<3> angular_velocity = Vec<3>::Zero();  ///< components along the axes of space [rad / time]
 };
 
 /// A plane rigid body of no thickness in space: three particles held by Distances, with exactly its mass,
@@ -40,7 +40,7 @@ struct Lamina {
   [[nodiscard]] BodyPoint<3, 3> vector(const Vec<2>& local) const;
 
   /// Columns: its two axes in the plane, then the normal.
-  [[nodiscard]] Eigen::Matrix3d axes(const Sample<3>& sample) const;
+  [[nodiscard]] Mat<3, 3> axes(const Sample<3>& sample) const;
 };
 
 /// Adds a lamina to a scene; its particles and rods are named after it. Throws InvalidScene if mass

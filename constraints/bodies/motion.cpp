@@ -71,7 +71,7 @@ MomentOf<D> acceleration_of(const Sample<D>& sample, const Body& body) {
 }  // namespace
 
 double angle(const Sample<2>& sample, const RigidBody<2>& body) {
-  const Eigen::Matrix2d axes = body.axes(sample);
+  const Mat<2, 2> axes = body.axes(sample);
   return std::atan2(axes(1, 0), axes(0, 0));
 }
 

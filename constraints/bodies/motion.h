@@ -4,9 +4,12 @@
 #include <dalembert/constraints/bodies/rigid_body.h>
 #include <dalembert/constraints/bodies/thin_rod.h>
 
-#include <Eigen/Core>
-
 #include <type_traits>
+
+namespace Eigen {
+template <class Scalar, int Options>
+class Quaternion;
+}
 
 /// How a body moves at an instant of a run: `angular_velocity(run.sample(i), body)`. What particles have the
 /// mass, centre and inertia of a body have also its energy and momentum, so that these are sums over them.
@@ -28,9 +31,9 @@ template <int D>
 
 /// The rotation from the axes of space to those of the body, as a unit quaternion with w >= 0. As a matrix
 /// it is `body.axes(sample)`. Who calls it includes <Eigen/Geometry>: most programs do without.
-[[nodiscard]] Eigen::Quaternion<double> quaternion(const Sample<3>& sample, const RigidBody<3>& body);
+[[nodiscard]] Eigen::Quaternion<double, 0> quaternion(const Sample<3>& sample, const RigidBody<3>& body);
 /// Likewise.
-[[nodiscard]] Eigen::Quaternion<double> quaternion(const Sample<3>& sample, const Lamina& body);
+[[nodiscard]] Eigen::Quaternion<double, 0> quaternion(const Sample<3>& sample, const Lamina& body);
 
 /// [rad / time], in space along the axes of space; along those of the body it is `body.axes(sample)^T` times
 /// that. A ThinRod in space has no turn about itself: what is given is across it.

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <dalembert/core/mat.h>
 
 namespace dalembert::detail {
 
 /// Whether columns are right-handed axes of unit length, to the digits that a user writes down. False if one
 /// of their numbers is NaN.
-[[nodiscard]] bool orthonormal(const Eigen::Matrix2d& axes);
-[[nodiscard]] bool orthonormal(const Eigen::Matrix3d& axes);
+[[nodiscard]] bool orthonormal(const Mat<2, 2>& axes);
+[[nodiscard]] bool orthonormal(const Mat<3, 3>& axes);
 
 }  // namespace dalembert::detail

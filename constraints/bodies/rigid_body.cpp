@@ -21,17 +21,17 @@ template <int D>
 struct Particles {
   static constexpr int count = BodyPoint<D>::count;
   Vec<count> share;
-  Eigen::Matrix<double, D, count> place;
+  Mat<D, count> place;
 
   explicit Particles(const Vec<D>& arms) {
     if constexpr (D == 2) {
-      share.setConstant(0.5);
-      place << -arms.x(), arms.x(), 0.0, 0.0;
+      share = Vec<count>::Constant(0.5);
+      place = Mat<D, count>({{-arms.x(), arms.x()}, {0.0, 0.0}});
     } else {
       const Equimomental<3> set(arms);
       for (int i = 0; i < count; ++i) {
         share[i] = set.share(i);
-        place.col(i) = set.place(i);
+        place.set_col(i, set.place(i));
       }
     }
   }
@@ -49,15 +49,14 @@ Vec<3> arms_of(const BodyState<3>& s, const std::string& name) {
       s.inertia.allFinite() && second_moments.minCoeff() > 0.0, name,
       "each principal moment of inertia must be finite and less than the sum of the other two; a lamina is "
       "three particles held by Distances, a thin rod two");
-  return (second_moments / s.mass).cwiseSqrt();
+  const Vec<3> squares = second_moments / s.mass;
+  return {std::sqrt(squares.x()), std::sqrt(squares.y()), std::sqrt(squares.z())};
 }
 
-Eigen::Matrix2d axes_of(const BodyState<2>& s) {
-  Eigen::Matrix2d axes;
-  axes << std::cos(s.angle), -std::sin(s.angle), std::sin(s.angle), std::cos(s.angle);
-  return axes;
+Mat<2, 2> axes_of(const BodyState<2>& s) {
+  return Mat<2, 2>({{std::cos(s.angle), -std::sin(s.angle)}, {std::sin(s.angle), std::cos(s.angle)}});
 }
-Eigen::Matrix3d axes_of(const BodyState<3>& s) { return s.axes; }
+Mat<3, 3> axes_of(const BodyState<3>& s) { return s.axes; }
 
 Vec<2> turning(const BodyState<2>& s, const Vec<2>& arm) {
   return s.angular_velocity * Vec<2>(-arm.y(), arm.x());
@@ -71,14 +70,13 @@ BodyPoint<D> RigidBody<D>::point(const Vec<D>& local) const {
   BodyPoint<D> p{particles, {}};
   if constexpr (D == 2) {
     // centre + x e + y (e turned left), e = (p_2 - p_1)/(2 rho)
-    Eigen::Matrix2d turned_left;
-    turned_left << 0.0, -1.0, 1.0, 0.0;
-    const Eigen::Matrix2d e_part =
-        (local.x() * Eigen::Matrix2d::Identity() + local.y() * turned_left) / (2.0 * arms.x());
-    p.L << 0.5 * Eigen::Matrix2d::Identity() - e_part, 0.5 * Eigen::Matrix2d::Identity() + e_part;
+    const Vec<2> e_part = local / (2.0 * arms.x()), turned_left(-e_part.y(), e_part.x());
+    p.L = Mat<2, 4>(Vec<2>(0.5 * Vec<2>::UnitX() - e_part), 0.5 * Vec<2>::UnitY() - turned_left,
+                    0.5 * Vec<2>::UnitX() + e_part, 0.5 * Vec<2>::UnitY() + turned_left);
   } else {
     const Vec<4> w = Equimomental<3>(arms).weights(local);
-    for (int i = 0; i < 4; ++i) p.L.template middleCols<3>(3 * i) = w[i] * Eigen::Matrix3d::Identity();
+    for (int i = 0; i < 4; ++i)
+      for (int k = 0; k < 3; ++k) p.L.set_col(3 * i + k, w[i] * Vec<3>::Unit(k));
   }
   return p;
 }
@@ -111,7 +109,7 @@ typename RigidBody<D>::Axes RigidBody<D>::axes(const Sample<D>& sample) const {
   const Vec<D> origin = sample.position(centre());
   // Points as far from the centre as particles keep round-off small whatever the size of the body.
   const double far = arms.norm();
-  for (int k = 0; k < D; ++k) axes.col(k) = (sample.position(point(far * Vec<D>::Unit(k))) - origin) / far;
+  for (int k = 0; k < D; ++k) axes.set_col(k, (sample.position(point(far * Vec<D>::Unit(k))) - origin) / far);
   return axes;
 }
 
@@ -119,7 +117,7 @@ template <int D>
 RigidBody<D> add_body(Scene<D>& scene, const BodyState<D>& state, const std::string& name) {
   require(std::isfinite(state.mass) && state.mass > 0.0, name,
           "mass = " + detail::text(state.mass) + ", must be finite and > 0");
-  const Eigen::Matrix<double, D, D> axes = axes_of(state);
+  const Mat<D, D> axes = axes_of(state);
   require(detail::orthonormal(axes), name, "axes must be right-handed and of unit length");
   RigidBody<D> body;
   body.arms = arms_of(state, name);

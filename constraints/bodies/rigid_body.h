@@ -29,7 +29,7 @@ struct BodyState<3> {
   double mass = 0.0;                ///< finite and > 0
   Vec<3> inertia = Vec<3>::Zero();  ///< principal moments about the centre of mass [mass length^2]
   Vec<3> centre = Vec<3>::Zero();
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: the principal axes, right-handed
+  Mat<3, 3> axes = Mat<3, 3>::Identity();  ///< columns: the principal axes, right-handed
   Vec<3> velocity = Vec<3>::Zero();
   Vec<3> angular_velocity = Vec<3>::Zero();  ///< components along the axes of space [rad / time]
 };
@@ -49,7 +49,7 @@ struct RigidBody {
   static constexpr int dimension = D;
   static constexpr int particle_count = BodyPoint<D>::count;  ///< 2 in the plane, 4 in space
   static constexpr int rod_count = D == 2 ? 1 : 6;            ///< between its particles
-  using Axes = Eigen::Matrix<double, D, D>;                   ///< a rotation matrix
+  using Axes = Mat<D, D>;                                     ///< a rotation matrix
   /// A number in the plane, three principal moments in space.
   using Inertia = decltype(BodyState<D>::inertia);
 

@@ -20,9 +20,11 @@ V between(const V& start, const V& end, double fraction) {
 template <int D>
 BodyPoint<D, 2> ThinRod<D>::point(double fraction) const {
   const double weight = 0.5 + (fraction - 0.5) / (2.0 * arm);  // of the particle near the end
-  const auto one = Eigen::Matrix<double, D, D>::Identity();
   BodyPoint<D, 2> p{particles, {}};
-  p.L << (1.0 - weight) * one, weight * one;
+  for (int k = 0; k < D; ++k) {
+    p.L.set_col(k, (1.0 - weight) * Vec<D>::Unit(k));
+    p.L.set_col(D + k, weight * Vec<D>::Unit(k));
+  }
   return p;
 }
 

@@ -41,8 +41,7 @@ struct JointFrame<RigidBody<D>> {
   BodyPoint<D> origin;
   std::array<BodyPoint<D>, static_cast<std::size_t>(D)> axes;
 
-  static JointFrame at(const RigidBody<D>& body, const Vec<D>& place,
-                       const Eigen::Matrix<double, D, D>& axes) {
+  static JointFrame at(const RigidBody<D>& body, const Vec<D>& place, const Mat<D, D>& axes) {
     JointFrame frame{body.point_at(place), {}};
     for (int k = 0; k < D; ++k) frame.axes[static_cast<std::size_t>(k)] = body.vector_along(axes.col(k));
     return frame;
@@ -54,8 +53,7 @@ struct JointFrame<Ground<D>> {
   Fixed<D> origin;
   std::array<FixedVector<D>, static_cast<std::size_t>(D)> axes;
 
-  static JointFrame at(const Ground<D>& /*ground*/, const Vec<D>& place,
-                       const Eigen::Matrix<double, D, D>& axes) {
+  static JointFrame at(const Ground<D>& /*ground*/, const Vec<D>& place, const Mat<D, D>& axes) {
     JointFrame frame{{place}, {}};
     for (int k = 0; k < D; ++k) frame.axes[static_cast<std::size_t>(k)].position = axes.col(k);
     return frame;
@@ -76,13 +74,13 @@ inline constexpr bool has_axes =
 };
 
 /// Axes x, y, z with z along a direction.
-[[nodiscard]] Eigen::Matrix3d joint_axes(const Vec<3>& direction);
+[[nodiscard]] Mat<3, 3> joint_axes(const Vec<3>& direction);
 /// x along a direction of the plane, y turned left.
-[[nodiscard]] Eigen::Matrix2d joint_axes(const Vec<2>& direction);
+[[nodiscard]] Mat<2, 2> joint_axes(const Vec<2>& direction);
 /// z along an axis, x along the part of `across` that is across it.
-[[nodiscard]] Eigen::Matrix3d axes_across(const Vec<3>& axis, const Vec<3>& across);
+[[nodiscard]] Mat<3, 3> axes_across(const Vec<3>& axis, const Vec<3>& across);
 /// x along a direction, y along another at a right angle to it.
-[[nodiscard]] Eigen::Matrix3d axes_of_two(const Vec<3>& along_x, const Vec<3>& along_y);
+[[nodiscard]] Mat<3, 3> axes_of_two(const Vec<3>& along_x, const Vec<3>& along_y);
 
 }  // namespace detail
 
@@ -100,9 +98,9 @@ struct JointFrames {
   static_assert(detail::moves<A> || detail::moves<B>, "a joint needs a body that can move");
   static_assert(detail::has_axes<A> && detail::has_axes<B>,
                 "a joint holds bodies of add_body: pin points of a ThinRod or Lamina by Coincident");
-  using First = A;                                           ///< the first body's type
-  using Second = B;                                          ///< the second body's type
-  using Axes = Eigen::Matrix<double, dimension, dimension>;  ///< a rotation matrix
+  using First = A;                         ///< the first body's type
+  using Second = B;                        ///< the second body's type
+  using Axes = Mat<dimension, dimension>;  ///< a rotation matrix
 
   Vec<dimension> place;  ///< of b's frame, when the bodies were added
   Axes stated;           ///< the axes then; columns

@@ -27,7 +27,7 @@ struct Revolute {
       : frames(a, b, point, detail::joint_axes(axis)) {}
   /// The same in the plane, about its normal.
   Revolute(const A& a, const B& b, const Vec<2>& point) requires(A::dimension == 2)
-      : frames(a, b, point, Eigen::Matrix2d::Identity()) {}
+      : frames(a, b, point, Mat<2, 2>::Identity()) {}
 
   auto points() const {
     if constexpr (A::dimension == 2) {

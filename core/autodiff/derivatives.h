@@ -247,32 +247,3 @@ template <Differentiated S, detail::OfEigen E>
 auto operator*(const E& a, const S& b) { return VecOf<typename E::Scalar, E::RowsAtCompileTime>(a) * b; }
 
 }  // namespace dalembert
-
-namespace Eigen {
-
-template <dalembert::Differentiated S>
-struct NumTraits<S> : NumTraits<double> {
-  using Real = S;
-  using NonInteger = S;
-  using Nested = S;
-  using Literal = S;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 8,
-    AddCost = 16,
-    MulCost = 32
-  };
-};
-template <dalembert::Differentiated S, class Op>
-struct ScalarBinaryOpTraits<S, double, Op> {
-  using ReturnType = S;
-};
-template <dalembert::Differentiated S, class Op>
-struct ScalarBinaryOpTraits<double, S, Op> {
-  using ReturnType = S;
-};
-
-}  // namespace Eigen

@@ -43,9 +43,10 @@ concept Number = is_differentiated<T> ||(std::is_arithmetic_v<T> && !std::same_a
 /// Several equations or a force: of Eigen's, too, if they outlive their evaluation (an expression refers to
 /// what is gone) and none can be overlooked (as in a row, or where only the running program knows how many).
 template <class T>
-concept Column = is_vector<T> ||
-    (std::is_base_of_v<Eigen::PlainObjectBase<T>, T>&& T::ColsAtCompileTime == 1 &&
-     (T::RowsAtCompileTime > 0));
+concept Column = is_vector<T> ||(OfEigen<T>&& requires {
+  requires std::same_as<typename T::PlainObject, T> && T::ColsAtCompileTime == 1 &&
+      (T::RowsAtCompileTime > 0);
+});
 
 template <class T, int D>
 concept ColumnOf = Column<T> &&(T::RowsAtCompileTime == D);

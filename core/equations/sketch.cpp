@@ -19,7 +19,7 @@ bool is_direction(std::span<const double> map, std::size_t rows) {
 }
 
 Pose turned_about(const Vec<3>& point, const Vec<3>& axis, double angle) {
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+  const Mat<3, 3> turn = Eigen::AngleAxisd(angle, Eigen::Vector3d(axis)).toRotationMatrix();
   return {turn, point - turn * point};
 }
 

@@ -14,8 +14,8 @@ namespace dalembert {
 
 /// Where something rigid is: `rotation * r + shift`, of a place r of it as it was.
 struct Pose {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< orthonormal
-  Vec<3> shift = Vec<3>::Zero();                           ///< [length]
+  Mat<3, 3> rotation = Mat<3, 3>::Identity();  ///< orthonormal
+  Vec<3> shift = Vec<3>::Zero();               ///< [length]
 };
 
 /// What a picture shows of a constraint or force: its type says so by a member `Sketch sketch() const`, and
@@ -125,7 +125,7 @@ template <int D, class Surface>
                          { surface(r) } -> std::convertible_to<double>;
                        }) {
     return {"implicit", {}, {}, [surface](const Sketch::Place& r) {
-              return static_cast<double>(surface(Vec<D>(Eigen::Map<const Vec<D>>(r.data()))));
+              return static_cast<double>(surface(Vec<D>::from(r.data())));
             }};
   } else {
     return {"none"};  // it changes in time in a way of its own

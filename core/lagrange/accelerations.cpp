@@ -2,6 +2,7 @@
 
 #include <dalembert/core/analysis/rank.h>
 
+#include <Eigen/Core>
 #include <Eigen/LU>
 #include <Eigen/QR>
 
@@ -14,6 +15,23 @@
 namespace dalembert::detail {
 
 namespace {
+
+using SmallMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_coordinates, most_coordinates>;
+using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_coordinates, 1>;
+
+SmallVector vector(std::span<const double> x) {
+  return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+/// The rows of constraints as columns.
+SmallMatrix columns_of(const ConstraintRows& rows, Eigen::Index coordinates) {
+  return Eigen::Map<const Eigen::MatrixXd>(rows.A.data(), coordinates, rows.count());
+}
+Accelerations found(const SmallVector& a, bool determined, int sign) {
+  Accelerations result{.a = {}, .determined = determined, .sign = sign};
+  std::copy_n(a.data(), a.size(), result.a.begin());
+  return result;
+}
 
 /// Entries of M are known to some roundings each, and elimination adds one for each row: a pivot below this
 /// many for each row is 0. (A larger number rejects what is as many roundings from singular, where
@@ -32,17 +50,19 @@ SmallVector units(const SmallMatrix& M) {
 
 }  // namespace
 
-Accelerations accelerations(const SmallMatrix& M, const SmallVector& f, const SmallMatrix& A,
-                            const SmallVector& gamma) {
-  const Eigen::Index n = M.rows();
+Accelerations accelerations(std::span<const double> inertia_of_all, std::span<const double> force,
+                            const ConstraintRows& rows) {
+  const auto n = static_cast<Eigen::Index>(force.size());
+  const SmallMatrix M = Eigen::Map<const Eigen::MatrixXd>(inertia_of_all.data(), n, n);
+  const SmallVector f = vector(force);
   const SmallVector unit = units(M);
   const SmallMatrix scaled = unit.asDiagonal() * M * unit.asDiagonal();
   SmallMatrix Q = SmallMatrix::Identity(n, n);
   SmallVector a = SmallVector::Zero(n);
   Eigen::Index rank = 0;
-  if (A.rows() > 0) {
-    SmallMatrix columns = unit.asDiagonal() * A.transpose();
-    SmallVector bias = gamma;
+  if (rows.count() > 0) {
+    SmallMatrix columns = unit.asDiagonal() * columns_of(rows, n);
+    SmallVector bias = vector(rows.gamma);
     for (Eigen::Index r = 0; r < columns.cols(); ++r) {
       const double length = columns.col(r).norm();
       if (length == 0.0) continue;
@@ -69,64 +89,67 @@ Accelerations accelerations(const SmallMatrix& M, const SmallVector& f, const Sm
     if (!lu.isInvertible()) {
       const SmallMatrix kernel = lu.kernel();
       const SmallVector direction = Z * kernel.col(0);
-      return {a, unit.asDiagonal() * direction, 0};
+      return found(unit.asDiagonal() * direction, false, 0);
     }
     const SmallVector rest = Z.transpose() * (unit.asDiagonal() * f - scaled * a);
     const SmallVector z = lu.solve(rest);
     a += Z * z;
-    return {unit.asDiagonal() * a, {}, lu.determinant() < 0.0 ? -1 : 1};
+    return found(unit.asDiagonal() * a, true, lu.determinant() < 0.0 ? -1 : 1);
   }
-  return {unit.asDiagonal() * a, {}, 1};
+  return found(unit.asDiagonal() * a, true, 1);
 }
 
-SolvedMultipliers multipliers(const SmallMatrix& A, const SmallVector& r) {
-  if (A.rows() == 0) return {SmallVector(0), 1.0, 0};
-  SmallMatrix columns = A.transpose();
-  SmallVector length(A.rows());
-  for (Eigen::Index k = 0; k < A.rows(); ++k) {
+SolvedMultipliers multipliers(const ConstraintRows& rows, std::span<const double> r) {
+  if (rows.count() == 0) return {{}, 1.0, 0};
+  SmallMatrix columns = columns_of(rows, static_cast<Eigen::Index>(r.size()));
+  SmallVector length(rows.count());
+  for (Eigen::Index k = 0; k < rows.count(); ++k) {
     length[k] = columns.col(k).norm();
     if (length[k] > 0.0) columns.col(k) /= length[k];
   }
   Eigen::CompleteOrthogonalDecomposition<SmallMatrix> qr(columns.rows(), columns.cols());
   qr.setThreshold(rank_threshold);
   qr.compute(columns);
-  SolvedMultipliers found{qr.solve(r), 1.0, qr.rank()};
-  for (Eigen::Index k = 0; k < found.rank; ++k)
-    found.sine = std::min(found.sine, std::abs(qr.matrixQTZ()(k, k)));
-  for (Eigen::Index k = 0; k < A.rows(); ++k)
-    found.lambda[k] = length[k] > 0.0 ? found.lambda[k] / length[k] : 0.0;
-  return found;
+  SolvedMultipliers solved{{}, 1.0, static_cast<int>(qr.rank())};
+  for (Eigen::Index k = 0; k < qr.rank(); ++k)
+    solved.sine = std::min(solved.sine, std::abs(qr.matrixQTZ()(k, k)));
+  const SmallVector lambda = qr.solve(vector(r));
+  for (Eigen::Index k = 0; k < rows.count(); ++k)
+    solved.lambda.push_back(length[k] > 0.0 ? lambda[k] / length[k] : 0.0);
+  return solved;
 }
 
-Rows rows_of(const System& constraints, const Instant& at) {
-  const auto m = static_cast<Eigen::Index>(constraints.rows()),
-             n = static_cast<Eigen::Index>(constraints.coordinates());
+ConstraintRows rows_of(const System& constraints, const Instant& at) {
+  const std::size_t m = constraints.rows(), n = constraints.coordinates();
   auto e = constraints.evaluation();
-  std::vector<double> bias(constraints.rows());
-  constraints.evaluate_with_bias(at, e, bias);
-  Rows rows{SmallMatrix::Zero(m, n), Eigen::Map<const Eigen::VectorXd>(bias.data(), m)};
-  for (std::size_t r = 0; r < bias.size(); ++r) {
+  ConstraintRows rows{std::vector<double>(m * n), std::vector<double>(m)};
+  constraints.evaluate_with_bias(at, e, rows.gamma);
+  for (std::size_t r = 0; r < m; ++r) {
     for (const std::size_t k : constraints.row(r))
-      rows.A(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(constraints.w_columns()[k])) += e.w[k];
+      rows.A[r * n + static_cast<std::size_t>(constraints.w_columns()[k])] += e.w[k];
   }
   return rows;
 }
 
 namespace {
-const Eigen::IOFormat in_a_row(6, Eigen::DontAlignCols, ", ", ", ");
+std::string in_a_row(std::span<const double> x, double unit = 1.0) {
+  std::ostringstream all;
+  for (std::size_t k = 0; k < x.size(); ++k) all << (k == 0 ? "" : ", ") << x[k] / unit;
+  return all.str();
 }
+}  // namespace
 
-std::string no_inertia(const SmallVector& q, const SmallVector& direction) {
+std::string no_inertia(std::span<const double> q, std::span<const double> direction) {
   std::ostringstream what;
-  what << "gives no acceleration: d^2L/dv^2 is singular at q = (" << q.transpose().format(in_a_row)
-       << "), motion along (" << (direction / direction.cwiseAbs().maxCoeff()).transpose().format(in_a_row)
+  what << "gives no acceleration: d^2L/dv^2 is singular at q = (" << in_a_row(q) << "), motion along ("
+       << in_a_row(direction, vector(direction).cwiseAbs().maxCoeff())
        << ") has no inertia; give it some, constrain it, or choose other coordinates";
   return what.str();
 }
 
-std::string inertia_lost(const SmallVector& q) {
+std::string inertia_lost(std::span<const double> q) {
   std::ostringstream what;
-  what << "gives no motion to q = (" << q.transpose().format(in_a_row)
+  what << "gives no motion to q = (" << in_a_row(q)
        << "): on the way there d^2L/dv^2 is singular and accelerations are unbounded; end the run before, or "
           "choose other coordinates";
   return what.str();

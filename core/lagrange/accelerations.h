@@ -2,18 +2,25 @@
 
 #include <dalembert/core/scene/system.h>
 
-#include <Eigen/Core>
-
+#include <array>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace dalembert::detail {
 
 /// The most coordinates of a Lagrangian, and equations of constraint on them: their derivatives fill square
 /// matrices, and so nothing is allocated for them.
 inline constexpr int most_coordinates = 32;
-using SmallMatrix =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_coordinates, most_coordinates>;
-using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_coordinates, 1>;
+
+/// The rows of constraints at one instant, A and gamma of (1) below. Allocates, unless there are none.
+struct ConstraintRows {
+  std::vector<double> A{};  ///< row after row
+  std::vector<double> gamma{};
+
+  [[nodiscard]] int count() const { return static_cast<int>(gamma.size()); }
+};
+[[nodiscard]] ConstraintRows rows_of(const System& constraints, const Instant& at);
 
 /// The accelerations a that satisfy
 ///
@@ -24,36 +31,28 @@ using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_coordinates
 /// occur, so that rows of A may depend on each other. Coordinates are measured in units in which M has
 /// entries near 1, rows of A have unit length.
 struct Accelerations {
-  SmallVector a;
-  /// Empty, or a direction that the constraints allow and that has no inertia: (1) does not determine a.
-  SmallVector without_inertia{};
+  /// As many as there are coordinates; or a direction that the constraints allow and that has no inertia.
+  std::array<double, most_coordinates> a;
+  bool determined = true;  ///< by (1)
   /// Of the determinant of Z^T M Z: along a motion it changes only where that is singular.
   int sign = 1;
 };
-[[nodiscard]] Accelerations accelerations(const SmallMatrix& M, const SmallVector& f, const SmallMatrix& A,
-                                          const SmallVector& gamma);
+/// M is square and as long as f.
+[[nodiscard]] Accelerations accelerations(std::span<const double> M, std::span<const double> f,
+                                          const ConstraintRows& rows);
 
 /// The multipliers in A^T lambda = r: of dependent rows those with the smallest forces, and the smallest sine
 /// of an angle among the independent ones: 1/sine is the factor by which an error of A is amplified.
 struct SolvedMultipliers {
-  SmallVector lambda;
+  std::vector<double> lambda;
   double sine;
-  Eigen::Index rank;
+  int rank;
 };
-[[nodiscard]] SolvedMultipliers multipliers(const SmallMatrix& A, const SmallVector& r);
-
-/// The rows of constraints at one instant, A and gamma of (1). Allocates.
-struct Rows {
-  SmallMatrix A;
-  SmallVector gamma;
-
-  [[nodiscard]] static Rows none(int coordinates) { return {SmallMatrix(0, coordinates), SmallVector(0)}; }
-};
-[[nodiscard]] Rows rows_of(const System& constraints, const Instant& at);
+[[nodiscard]] SolvedMultipliers multipliers(const ConstraintRows& rows, std::span<const double> r);
 
 /// The faults that no acceleration follows at q, as motion along the direction has no inertia, and that the
 /// motion can have reached q only through such a place.
-[[nodiscard]] std::string no_inertia(const SmallVector& q, const SmallVector& direction);
-[[nodiscard]] std::string inertia_lost(const SmallVector& q);
+[[nodiscard]] std::string no_inertia(std::span<const double> q, std::span<const double> direction);
+[[nodiscard]] std::string inertia_lost(std::span<const double> q);
 
 }  // namespace dalembert::detail

@@ -88,7 +88,7 @@ struct OnVelocities {
   template <class First, class... U>
   [[nodiscard]] auto motion(const First& first, const U&... u) const {
     Vec<2 * N> both;
-    both << scale, scale;
+    for (int k = 0; k < N; ++k) both[k] = both[N + k] = scale[k];
     const auto x = scaled<2 * N>(both, first, u...);
     using Half = VecOf<typename First::Scalar, N>;
     return std::pair<Half, Half>(x.template head<N>(), x.template tail<N>());

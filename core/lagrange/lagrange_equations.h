@@ -12,6 +12,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace dalembert {
@@ -50,7 +51,7 @@ struct LagrangeEquations {
   struct Solved {
     Vec<N> a;         ///< u''
     Vec<N> reaction;  ///< A^T lambda
-    detail::Rows rows;
+    detail::ConstraintRows rows;
     int sign;
   };
   /// Throws std::domain_error where no acceleration follows.
@@ -74,13 +75,16 @@ typename LagrangeEquations<N>::Solved LagrangeEquations<N>::solved(const Instant
   if (!std::isfinite(terms.L) || !inertia.allFinite() || !terms.force(v).allFinite())
     throw std::domain_error("has no finite value or derivatives");
   if (!f.allFinite()) throw std::domain_error("has a generalized force that is not finite");
-  const detail::Rows rows = constraints ? detail::rows_of(*constraints, at) : detail::Rows::none(N);
-  const auto found = detail::accelerations(inertia, f, rows.A, rows.gamma);
-  if (found.without_inertia.size() > 0)
-    throw std::domain_error(detail::no_inertia(q, scale.cwiseProduct(Vec<N>(found.without_inertia))));
-  if (sign != 0 && found.sign != sign) throw std::domain_error(detail::inertia_lost(q));
-  const Vec<N> a(found.a);
-  return {a, inertia * a - f, rows, found.sign};
+  detail::ConstraintRows rows;
+  if (constraints) rows = detail::rows_of(*constraints, at);
+  const auto found = detail::accelerations({inertia.data(), N * N}, {f.data(), N}, rows);
+  const Vec<N> a = Vec<N>::from(found.a.data());
+  if (!found.determined) {
+    const Vec<N> along = scale.cwiseProduct(a);
+    throw std::domain_error(detail::no_inertia({q.data(), N}, {along.data(), N}));
+  }
+  if (sign != 0 && found.sign != sign) throw std::domain_error(detail::inertia_lost({q.data(), N}));
+  return {a, inertia * a - f, std::move(rows), found.sign};
 }
 
 template <int N>

@@ -4,8 +4,6 @@
 #include <dalembert/core/equations/arguments.h>
 #include <dalembert/core/vec.h>
 
-#include <Eigen/Core>
-
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -16,7 +14,7 @@ namespace dalembert {
 /// A Lagrangian L(t, q, v) of N coordinates and its derivatives at one instant.
 template <int N>
 struct LagrangeTerms {
-  using Matrix = Eigen::Matrix<double, N, N>;
+  using Matrix = Mat<N, N>;
 
   double L = 0.0;
   Vec<N> L_q = Vec<N>::Zero();

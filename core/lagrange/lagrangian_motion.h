@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace dalembert {
 
@@ -60,21 +61,22 @@ class LagrangianMotion {
   /// to dependent that the error of the state changes a force by more than the root of the tolerance.
   template <int Rows>
   [[nodiscard]] Multiplier<Rows> multiplier(Constraint<Rows> constraint, std::size_t i) const {
-    const Eigen::Index first = first_row(constraint);
-    const detail::SmallVector lambda = determined(i).lambda;
+    const std::vector<double> lambda = determined(i).lambda;
+    const double* const first = lambda.data() + first_row(constraint);
     if constexpr (Rows == 1) {
-      return lambda[first];
+      return *first;
     } else {
-      return lambda.segment<Rows>(first);
+      return Vec<Rows>::from(first);
     }
   }
   /// Its generalized force A^T lambda, by coordinates.
   template <int Rows>
   [[nodiscard]] Vec<N> constraint_force(Constraint<Rows> constraint, std::size_t i) const {
-    const Eigen::Index first = first_row(constraint);
+    const std::size_t first = first_row(constraint);
     const Reactions now = determined(i);
     Vec<N> force = Vec<N>::Zero();
-    for (Eigen::Index r = first; r < first + Rows; ++r) force += now.lambda[r] * now.A.row(r).transpose();
+    for (std::size_t r = first; r < first + Rows; ++r)
+      force += now.lambda[r] * Vec<N>::from(now.A.data() + r * N);
     return force.cwiseQuotient(system_.scale());
   }
 
@@ -84,22 +86,21 @@ class LagrangianMotion {
     return equations_.solved({at.time, at.q, at.v});
   }
   template <int Rows>
-  [[nodiscard]] Eigen::Index first_row(Constraint<Rows> constraint) const {
+  [[nodiscard]] std::size_t first_row(Constraint<Rows> constraint) const {
     const Layout& layout = run_.sample(0).layout();
     layout.require(constraint);
-    return layout.constraints[static_cast<std::size_t>(constraint.index)].first_row;
+    return static_cast<std::size_t>(layout.constraints[static_cast<std::size_t>(constraint.index)].first_row);
   }
   /// All multipliers, and what they are solved from.
   struct Reactions {
-    detail::SmallMatrix A;
-    detail::SmallVector lambda;
+    std::vector<double> A, lambda;
     double sine;
-    Eigen::Index rank;
+    int rank;
   };
   [[nodiscard]] Reactions reactions(std::size_t i) const {
-    const auto now = solved(i);
-    const auto found = detail::multipliers(now.rows.A, now.reaction);
-    return {now.rows.A, found.lambda, found.sine, found.rank};
+    auto now = solved(i);
+    auto found = detail::multipliers(now.rows, {now.reaction.data(), N});
+    return {std::move(now.rows.A), std::move(found.lambda), found.sine, found.rank};
   }
   [[nodiscard]] Reactions determined(std::size_t i) const {
     Reactions now = reactions(i);
@@ -123,7 +124,7 @@ class LagrangianMotion {
   LagrangeEquations<N> equations_;
   Trajectory<2> run_;
   double tolerance_;
-  Eigen::Index rank_;  ///< of the constraints at the start
+  int rank_;  ///< of the constraints at the start
 };
 
 }  // namespace dalembert

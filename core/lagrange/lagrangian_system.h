@@ -139,7 +139,7 @@ class LagrangianSystem {
     return constraint;
   }
   [[nodiscard]] Vec<N> unscaled(std::span<const double> u) const {
-    return scale_.cwiseProduct(Eigen::Map<const Vec<N>>(u.data()));
+    return scale_.cwiseProduct(Vec<N>::from(u.data()));
   }
 
   Scene<2> kinematics_;  ///< rotors and constraints

@@ -66,7 +66,7 @@ std::pair<LagrangeTerms<N>, double> Routhian<N>::solve(double t, const Vec<N - 1
     const double off = momentum_ - terms.L_v[cyclic_];
     // Of the terms that the momentum is the sum of.
     const double size =
-        std::abs(momentum_) + terms.L_vv.row(cyclic_).cwiseAbs().dot(with(rate, v).cwiseAbs());
+        std::abs(momentum_) + terms.L_vv.row(cyclic_).transpose().cwiseAbs().dot(with(rate, v).cwiseAbs());
     if (std::abs(off) <= rounding * size) return {terms, rate};
     if (std::abs(off) < before) {
       step = off / terms.L_vv(cyclic_, cyclic_);
@@ -97,8 +97,8 @@ LagrangeTerms<N - 1> Routhian<N>::terms(double t, const Vec<N - 1>& q, const Vec
   R.L_vt = others(L.L_vt) - coupling * (L.L_vt[cyclic_] / inertia);
   const Vec<N - 1> through = others(L.L_vq.row(cyclic_));
   for (int k = 0; k < N - 1; ++k) {
-    R.L_vv.col(k) = others(L.L_vv.col(among_all(k))) - coupling * (coupling[k] / inertia);
-    R.L_vq.col(k) = others(L.L_vq.col(among_all(k))) - coupling * (through[k] / inertia);
+    R.L_vv.set_col(k, others(L.L_vv.col(among_all(k))) - coupling * (coupling[k] / inertia));
+    R.L_vq.set_col(k, others(L.L_vq.col(among_all(k))) - coupling * (through[k] / inertia));
   }
   return R;
 }

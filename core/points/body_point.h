@@ -21,7 +21,7 @@ struct BodyPoint {
   static constexpr int count = Particles;  ///< of particles
   static constexpr int coordinates = count * D;
   static constexpr bool driven = false;
-  using Map = Eigen::Matrix<double, D, coordinates>;  ///< from the particles' coordinates to the point's
+  using Map = Mat<D, coordinates>;  ///< from the particles' coordinates to the point's
 
   std::array<Particle<D>, static_cast<std::size_t>(count)> particles;  ///< of its body
   Map L;                                                               ///< constant

@@ -47,9 +47,7 @@ struct Particle {
   std::uint64_t scene = 0;  ///< identity of the scene it belongs to
 
   /// Its D numbers out of q (its position) or v (its velocity).
-  [[nodiscard]] Vec<D> gather(std::span<const double> x) const {
-    return Eigen::Map<const Vec<D>>(x.data() + coordinate);
-  }
+  [[nodiscard]] Vec<D> gather(std::span<const double> x) const { return Vec<D>::from(x.data() + coordinate); }
   /// The coordinates that it reads.
   [[nodiscard]] auto reads() const { return consecutive<D>(coordinate); }
 

@@ -143,7 +143,7 @@ MomentOf<D> Sample<D>::moment_on_ground(const Layout::Constraint& constraint, co
           " turns a rotor, whose axis has no place in space, so that its moment on the ground "
           "is not known; read constraint_torque of the rotor and ground_force");
     }
-    const Vec<D> r = Eigen::Map<const Vec<D>>(flat_.q.data() + p->coordinate) - about;
+    const Vec<D> r = Vec<D>::from(flat_.q.data() + p->coordinate) - about;
     M -= detail::moment(r, Vec<D>(flat_.forces[slot] * Vec<D>::Unit(coordinate - p->coordinate)));
   }
   return M;

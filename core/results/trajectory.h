@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/core/errors.h>
+#include <dalembert/core/results/at_all_samples.h>
 #include <dalembert/core/results/event.h>
 #include <dalembert/core/results/readings.h>
 #include <dalembert/core/results/statistics.h>
@@ -80,12 +81,6 @@ struct Record {
 
   std::size_t coordinates = 0, rows = 0;  ///< n and m
 };
-
-/// A quantity of `Rows` numbers at all samples of a run, a column each: a view into the run.
-template <int Rows>
-using AtAllSamples = std::conditional_t<
-    Rows == 1, Eigen::Map<const Eigen::RowVectorXd, 0, Eigen::InnerStride<>>,
-    Eigen::Map<const Eigen::Matrix<double, Rows, Eigen::Dynamic>, 0, Eigen::OuterStride<>>>;
 
 /// The motion and the forces of constraint of a scene at a sequence of times. Copies are cheap and
 /// share their numbers.
@@ -172,10 +167,9 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   [[nodiscard]] Multiplier<Rows> impulse(Constraint<Rows> constraint, std::size_t k) const {
     const std::size_t first = of(constraint) - 3 * record_->coordinates;
     require_event(k);
-    Eigen::Vector<double, Rows> own = Eigen::Vector<double, Rows>::Zero();
+    Vec<Rows> own = Vec<Rows>::Zero();
     if (!record_->impulses.empty())
-      own =
-          Eigen::Map<const Eigen::Vector<double, Rows>>(record_->impulses.data() + k * record_->rows + first);
+      own = Vec<Rows>::from(record_->impulses.data() + k * record_->rows + first);
     if constexpr (Rows == 1) {
       return own[0];
     } else {
@@ -260,14 +254,7 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   }
   template <int Rows>
   [[nodiscard]] AtAllSamples<Rows> all(std::size_t first) const {
-    const auto stride = static_cast<Eigen::Index>(record_->stride());
-    const auto count = static_cast<Eigen::Index>(size());
-    const double* const data = count > 0 ? record_->values.data() + first : nullptr;
-    if constexpr (Rows == 1) {
-      return {data, count, Eigen::InnerStride<>(stride)};
-    } else {
-      return {data, Rows, count, Eigen::OuterStride<>(stride)};
-    }
+    return {size() > 0 ? record_->values.data() + first : nullptr, size(), record_->stride()};
   }
 
   std::shared_ptr<const Record> record_;

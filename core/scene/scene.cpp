@@ -17,8 +17,8 @@ namespace {
 template <int D>
 std::string text(const Vec<D>& r) {
   std::ostringstream out;
-  out << '(' << r.transpose().format(Eigen::IOFormat(Eigen::StreamPrecision, Eigen::DontAlignCols, ", "))
-      << ')';
+  for (int k = 0; k < D; ++k) out << (k == 0 ? "(" : ", ") << r[k];
+  out << ')';
   return out.str();
 }
 

@@ -1,10 +1,9 @@
 #include <dalembert/core/errors.h>
 #include <dalembert/core/scene/scene.h>
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace dalembert {
 
@@ -37,12 +36,29 @@ void Scene<D>::set_released(int constraint, bool released) {
   its.condition.released = released;
 }
 
+namespace detail {
+/// The least box, along the axes of space, around some points.
+template <int D>
+struct Box {
+  Vec<D> low = Vec<D>::Constant(std::numeric_limits<double>::infinity()), high = -low;
+
+  void extend(const Vec<D>& r) {
+    for (int k = 0; k < D; ++k) {
+      low[k] = std::min(low[k], r[k]);
+      high[k] = std::max(high[k], r[k]);
+    }
+  }
+  /// 0 of no points.
+  [[nodiscard]] double diagonal() const { return low.x() > high.x() ? 0.0 : (high - low).norm(); }
+};
+}  // namespace detail
+
 template <int D>
 System Scene<D>::system() const {
   if (q_.empty()) {
     throw InvalidScene("Scene \"" + layout_.scene + "\" is empty: add at least one particle");
   }
-  Eigen::AlignedBox<double, D> box;
+  detail::Box<D> box;
   std::vector<Path> paths;
   for (const auto* places : {&constraint_places_, &force_places_}) {
     for (const Place& place : *places) {
@@ -50,7 +66,7 @@ System Scene<D>::system() const {
       paths.insert(paths.end(), place.around.paths.begin(), place.around.paths.end());
     }
   }
-  for (const auto& p : layout_.particles) box.extend(Eigen::Map<const Vec<D>>(q_.data() + p.coordinate));
+  for (const auto& p : layout_.particles) box.extend(Vec<D>::from(q_.data() + p.coordinate));
   // A path that has no value at the start is rejected there, by the constraint that needs it.
   const auto extent = [box, paths = std::move(paths)](double t) {
     auto with_paths = box;
@@ -60,7 +76,7 @@ System Scene<D>::system() const {
       } catch (...) {
       }
     }
-    return with_paths.isEmpty() ? 0.0 : with_paths.diagonal().norm();
+    return with_paths.diagonal();
   };
   SystemParts parts{.layout = layout_, .masses = masses_, .extent = extent};
   parts.layout.id = identity_.number();

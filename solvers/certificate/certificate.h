@@ -141,8 +141,8 @@ class Certificate {
 
  private:
   [[nodiscard]] static double size(double x) { return std::abs(x); }
-  template <class Derived>
-  [[nodiscard]] static double size(const Eigen::MatrixBase<Derived>& x) {
+  template <class Vector>
+  [[nodiscard]] static double size(const Vector& x) requires(!std::is_arithmetic_v<Vector>) {
     return x.norm();
   }
   [[nodiscard]] const Certainty& at(std::size_t i) const {

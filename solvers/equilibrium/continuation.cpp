@@ -19,7 +19,7 @@ void require_suited(const PosedSystem& posed) {
   const std::string scene = "Branches of scene \"" + system.layout()->scene + "\": ";
   if (system.coordinates() > most_dense)
     throw InvalidScene(scene + "they are followed up to " + std::to_string(most_dense) + " coordinates");
-  if (system.holonomic_rows() < system.rows() && !posed.turning.rate.isZero(0.0))
+  if (system.holonomic_rows() < system.rows() && posed.turning.rate.norm() > 0.0)
     throw InvalidScene(scene + system.row_label(system.holonomic_rows()) +
                        " is nonholonomic and turns; follow the motion by follow_steady");
 }

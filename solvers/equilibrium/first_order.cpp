@@ -32,15 +32,18 @@ FirstOrder first_order(const Tangent& t) {
     lifted = dense::least_squares(t.B, t.E, rank_threshold);
     const Matrix inverse =
         dense::least_squares(t.B, Matrix::Identity(t.B.rows(), t.B.rows()), rank_threshold);
-    lifted_terms = inverse.cwiseAbs() * t.E_terms;
+    lifted_terms = dense::product(dense::sizes(inverse), t.E_terms);
     P = orthogonal_complement(t.B.transpose());
   }
   const Index c = P.cols();
+  const Matrix p = dense::sizes(P), C = dense::sizes(t.C);
   Matrix matrix(d + c, d + c), size(d + c, d + c);
-  matrix << -lifted, P, P.transpose() * (t.C * lifted - t.K), -P.transpose() * t.C * P;
-  const Matrix p = P.cwiseAbs();
-  size << lifted_terms, p, p.transpose() * (t.C.cwiseAbs() * lifted_terms + t.K_terms),
-      p.transpose() * t.C.cwiseAbs() * p;
+  matrix.topRows(d) = dense::beside(-lifted, P);
+  matrix.bottomRows(c) = dense::beside(dense::transposed_product(P, dense::product(t.C, lifted) - t.K),
+                                       -dense::restricted(P, t.C));
+  size.topRows(d) = dense::beside(lifted_terms, p);
+  size.bottomRows(c) = dense::beside(
+      dense::transposed_product(p, dense::product(C, lifted_terms) + t.K_terms), dense::restricted(p, C));
   return {std::move(P), std::move(matrix), std::move(size)};
 }
 
@@ -54,10 +57,9 @@ Matrix kernel(const Matrix& A, const Matrix& size) {
 
 /// A basis of the states at rest: P^T K z = 0, E z = 0.
 Matrix states_at_rest(const Tangent& t, const FirstOrder& f) {
-  Matrix S(f.P.cols() + t.E.rows(), t.K.cols()), size(S.rows(), S.cols());
-  S << f.P.transpose() * t.K, t.E;
-  size << f.P.cwiseAbs().transpose() * t.K_terms, t.E_terms;
-  return kernel(S, size);
+  const Matrix p = dense::sizes(f.P);
+  return kernel(dense::below(dense::transposed_product(f.P, t.K), t.E),
+                dense::below(dense::transposed_product(p, t.K_terms), t.E_terms));
 }
 
 /// Orthonormal bases of the span of independent columns, and of its complement.
@@ -75,25 +77,23 @@ struct Deflated {
   Deflated(const FirstOrder& f, const Matrix& at_rest) {
     std::tie(zeros, rest) = split(at_rest);
     for (Index last = at_rest.cols(); last > 0 && rest.cols() > 0;) {
-      const Matrix again = rest.transpose() * f.matrix * rest,
-                   size = rest.cwiseAbs().transpose() * f.size * rest.cwiseAbs();
-      const Matrix further = kernel(again, size);
+      const Matrix further =
+          kernel(dense::restricted(rest, f.matrix), dense::restricted(dense::sizes(rest), f.size));
       last = std::min(further.cols(), last);
       const auto [steady, others] = split(further.leftCols(last));
-      Matrix all(zeros.rows(), zeros.cols() + steady.cols());
-      all << zeros, rest * steady;
-      zeros = std::move(all);
-      rest = (rest * others).eval();
+      zeros = dense::beside(zeros, dense::product(rest, steady));
+      rest = dense::product(rest, others);
     }
   }
   /// The eigenvector of A from one, y, of rest^T A rest.
   [[nodiscard]] Eigen::VectorXcd lift(const Matrix& A, std::complex<double> s,
                                       const Eigen::VectorXcd& y) const {
-    const Eigen::VectorXcd x = rest * y;
+    const Eigen::VectorXcd x = dense::product(rest, y);
     if (zeros.cols() == 0) return x;
-    Eigen::MatrixXcd T = -(zeros.transpose() * A * zeros).cast<std::complex<double>>();
+    Eigen::MatrixXcd T = -dense::restricted(zeros, A).cast<std::complex<double>>();
     T.diagonal().array() += s;
-    return x + zeros * dense::solve(T, (zeros.transpose() * A) * x);
+    const Matrix across = dense::transposed_product(zeros, A);
+    return x + dense::product(zeros, dense::solve(T, dense::product(across, x)));
   }
 };
 
@@ -111,11 +111,12 @@ Forms forms(const Tangent& t, const Matrix& beta, std::span<const Solution* cons
     Z.col(k) = some[static_cast<std::size_t>(k)]->z;
     s[k] = some[static_cast<std::size_t>(k)]->s;
   }
-  const Eigen::MatrixXcd rates = Z * s.asDiagonal(), cross = rates.adjoint() * (beta * Z);
-  Forms f{rates.adjoint() * rates + Z.adjoint() * (t.K * Z),
-          cross + cross.adjoint() - Z.adjoint() * (t.C * beta * Z), Vector(m)};
-  for (Index k = 0; k < m; ++k)
-    f.size[k] = rates.col(k).squaredNorm() + Z.col(k).cwiseAbs().dot(t.K.cwiseAbs() * Z.col(k).cwiseAbs());
+  const Eigen::MatrixXcd rates = Z * s.asDiagonal(), turned = dense::product(beta, Z),
+                         cross = dense::adjoint_product(rates, turned);
+  Forms f{dense::adjoint_product(rates, rates) + dense::adjoint_product(Z, dense::product(t.K, Z)),
+          cross + cross.adjoint() - dense::adjoint_product(Z, dense::product(t.C, turned)), Vector(m)};
+  const Matrix sizes = Z.cwiseAbs(), terms = dense::product(dense::sizes(t.K), sizes);
+  for (Index k = 0; k < m; ++k) f.size[k] = rates.col(k).squaredNorm() + sizes.col(k).dot(terms.col(k));
   return f;
 }
 
@@ -154,8 +155,9 @@ bool conserves(const Tangent& t, const Matrix& beta) {
   };
   const double b = beta.norm();
   return same(beta, -beta.transpose(), b) && same(t.C, -t.C.transpose(), t.C.norm()) &&
-         same(beta * t.C, t.C * beta, b * t.C.norm()) &&
-         same(beta * t.K, t.K * beta, b * (t.K.norm() + t.zero() / rank_threshold));
+         same(dense::product(beta, t.C), dense::product(t.C, beta), b * t.C.norm()) &&
+         same(dense::product(beta, t.K), dense::product(t.K, beta),
+              b * (t.K.norm() + t.zero() / rank_threshold));
 }
 
 /// Energies H + c J in other frames in which the state rests as well: conserved, too. A top that sleeps has H
@@ -213,7 +215,7 @@ Solutions solutions(Tangent t) {
   Matrix at_rest = found.at_rest;
   at_rest.conservativeResizeLike(Matrix::Zero(f.matrix.rows(), at_rest.cols()));
   const Deflated deflated(f, at_rest);
-  const Matrix A = deflated.rest.transpose() * f.matrix * deflated.rest;
+  const Matrix A = dense::restricted(deflated.rest, f.matrix);
   if (A.size() == 0) return found;
   const auto [values, right] = dense::complex_eigen(A);
   const Eigen::MatrixXcd left = dense::inverse(right);
@@ -227,8 +229,9 @@ Solutions solutions(Tangent t) {
         change * (std::isfinite(condition) ? condition : std::numeric_limits<double>::infinity());
     const Eigen::VectorXcd z = deflated.lift(f.matrix, s, right.col(k)).head(t.K.rows());
     const double kinetic = std::norm(s) * z.squaredNorm();
-    const double energy = kinetic + (z.adjoint() * t.K * z)(0, 0).real();
-    const double unknown = round_off_of_a_sum * z.cwiseAbs().dot(t.K_terms * z.cwiseAbs());
+    const double energy = kinetic + z.dot(dense::product(t.K, z)).real();
+    const Vector size = z.cwiseAbs();
+    const double unknown = round_off_of_a_sum * size.dot(dense::product(t.K_terms, size));
     found.others.push_back({s, error, z, energy > rank_threshold * kinetic + unknown});
   }
   steady_by_momenta(t, found.others);

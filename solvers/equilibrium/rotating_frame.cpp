@@ -24,7 +24,7 @@ UniformMotion motion_of(const Layout& layout, const UniformRotation<3>& turning)
   const Vec<3>& w = turning.rate;
   Eigen::Matrix3d cross;
   cross << 0.0, -w.z(), w.y(), w.z(), 0.0, -w.x(), -w.y(), w.x(), 0.0;
-  const Eigen::Vector3d drift = -cross * turning.centre;
+  const Eigen::Vector3d drift = -(cross * turning.centre);
   std::vector<Eigen::Triplet<double>> entries;
   for (const Layout::Particle& particle : layout.particles) {
     for (int i = 0; i < layout.dimension; ++i) {

@@ -48,7 +48,7 @@ MatrixXd spin_weights(const MatrixXd& arms, const Vector3d& axis) {
   MatrixXd augmented(4, arms.cols());
   augmented << arms, VectorXd::Constant(arms.cols(), arms.norm()).transpose();
   MatrixXd turned = MatrixXd::Zero(4, arms.cols());
-  turned.topRows(3) = cross_matrix(axis) * arms;
+  turned.topRows(3) = dense::product(cross_matrix(axis), arms);
   return dense::least_squares(augmented, turned, rank_threshold).transpose();
 }
 
@@ -64,11 +64,9 @@ Symmetries::Symmetries(const Problem& problem, const Start& start, double time) 
   MatrixXd all(0, count);
   for (int sample = 0; sample < samples; ++sample) {
     const MatrixXd own = conditions(problem, start, time, sample);
-    MatrixXd both(all.rows() + own.rows(), count);
-    both << all, own;
-    all = std::move(both);
+    all = dense::below(all, own);
   }
-  const auto [values, vectors] = dense::symmetric_eigen(all.transpose() * all);
+  const auto [values, vectors] = dense::symmetric_eigen(dense::transposed_product(all, all));
   // Squares: what is 1e-9 of its terms, of a condition whose terms are 1.
   Index zero = 0;
   while (zero < count && values[zero] < rank_threshold * rank_threshold * static_cast<double>(all.rows()))
@@ -141,7 +139,7 @@ void Symmetries::add_bodies(const System& system, const Start& start) {
       share[i] = body[static_cast<std::size_t>(i)]->mass;
     }
     share /= share.sum();
-    const Vector3d centre = arms * share;
+    const Vector3d centre = dense::product(arms, share);
     arms.colwise() -= centre;
     const auto add = [&](const MatrixXd& S, const Eigen::Matrix3d& R) {
       Triplets entries;
@@ -192,17 +190,22 @@ MatrixXd Symmetries::conditions(const Problem& problem, const Start& start, doub
                  speed = Eigen::Map<const VectorXd>(v.data(), n),
                  acceleration = Eigen::Map<const VectorXd>(a.data(), n), to = metric.root.cwiseInverse();
   const Index m = metric.W.rows(), h = metric.holonomic;
+  const MatrixXd W_h = metric.W.topRows(h), W_v = metric.W.bottomRows(m - h), E = metric.E.bottomRows(m - h),
+                 N_t = N.transpose();
+  const MatrixXd W_h_size = dense::sizes(W_h), W_v_size = dense::sizes(W_v), E_size = dense::sizes(E),
+                 N_t_size = dense::sizes(N_t), K_size = dense::sizes(metric.K),
+                 C_size = dense::sizes(metric.C);
+  using dense::product;
   MatrixXd value(m + N.cols(), count), size = value;
   for (Index k = 0; k < count; ++k) {
     const Generator& g = generators_[static_cast<std::size_t>(k)];
     const VectorXd X = to.cwiseProduct(g.A * at + g.b), u = to.cwiseProduct(g.A * speed),
                    w = to.cwiseProduct(g.A * acceleration);
-    value.col(k) << metric.W.topRows(h) * X, metric.E.bottomRows(m - h) * X + metric.W.bottomRows(m - h) * u,
-        -N.transpose() * (metric.K * X + metric.C * u + w);
+    value.col(k) << product(W_h, X), product(E, X) + product(W_v, u),
+        -product(N_t, VectorXd(product(metric.K, X) + product(metric.C, u) + w));
     const VectorXd X1 = X.cwiseAbs(), u1 = u.cwiseAbs(), w1 = w.cwiseAbs();
-    size.col(k) << metric.W.topRows(h).cwiseAbs() * X1,
-        metric.E.bottomRows(m - h).cwiseAbs() * X1 + metric.W.bottomRows(m - h).cwiseAbs() * u1,
-        N.transpose().cwiseAbs() * (metric.K.cwiseAbs() * X1 + metric.C.cwiseAbs() * u1 + w1);
+    size.col(k) << product(W_h_size, X1), product(E_size, X1) + product(W_v_size, u1),
+        product(N_t_size, VectorXd(product(K_size, X1) + product(C_size, u1) + w1));
   }
   // What no force acts on has accelerations of round-off: they tell nothing.
   const Scales& scales = start.scales;
@@ -216,7 +219,7 @@ MatrixXd Symmetries::conditions(const Problem& problem, const Start& start, doub
 }
 
 UniformMotion Symmetries::motion(const VectorXd& y) const {
-  const VectorXd c = basis_ * y;
+  const VectorXd c = dense::product(basis_, y);
   const Index n = generators_.empty() ? 0 : generators_.front().b.size();
   UniformMotion sum{{n, n}, VectorXd::Zero(n)};
   for (Index k = 0; k < c.size(); ++k) {
@@ -233,11 +236,10 @@ MatrixXd Symmetries::commuting(const VectorXd& q, const VectorXd& y) const {
   const UniformMotion all = motion(y);
   const VectorXd v = all.A * q + all.b, a = all.A * v;
   const MatrixXd X = fields(q), Av = images(v), AX = all.A * X, AAv = all.A * Av, Aa = images(a);
-  MatrixXd value(2 * q.size(), size());
-  value << Av - AX, Aa - AAv;
-  MatrixXd terms(value.rows(), value.cols());
+  MatrixXd value = dense::below(Av - AX, Aa - AAv);
   const RotatingFrame::Sparse size_of_A = all.A.cwiseAbs();
-  terms << Av.cwiseAbs() + size_of_A * X.cwiseAbs(), Aa.cwiseAbs() + size_of_A * Av.cwiseAbs();
+  const MatrixXd X1 = dense::sizes(X), Av1 = dense::sizes(Av), Aa1 = dense::sizes(Aa);
+  const MatrixXd terms = dense::below(Av1 + size_of_A * X1, Aa1 + size_of_A * Av1);
   // Rows of one kind have one unit: a row of round-off is measured by the largest.
   for (const Index first : {Index{0}, q.size()}) {
     const double most = q.size() > 0 && size() > 0 ? terms.middleRows(first, q.size()).maxCoeff() : 0.0;
@@ -247,7 +249,7 @@ MatrixXd Symmetries::commuting(const VectorXd& q, const VectorXd& y) const {
 }
 
 MatrixXd Symmetries::displacements(const VectorXd& q, const MatrixXd& some) const {
-  const MatrixXd X = fields(q) * some, coefficients = basis_ * some;
+  const MatrixXd X = dense::product(fields(q), some), coefficients = dense::product(basis_, some);
   VectorXd sizes = VectorXd::Zero(q.size());
   for (const Generator& g : generators_)
     sizes += RotatingFrame::Sparse(g.A.cwiseAbs()) * q.cwiseAbs() + g.b.cwiseAbs();
@@ -263,13 +265,13 @@ MatrixXd Symmetries::fields(const VectorXd& q) const {
     const Generator& g = generators_[static_cast<std::size_t>(k)];
     all.col(k) = g.A * q + g.b;
   }
-  return all * basis_;
+  return dense::product(all, basis_);
 }
 
 MatrixXd Symmetries::images(const VectorXd& x) const {
   MatrixXd all(x.size(), static_cast<Index>(generators_.size()));
   for (Index k = 0; k < all.cols(); ++k) all.col(k) = generators_[static_cast<std::size_t>(k)].A * x;
-  return all * basis_;
+  return dense::product(all, basis_);
 }
 
 MatrixXd Symmetries::turning() const {

@@ -2,6 +2,7 @@
 
 #include <dalembert/core/analysis/islands.h>
 #include <dalembert/core/analysis/rank.h>
+#include <dalembert/solvers/linear/dense.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,7 @@ using Eigen::MatrixXd;
 
 /// What N^T X N sums, without signs.
 MatrixXd summed(const MatrixXd& N, const MatrixXd& X) {
-  return N.cwiseAbs().transpose() * X.cwiseAbs() * N.cwiseAbs();
+  return dense::restricted(dense::sizes(N), dense::sizes(X));
 }
 
 double largest_of(const MatrixXd& X) { return X.size() > 0 ? X.cwiseAbs().maxCoeff() : 0.0; }
@@ -34,14 +35,14 @@ Tangent tangent(const System& system, const LinearTerms& terms, std::vector<std:
   Tangent t{system.coordinates(),
             std::move(coordinates),
             metric.root.asDiagonal() * N,
-            N.transpose() * metric.K * N,
+            dense::restricted(N, metric.K),
             onto(N, metric.C),  // 0 where a guide takes up Coriolis forces
-            metric.W.bottomRows(velocity_rows) * N,
-            E * N,
+            dense::product(metric.W.bottomRows(velocity_rows), N),
+            dense::product(E, N),
             skew.isZero(0.0),
             metric.root.cwiseInverse().asDiagonal() * N,
             summed(N, metric.K),
-            E.cwiseAbs() * N.cwiseAbs()};
+            dense::product(dense::sizes(E), dense::sizes(N))};
   // What a force sums by itself is not seen: nothing is known better than to round-off of the largest.
   t.K_terms = t.K_terms.cwiseMax(largest_of(t.K)).eval();
   t.E_terms = t.E_terms.cwiseMax(largest_of(t.E)).eval();
@@ -54,18 +55,19 @@ Tangent tangent(const System& system, const LinearTerms& terms, std::vector<std:
 
 void rest_along(const MatrixXd& symmetric, Tangent& t) {
   if (symmetric.cols() == 0) return;
-  const MatrixXd own = t.metric.transpose() * symmetric(t.coordinates, Eigen::all);
+  const MatrixXd own = dense::transposed_product(t.metric, symmetric(t.coordinates, Eigen::all));
   if (own.isZero(0.0)) return;
   const MatrixXd still = orthogonal_complement(orthogonal_complement(own));
-  t.K -= t.K * still * still.transpose();
-  t.E -= t.E * still * still.transpose();
-  if (t.symmetric) t.K -= still * (still.transpose() * t.K).eval();
+  const MatrixXd onto_still = dense::product(still, MatrixXd(still.transpose()));
+  t.K -= dense::product(t.K, onto_still);
+  t.E -= dense::product(t.E, onto_still);
+  if (t.symmetric) t.K -= dense::product(onto_still, t.K);
 }
 
 void fix(const UniformMotion& motion, Tangent& t) {
   for (const auto& A : motion.fixing) {
     const MatrixXd whole = A, own = whole(t.coordinates, t.coordinates);
-    MatrixXd beta = t.metric.transpose() * own * t.shapes;
+    MatrixXd beta = dense::transposed_product(t.metric, dense::product(own, t.shapes));
     if (!beta.isZero(rank_threshold)) t.fixing.push_back(std::move(beta));
   }
 }
@@ -73,7 +75,7 @@ void fix(const UniformMotion& motion, Tangent& t) {
 }  // namespace
 
 MatrixXd onto(const MatrixXd& N, const MatrixXd& X) {
-  const MatrixXd Y = N.transpose() * X * N, size = summed(N, X);
+  const MatrixXd Y = dense::restricted(N, X), size = summed(N, X);
   return (Y.array().abs() > round_off_of_a_sum * size.array()).select(Y, MatrixXd::Zero(Y.rows(), Y.cols()));
 }
 

@@ -22,7 +22,7 @@ using Vector = Eigen::VectorXd;
 
 /// The shape in the system's coordinates, its largest number 1.
 Mode mode(std::complex<double> eigenvalue, const Eigen::VectorXcd& z, const Tangent& t) {
-  Eigen::VectorXcd u = t.shapes * z;
+  Eigen::VectorXcd u = dense::product(t.shapes, z);
   Index largest = 0;
   (void)u.cwiseAbs().maxCoeff(&largest);
   u /= std::complex<double>(u[largest]);
@@ -136,10 +136,10 @@ Decomposed decomposed(const Tangent& t) {
 Tangent along_velocities(Tangent t) {
   if (t.B.isZero(0.0)) return t;
   const Matrix P = orthogonal_complement(t.B.transpose());
-  t.shapes = (t.shapes * P).eval();
-  t.metric = (t.metric * P).eval();
-  t.K = (P.transpose() * t.K * P).eval();
-  t.K_terms = (P.cwiseAbs().transpose() * t.K_terms * P.cwiseAbs()).eval();
+  t.shapes = dense::product(t.shapes, P);
+  t.metric = dense::product(t.metric, P);
+  t.K = dense::restricted(P, t.K);
+  t.K_terms = dense::restricted(dense::sizes(P), t.K_terms);
   return t;
 }
 
@@ -162,8 +162,8 @@ void append_real(const Tangent& whole, std::vector<RealShape>& found, TangentSti
     if (K.values[k].imag() != 0.0) continue;
     sum.negative = sum.negative != (value < 0.0);
     RealShape one{value, Vector::Zero(all), Vector::Zero(all)};
-    one.shape(t.coordinates) = t.shapes * K.right.col(k).real();
-    one.dual(t.coordinates) = t.metric * K.left.row(k).transpose().real();
+    one.shape(t.coordinates) = dense::product(t.shapes, Vector(K.right.col(k).real()));
+    one.dual(t.coordinates) = dense::product(t.metric, Vector(K.left.row(k).transpose().real()));
     found.push_back(std::move(one));
   }
 }

@@ -86,7 +86,7 @@ void compare_random_states(const Scene<D>& scene, const LagrangianSystem<N>& sys
                                   std::span(rate.data(), N), begin);
       const FlatSample now = lagrangian.sample();
       const auto scaled = [&](std::span<const double> u) -> Vec<N> {
-        return system.scale().cwiseProduct(Eigen::Map<const Vec<N>>(u.data()));
+        return system.scale().cwiseProduct(Vec<N>::from(u.data()));
       };
       embedding.write(*equations.layout(), t, scaled(now.q), scaled(now.v), scaled(now.a), q, v, a);
       const Integrator own(equations, q, v, begin);

@@ -73,8 +73,8 @@ class LagrangianCertificate {
     return x;
   }
   [[nodiscard]] static double size(double x) { return std::abs(x); }
-  template <class Derived>
-  [[nodiscard]] static double size(const Eigen::MatrixBase<Derived>& x) {
+  template <class Vector>
+  [[nodiscard]] static double size(const Vector& x) requires(!std::is_arithmetic_v<Vector>) {
     return x.norm();
   }
 

@@ -5,8 +5,24 @@
 #include <Eigen/Core>
 
 namespace DALEMBERT_HIDDEN dalembert {
-/// Decompositions of dense matrices by Eigen: each takes seconds to compile, here once.
+/// Products and decompositions of dense matrices by Eigen: each takes up to some seconds to compile, here
+/// once.
 namespace dense {
+
+/// A B; A^T B; and N^T X N, X restricted to the span of the columns of N.
+[[nodiscard]] Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+[[nodiscard]] Eigen::VectorXd product(const Eigen::MatrixXd& A, const Eigen::VectorXd& x);
+[[nodiscard]] Eigen::MatrixXcd product(const Eigen::MatrixXd& A, const Eigen::MatrixXcd& B);
+[[nodiscard]] Eigen::VectorXcd product(const Eigen::MatrixXd& A, const Eigen::VectorXcd& x);
+[[nodiscard]] Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+[[nodiscard]] Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B);
+[[nodiscard]] Eigen::MatrixXd restricted(const Eigen::MatrixXd& N, const Eigen::MatrixXd& X);
+/// A, then B, below each other.
+[[nodiscard]] Eigen::MatrixXd below(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+/// Beside each other.
+[[nodiscard]] Eigen::MatrixXd beside(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+/// Each absolute value.
+[[nodiscard]] Eigen::MatrixXd sizes(const Eigen::MatrixXd& A);
 
 /// Eigenvalues, increasing, and orthonormal eigenvectors of a symmetric matrix.
 struct SymmetricEigen {

@@ -3,6 +3,7 @@
 #include "../equations.h"
 #include <dalembert/solvers/simulation.h>
 
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 namespace dalembert::coincident_test {

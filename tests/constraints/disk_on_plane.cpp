@@ -4,6 +4,7 @@
 #include <dalembert/core/scene/scene.h>
 #include <dalembert/solvers/simulation.h>
 
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include <cmath>

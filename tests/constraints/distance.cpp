@@ -3,6 +3,7 @@
 #include "../equations.h"
 #include <dalembert/solvers/simulation.h>
 
+#include <Eigen/Core>
 #include <gmock/gmock.h>
 
 namespace dalembert::distance_test {

@@ -1,5 +1,6 @@
 #include <dalembert/dalembert.h>
 
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "../both_steppers.h"
 #include "newton_euler.h"
 #include <dalembert/dalembert.h>
+#include <dalembert/eigen.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -83,7 +84,7 @@ struct Part {
   [[nodiscard]] BodyState<3> state() const {
     return {.mass = mass, .inertia = inertia, .centre = centre.cast<double>()};
   }
-  [[nodiscard]] Matrix moments() const { return inertia.cast<Real>().asDiagonal(); }
+  [[nodiscard]] Matrix moments() const { return eigen(inertia.cast<Real>()).asDiagonal(); }
 };
 const Part lower_part{6.0, {0.05, 0.02, 0.06}, (P1 + L0) / 2},
     upper_part{4.0, {0.03, 0.015, 0.04}, (P2 + U0) / 2}, upright_part{25.0, {0.6, 0.9, 0.7}, hub};

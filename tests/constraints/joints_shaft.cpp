@@ -1,6 +1,7 @@
 #include "../both_steppers.h"
 #include <dalembert/dalembert.h>
 
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "../both_steppers.h"
 #include "newton_euler.h"
 #include <dalembert/dalembert.h>
+#include <dalembert/eigen.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -70,7 +71,9 @@ TEST_P(SpatialSliderCrank, HasTheForcesOfNewtonAndEuler) {
       scene, {.t_end = 3.0, .samples = 13, .tolerance = 1e-10, .stepper = GetParam(), .assemble = true});
   ASSERT_EQ(run.statistics().degrees_of_freedom, 0);
 
-  const auto inertia = [](const Vec<3>& principal) { return Matrix(principal.cast<Real>().asDiagonal()); };
+  const auto inertia = [](const Vec<3>& principal) {
+    return Matrix(eigen(principal.cast<Real>()).asDiagonal());
+  };
   const Body coupler_moving{coupler_mass, inertia(coupler_inertia),
                             [](Real t) { return Vector((ball(t) + slider(t)) / 2); }, coupler_axes};
   const Body crank_moving{crank_mass, inertia(crank_inertia),

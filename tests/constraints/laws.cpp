@@ -1,6 +1,7 @@
 #include "laws.h"
 
 #include "../equations.h"
+#include <dalembert/eigen.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -16,7 +17,8 @@ Placement<2> elsewhere() {
 }
 template <>
 Placement<3> elsewhere() {
-  return {Eigen::AngleAxisd(0.7, Vec<3>(1.0, 2.0, 3.0).normalized()).toRotationMatrix(), {3.0, -2.0, 1.0}};
+  return {Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()).toRotationMatrix(),
+          {3.0, -2.0, 1.0}};
 }
 
 void register_test(const char* suite, const std::string& name, const std::function<void()>& body) {
@@ -112,7 +114,7 @@ void does_not_depend_on_the_place(const Add<D>& add) {
   const Placement<D> there = elsewhere<D>();
   State moved = general_state<D>();
   for (Eigen::Index p = 0; p < 2; ++p) {
-    moved.q.segment<D>(p * D) = there.turn * moved.q.segment<D>(p * D) + there.shift;
+    moved.q.segment<D>(p * D) = there.turn * moved.q.segment<D>(p * D) + eigen(there.shift);
     moved.v.segment<D>(p * D) = there.turn * moved.v.segment<D>(p * D);
   }
   Eigen::MatrixXd turn = Eigen::MatrixXd::Zero(2 * D, 2 * D);

@@ -1,5 +1,7 @@
 #include "laws_joints.h"
 
+#include <dalembert/eigen.h>
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -15,7 +17,7 @@ namespace {
 /// Two bodies in general position, turning.
 Bodies<3> add_bodies(Scene<3>& scene, const Placement<3>& at) {
   const auto turned = [&at](double angle, const Vec<3>& axis) {
-    return Eigen::Matrix3d(at.turn * Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix());
+    return Eigen::Matrix3d(at.turn * Eigen::AngleAxisd(angle, eigen(axis.normalized())).toRotationMatrix());
   };
   return {add_body<3>(scene,
                       {.mass = 2.0,
@@ -121,7 +123,7 @@ void expect_no_preferred_place(const Case<D>& c) {
     for (const auto& particle : body.particles) {
       const Eigen::Index p = particle.coordinate;
       turn.block<D, D>(p, p) = there.turn;
-      t.q.segment<D>(p) = there.turn * s.q.segment<D>(p) + there.shift;
+      t.q.segment<D>(p) = there.turn * s.q.segment<D>(p) + eigen(there.shift);
       t.v.segment<D>(p) = there.turn * s.v.segment<D>(p);
     }
   }

@@ -1,5 +1,6 @@
 #include "laws_joints.h"
 
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 namespace dalembert::laws::laws_joints_drives_test {

@@ -15,7 +15,8 @@ namespace {
 // Sums of four particles' terms of size up to 10, some ten operations each.
 constexpr double round_off = 500.0 * std::numeric_limits<double>::epsilon();
 
-const Eigen::Matrix3d turned = Eigen::AngleAxisd(0.8, Vec<3>(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
+const Eigen::Matrix3d turned =
+    Eigen::AngleAxisd(0.8, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
 
 TEST(MotionOfABody, IsWhatWasStatedInSpace) {
   Scene<3> scene;

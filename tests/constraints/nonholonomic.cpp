@@ -4,6 +4,7 @@
 #include <dalembert/constraints/distance.h>
 #include <dalembert/solvers/simulation.h>
 
+#include <Eigen/Core>
 #include <gmock/gmock.h>
 
 namespace dalembert::nonholonomic_test {

@@ -18,7 +18,7 @@ class Body : public testing::TestWithParam<Vec<3>> {
     return {.mass = 3.0,
             .inertia = 3.0 * (Vec<3>::Constant(moments.sum()) - moments),
             .centre = {0.3, -0.2, 0.7},
-            .axes = Eigen::AngleAxisd(0.8, Vec<3>(1.0, -2.0, 0.5).normalized()).toRotationMatrix(),
+            .axes = Eigen::AngleAxisd(0.8, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix(),
             .velocity = {1.0, 0.5, -2.0},
             .angular_velocity = {0.6, -1.3, 0.9}};
   }

@@ -1,4 +1,5 @@
 #include <dalembert/dalembert.h>
+#include <dalembert/eigen.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -27,7 +28,7 @@ TEST(EigenUsers, StateScenesAndReadResultsInTheirOwnVectors) {
   const Matrix3d R = turned.toRotationMatrix();
   const auto slope =
       scene.add(dalembert::holonomic(dalembert::points(corner),
-                                     [n, d = 1.1 * n.dot(n)](const auto& r) { return n.dot(r) - d; }),
+                                     [n, d = 1.1 * n.dot(n)](const auto& r) { return r.dot(n) - d; }),
                 "slope");
   scene.add(dalembert::potential(dalembert::points(corner, bob), [R, hook](const auto& r, const auto& s) {
     const auto e = (R * (r - hook)).eval();
@@ -56,7 +57,7 @@ TEST(EigenUsers, StateScenesAndReadResultsInTheirOwnVectors) {
   Matrix3d columns;
   columns << now.position(bob), now.velocity(bob), hook;
   EXPECT_EQ(Vector3d(columns.col(1)), Vector3d(0.1, 0.0, 0.0));
-  const Eigen::AngleAxisd about(0.3, now.position(bob).normalized());
+  const Eigen::AngleAxisd about(0.3, eigen(now.position(bob)).normalized());
   EXPECT_NEAR(about.axis().norm(), 1.0, 1e-15);
   r += now.position(bob);
   f = 2.0 * now.constraint_force(rod, bob);

@@ -1,8 +1,10 @@
+#include <dalembert/constraints/holonomic.h>
 #include <dalembert/core/forces/forces.h>
 #include <dalembert/core/scene/scene.h>
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -81,6 +83,75 @@ TEST(FailedCopies, WhicheverItIsLeavesNoTrace) {
       EXPECT_GT(good, 2);  // one to state it, one at least to keep it
       break;
     }
+  }
+}
+
+/// A parameter that must lie at a multiple of 64 bytes, of which a copy to come fails, and which counts how
+/// many there are and how many lie elsewhere.
+struct alignas(64) Aligned {
+  struct Count {
+    int left = 0, alive = 0, astray = 0;  ///< copies until one fails; now; wrongly placed
+  };
+  std::shared_ptr<Count> count;
+  double size;
+
+  Aligned(std::shared_ptr<Count> its, double length) : count(std::move(its)), size(length) { place(); }
+  Aligned(const Aligned& other) : count(other.count), size(other.size) {
+    if (--count->left == 0) throw std::runtime_error("cannot be copied");
+    place();
+  }
+  Aligned& operator=(const Aligned&) = delete;
+  ~Aligned() { --count->alive; }
+
+ private:
+  void place() {
+    ++count->alive;
+    if (reinterpret_cast<std::uintptr_t>(this) % alignof(Aligned) != 0) ++count->astray;
+  }
+};
+
+TEST(FailedCopies, OfWhatIsOverAlignedLeaveNoTrace) {
+  bool failed = true;
+  for (int good = 1; failed; ++good) {
+    const auto count = std::make_shared<Aligned::Count>();
+    failed = false;
+    {
+      Scene<2> scene;
+      const auto a = scene.add_particle({.mass = 1.0, .position = {2.0, 0.0}}, "a");
+      const auto rod = [&](double length) {
+        return holonomic(points(a), [its = Aligned(count, length)](auto r) { return r.x() - its.size; });
+      };
+      auto first = scene.add(rod(1.0));
+      std::vector<double> expected{1.0};
+      count->left = good;                                            // of all copies from here on one fails
+      for (const double length : {0.5, 0.25, 0.125, 0.0625, 3.0}) {  // storage grows twice
+        try {
+          scene.add(rod(length));
+          expected.push_back(2.0 - length);
+        } catch (const std::runtime_error&) {
+          failed = true;
+        }
+      }
+      try {
+        scene.replace(first, rod(4.0));
+        expected[0] = -2.0;
+      } catch (const std::runtime_error&) {
+        failed = true;
+      }
+      try {
+        const Scene<2> other = scene;
+      } catch (const std::runtime_error&) {
+        failed = true;
+      }
+      count->left = 0;
+      const System system = scene.system();
+      auto e = system.evaluation();
+      system.evaluate({0.0, scene.initial_positions(), scene.initial_velocities()}, e);
+      EXPECT_EQ(e.g, expected) << good;
+    }
+    EXPECT_EQ(count->alive, 0) << good;
+    EXPECT_EQ(count->astray, 0) << good;
+    if (!failed) EXPECT_GT(good, 20);  // as many copies, at least, as there are constraints and scenes
   }
 }
 

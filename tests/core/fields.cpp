@@ -3,6 +3,7 @@
 #include "../equations.h"
 #include <dalembert/core/scene/scene.h>
 
+#include <Eigen/Core>
 #include <gmock/gmock.h>
 
 #include <limits>

@@ -4,6 +4,7 @@
 #include "../finite_differences.h"
 #include <dalembert/core/scene/scene.h>
 
+#include <Eigen/Core>
 #include <gmock/gmock.h>
 
 namespace dalembert::forces_test {

@@ -4,6 +4,7 @@
 #include <dalembert/core/analysis/islands.h>
 #include <dalembert/dalembert.h>
 
+#include <Eigen/Core>
 #include <gmock/gmock.h>
 
 namespace dalembert::friction_test {
@@ -29,7 +30,7 @@ class Friction : public testing::Test {
     Eigen::VectorXd lambda(3);
     for (const auto& c : system.layout()->constraints) {
       if (c.name == "slope") lambda[c.first_row] = on_slope;
-      if (c.name == "pin") lambda.segment<2>(c.first_row) = on_pin;
+      if (c.name == "pin") lambda.segment<2>(c.first_row) = Eigen::Vector2d(on_pin);
     }
     return lambda;
   }

@@ -7,6 +7,7 @@
 #include <dalembert/constraints/nonholonomic.h>
 #include <dalembert/core/scene/scene.h>
 
+#include <Eigen/Core>
 #include <gmock/gmock.h>
 
 namespace dalembert::system_test {

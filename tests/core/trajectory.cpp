@@ -4,6 +4,7 @@
 #include <dalembert/constraints/distance.h>
 #include <dalembert/core/scene/scene.h>
 
+#include <Eigen/Core>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -98,11 +99,11 @@ TEST_F(TwoSamples, AreIteratedOver) {
 }
 
 TEST_F(TwoSamples, AreMatricesToo) {
-  EXPECT_EQ(run.positions(b), (Eigen::Matrix2d() << 1.1, 1.1, 1.2, 1.2).finished());
-  EXPECT_EQ(run.velocities(a), (Eigen::Matrix2d() << 0.3, 0.3, 0.4, 0.4).finished());
-  EXPECT_EQ(run.accelerations(b), (Eigen::Matrix2d() << 1.5, 1.5, 1.6, 1.6).finished());
-  EXPECT_EQ(run.multipliers(pin), (Eigen::Matrix2d() << 6.0, 6.0, 7.0, 7.0).finished());
-  EXPECT_EQ(run.multipliers(rod), Eigen::RowVector2d(5.0, 5.0));
+  EXPECT_EQ(Eigen::Matrix2Xd(run.positions(b)), (Eigen::Matrix2d() << 1.1, 1.1, 1.2, 1.2).finished());
+  EXPECT_EQ(Eigen::Matrix2Xd(run.velocities(a)), (Eigen::Matrix2d() << 0.3, 0.3, 0.4, 0.4).finished());
+  EXPECT_EQ(Eigen::Matrix2Xd(run.accelerations(b)), (Eigen::Matrix2d() << 1.5, 1.5, 1.6, 1.6).finished());
+  EXPECT_EQ(Eigen::Matrix2Xd(run.multipliers(pin)), (Eigen::Matrix2d() << 6.0, 6.0, 7.0, 7.0).finished());
+  EXPECT_EQ(Eigen::RowVectorXd(run.multipliers(rod)), Eigen::RowVector2d(5.0, 5.0));
 }
 
 /// By hand: the pin holds a with (6, 7) at (0.1, 0.2), so the ground feels (-6, -7) there.

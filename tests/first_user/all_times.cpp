@@ -1,4 +1,4 @@
-// All times at once: the highest speed and acceleration of a bob, as matrices with a column per sample.
+// All times at once: the highest speed and acceleration of a bob, and the greatest tension.
 #include <dalembert/dalembert.h>
 
 #include <cmath>
@@ -12,8 +12,8 @@ int main() {
   const auto rod = scene.add(Distance{Fixed<2>{}, bob, 1.0}, "rod");
 
   const auto run = simulate(scene, {.t_end = 3.0, .samples = 3001, .tolerance = 1e-9});
-  const double speed = run.velocities(bob).colwise().norm().maxCoeff();
-  const double acceleration = run.accelerations(bob).colwise().norm().maxCoeff();
+  const double speed = run.velocities(bob).largest_norm();
+  const double acceleration = run.accelerations(bob).largest_norm();
   const double tension = -run.multipliers(rod).minCoeff();
   // At the bottom v^2 = 2 g, the acceleration v^2, the tension m (g + v^2); samples are 1 ms apart.
   const bool right = std::abs(speed - std::sqrt(2.0 * 9.81)) < 1e-4 &&

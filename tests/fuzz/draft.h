@@ -3,6 +3,8 @@
 #include "plan.h"
 #include <dalembert/dalembert.h>
 
+#include <Eigen/Core>
+
 #include <functional>
 #include <sstream>
 #include <string>

@@ -1,5 +1,6 @@
 // Mistakes, of which each must be answered by its sentence within the first ten lines; none by default.
 #include <dalembert/dalembert.h>
+#include <dalembert/eigen.h>
 
 using namespace dalembert;
 

@@ -1,5 +1,6 @@
 #include "dalembert/models/rigid_atoms.h"
 
+#include <dalembert/eigen.h>
 #include <dalembert/models/error.h>
 #include <dalembert/tests/models/newton.h>
 
@@ -28,7 +29,7 @@ TEST(RigidAtomsReference, ForceIsMassTimesAcceleration) {
     for (const std::size_t atom : {0U, 3U, 6U}) {
       const Bounded<Vec<3>> Z =
           force_by_newton(Stencil(body.model(), t, 5e-3, atom), body.mass / body.atoms, 0.0);
-      const Eigen::Map<const Vec<3>> expected(seen.forces.data() + 3 * atom);
+      const Vec<3> expected = Vec<3>::from(seen.forces.data() + 3 * atom);
       EXPECT_LT((Z.value - expected).norm(), Z.error);
     }
   }
@@ -59,10 +60,10 @@ TEST(RigidAtomsReference, ConservesEnergyAndAngularMomentum) {
 TEST(RigidAtomsReference, IsTheClosedFormForASymmetricTop) {
   RigidAtoms body;
   body.semi_axes = {0.8, 0.8, 0.5};
-  const Vec<3> w = body.angular_velocity, I = body.inertia().diagonal(), L = I.cwiseProduct(w);
+  const Vec<3> w = body.angular_velocity, I = eigen(body.inertia()).diagonal(), L = I.cwiseProduct(w);
   for (const double t : {0.7, 3.0, 10.0}) {
-    const Eigen::AngleAxisd about_L(L.norm() / I.x() * t, L.normalized());
-    const Eigen::AngleAxisd about_axis(w.z() * (1.0 - I.z() / I.x()) * t, Vec<3>::UnitZ());
+    const Eigen::AngleAxisd about_L(L.norm() / I.x() * t, eigen(L).normalized());
+    const Eigen::AngleAxisd about_axis(w.z() * (1.0 - I.z() / I.x()) * t, Eigen::Vector3d::UnitZ());
     const Observation<3> seen = body.reference(t);
     for (std::size_t i = 0; i < seen.positions.size(); ++i)
       EXPECT_LT((seen.positions[i] - about_L * (about_axis * body.places()[i])).norm(), 1e-13);
@@ -93,13 +94,13 @@ TEST_P(RigidBodyOfAtoms, BondsCarryTheLeastForces) {
     Eigen::VectorXd force(3 * atoms), carried(bonds);
     Eigen::Index bond = 0;
     for (int a = 0; a < atoms; ++a) {
-      force.segment<3>(3 * a) = run.constraint_force(built.atoms[static_cast<std::size_t>(a)], i);
+      force.segment<3>(3 * a) = eigen(run.constraint_force(built.atoms[static_cast<std::size_t>(a)], i));
       for (int b = a + 1; b < atoms; ++b, ++bond) {
         const Vec<3> e = (run.position(built.atoms[static_cast<std::size_t>(b)], i) -
                           run.position(built.atoms[static_cast<std::size_t>(a)], i))
                              .normalized();
-        along.block<3, 1>(3 * b, bond) = e;
-        along.block<3, 1>(3 * a, bond) = -e;
+        along.block<3, 1>(3 * b, bond) = eigen(e);
+        along.block<3, 1>(3 * a, bond) = -eigen(e);
         carried[bond] = run.multiplier(built.bonds[static_cast<std::size_t>(bond)], i);
         EXPECT_EQ(run.sample(i).is_unique(built.bonds[static_cast<std::size_t>(bond)]), atoms == 4);
       }

@@ -1,5 +1,6 @@
 #include <dalembert/dalembert.h>
 
+#include <Eigen/Core>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

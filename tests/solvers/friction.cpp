@@ -1,5 +1,6 @@
 #include "../both_steppers.h"
 #include <dalembert/dalembert.h>
+#include <dalembert/eigen.h>
 
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
@@ -73,7 +74,7 @@ TEST_P(Sliding, BesideABodyLeavesNewtonsEquationsRightToRoundOff) {
         {.mass = 0.6,
          .inertia = {0.039, 0.032, 0.018},
          .centre = {0.7, 0.3, -0.4},
-         .axes = Eigen::AngleAxisd(turn, axis.cross(Vec<3>::UnitX()).normalized()).toRotationMatrix()},
+         .axes = Eigen::AngleAxisd(turn, eigen(axis.cross(Vec<3>::UnitX()).normalized())).toRotationMatrix()},
         "body");
     add_joint(scene, Revolute{Ground<3>{}, body, Vec<3>(0.0, 0.0, 0.0), axis}, "hinge");
     const auto bead = scene.add_particle({.mass = 0.8, .velocity = {0.5, 0.5, 0.0}}, "bead");

@@ -28,9 +28,10 @@ struct Bennett {
   std::vector<Vec<3>> places;
 
   static Frame link(const Frame& hinge, double angle, double length, double twist, Frame& bar) {
-    bar = hinge * Eigen::AngleAxisd(angle, Vec<3>::UnitZ()) * Eigen::Translation3d(length / 2.0, 0.0, 0.0);
+    bar = hinge * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()) *
+          Eigen::Translation3d(length / 2.0, 0.0, 0.0);
     return bar * Eigen::Translation3d(length / 2.0, 0.0, 0.0) *
-           Frame(Eigen::AngleAxisd(twist, Vec<3>::UnitX()));
+           Frame(Eigen::AngleAxisd(twist, Eigen::Vector3d::UnitX()));
   }
 
   explicit Bennett(double first) {

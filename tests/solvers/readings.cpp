@@ -1,5 +1,6 @@
 #include "readings.h"
 
+#include <Eigen/Core>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

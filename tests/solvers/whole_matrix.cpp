@@ -4,6 +4,7 @@
 #include <dalembert/core/scene/scene.h>
 #include <dalembert/solvers/linear/whole.h>
 
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 namespace dalembert::whole_matrix_test {
