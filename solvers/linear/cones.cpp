@@ -22,7 +22,7 @@ constexpr int most_steps = 40, most_halvings = 60;
 constexpr double centred = 1e-4;
 
 /// r and s of a cone at x, and how they change along a step.
-struct Place {
+struct InCone {
   VectorXd r, along_r;
   double s = 0.0, along_s = 0.0;
 
@@ -56,7 +56,7 @@ class Centre {
       const double part = inside(dx, m);
       if (part == 0.0) return;
       double change = 0.0;
-      for (const Place& place : places_) change = std::max(change, part * std::abs(place.slope(0.0)));
+      for (const InCone& place : places_) change = std::max(change, part * std::abs(place.slope(0.0)));
       x_ += part * dx;
       if (change <= centred) return;
     }
@@ -69,7 +69,7 @@ class Centre {
     hessian_ = its_.Q;
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const Cone& cone = its_.cones[i];
-      Place& place = places_[i];
+      InCone& place = places_[i];
       place.r = cone.A * x_ + cone.a;
       place.s = cone.e.dot(x_) + cone.h;
       const double size = place.r.norm(), both = 2.0 / ((place.s - size) * (place.s + size));
@@ -91,7 +91,7 @@ class Centre {
                  quadratic = dx.dot(its_.Q * dx);
     double part = 1.0;
     for (int i = 0; i < most_halvings; ++i, part *= 0.5) {
-      if (std::ranges::any_of(places_, [&](const Place& p) { return !(p.slack(part) > 0.0); })) continue;
+      if (std::ranges::any_of(places_, [&](const InCone& p) { return !(p.slack(part) > 0.0); })) continue;
       double slope = linear + part * quadratic;
       for (std::size_t k = 0; k < places_.size(); ++k)
         slope -= m * its_.cones[k].weight * places_[k].slope(part);
@@ -105,7 +105,7 @@ class Centre {
   VectorXd x_, gradient_;
   MatrixXd hessian_;
   std::vector<MatrixXd> curvatures_;  // of r^2 - s^2
-  std::vector<Place> places_;
+  std::vector<InCone> places_;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace dalembert {
@@ -45,7 +46,8 @@ class Shares {
     }
     take(N, dense::row_space(all, rank_threshold));
     for (const SharedContact& c : its_) {
-      S_0_.push_back(std::max(0.0, c.sign * lambda[c.pressing_row] / unit_));
+      const double S = c.sign * lambda[c.pressing_row] / unit_;
+      S_0_.push_back(std::abs(S) > rounding ? S : 0.0);
       T_0_.emplace_back(lambda.segment(c.row, c.rows) / unit_);
     }
   }
@@ -59,15 +61,17 @@ class Shares {
     double largest = 0.0;
     for (std::size_t i = 0; i < its_.size(); ++i) {
       const double S = S_0_[i] + S_[i].dot(x), T = (T_0_[i] + T_[i] * x).norm();
-      if (its_[i].rows > 0 && T > rounding) largest = std::max(largest, T / (its_[i].mu * S));
+      if (its_[i].rows == 0 || T <= rounding) continue;
+      largest = std::max(largest, S > 0.0 ? T / (its_[i].mu * S) : std::numeric_limits<double>::infinity());
     }
     return largest;
   }
 
-  /// The least part of x by which friction is no more than rho times its bounds.
+  /// The least part of x by which friction is no more than rho times its bounds; all of it for what pulls.
   [[nodiscard]] double part_of(const VectorXd& x, double rho) const {
     double part = 0.0;
     for (std::size_t i = 0; i < its_.size(); ++i) {
+      if (S_0_[i] < 0.0) return 1.0;
       const VectorXd T = T_[i] * x;
       const double b = rho * its_[i].mu, S = S_[i].dot(x);
       const double c = T_0_[i].squaredNorm() - b * b * S_0_[i] * S_0_[i];
@@ -84,7 +88,7 @@ class Shares {
     ConeProgram program{MatrixXd::Zero(n + 1, n + 1), -VectorXd::Unit(n + 1, n), {}};
     double m = 1.0;
     for (std::size_t i = 0; i < its_.size(); ++i) {
-      const double mu = its_[i].rows > 0 ? its_[i].mu : 1.0, d = mu * (S_0_[i] + light);
+      const double mu = its_[i].rows > 0 ? its_[i].mu : 1.0, d = mu * (std::max(S_0_[i], 0.0) + light);
       add(program, i, T_0_[i], -d, mu * S_0_[i]);
       m = std::min(m, (mu * S_0_[i] - T_0_[i].norm()) / d);
     }

@@ -163,7 +163,7 @@ struct Ladder {
 // Both ends slide as soon as both are at their bounds: N_floor + mu_wall N_wall = 40, N_wall = mu_floor
 // N_floor, and about the foot N_wall (tan + mu_wall) = 10/2 + 30 s. By the forces of least norm the wall's
 // friction would exceed its bound from the start.
-TEST_P(ContactShares, OfALadderBearUntilBothEndsSlide) {
+TEST_P(ContactShares, LadderSlidesWhereBothEndsReachTheirBounds) {
   for (const double mu_floor : {0.3, 0.32})
     for (const double mu_wall : {0.2, 0.4}) {
       const double N_wall = mu_floor * 40.0 / (1.0 + mu_floor * mu_wall);
@@ -210,7 +210,7 @@ struct Stand {
 // With all friction at its bounds, sum (x - h mu) N = 0 and P = sum mu N: -1.2 N_1 - 0.2 N_2 + 0.8 N_3 = 0
 // and N_1 + N_2 + N_3 = 10 allow at most P = 3.6, by N = (0, 8, 2). By the normal forces of least norm it
 // would be less. What slides then depends on the shares.
-TEST_P(ContactShares, OfLegsAtDifferentHeightsBearWhatTheyCan) {
+TEST_P(ContactShares, LegsAtDifferentHeightsBearWhatTheyCan) {
   const Stand stand;
   const auto run = simulate(stand.scene, options(0.3599, 31));
   EXPECT_TRUE(run.events().empty());
@@ -241,7 +241,7 @@ TEST_P(ContactShares, OfLegsAtDifferentHeightsBearWhatTheyCan) {
 // It slides on all four legs, each of which shares the load in a way that the motion does not determine, and
 // rests. About the centre, 1/2 above the floor, friction of 30 has the moment 15 against (0.8, 0.6): the
 // sums of N x and N y are 12 and 9, by least norm 3 and 9/4 more or less at each leg.
-TEST_P(ContactShares, OfATableThatSlidesLeaveItsMotionDetermined) {
+TEST_P(ContactShares, TableSlidesStraightWhateverItsShares) {
   constexpr double mu = 0.3, speed = 1.5, rests = speed / (mu * g);
   Scene<3> scene("table");
   scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
@@ -278,6 +278,61 @@ TEST_P(ContactShares, OfATableThatSlidesLeaveItsMotionDetermined) {
     EXPECT_NEAR(run.multiplier(legs[k], 4), 25.0, rounding);
     EXPECT_NEAR(run.multiplier(frictions[k], 4).norm(), 0.0, rounding);
   }
+}
+
+// A couple about the vertical turns it, its centre in the middle, when it reaches mu sum N r = 0.3 * 100 *
+// sqrt(2), whatever the shares; how it turns then depends on them.
+TEST_P(ContactShares, TableHoldsACoupleUpToItsLimit) {
+  Scene<3> scene("table");
+  scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
+  const auto body = add_body(
+      scene, BodyState<3>{.mass = 10.0, .inertia = {2.0, 2.0, 3.0}, .centre = {0.0, 0.0, 0.5}}, "table");
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0}) {
+      const auto foot = body.point_at({x, y, 0.0});
+      const auto leg = scene.add(unilateral(OnSurface{foot, Plane<3>{}}));
+      scene.add(coulomb(leg, Slip{foot, Plane<3>{}}, 0.3));
+    }
+  scene.add(force_law(points(body.point_at({1.0, 0.0, 0.5}), body.point_at({-1.0, 0.0, 0.5})),
+                      [](auto t, auto r, auto, auto, auto) {
+                        const auto zero = 0.0 * r.x(), f = 25.0 * t + zero;
+                        return std::make_tuple(vec(zero, f, zero), vec(zero, -f, zero));
+                      }));
+  const double turns = 0.3 * 100.0 * std::numbers::sqrt2 / 50.0;
+  EXPECT_TRUE(simulate(scene, options(turns - 1e-6, 2)).events().empty());
+  try {
+    (void)simulate(scene, options(1.0, 2));
+    FAIL() << "turns by shares that nothing determines";
+  } catch (const IntegrationFailure& failure) {
+    EXPECT_NEAR(failure.time(), turns, rounding);
+  }
+}
+
+/// A bead of weight 10 between two rough walls, which touches both; pressed against the one by P.
+struct Slot {
+  Scene<2> scene{"slot"};
+  std::vector<Constraint<1>> walls;
+
+  explicit Slot(double P) {
+    scene.add(UniformGravity<2>{{P, -g}});
+    const auto bead = scene.add_particle({.mass = 1.0}, "bead");
+    for (const double side : {-1.0, 1.0}) {
+      const Plane<2> wall{.normal = {side, 0.0}};
+      walls.push_back(scene.add(unilateral(OnCurve{bead, wall})));
+      scene.add(coulomb(walls.back(), Slip{bead, wall}, 0.6));
+    }
+  }
+};
+
+// That the walls press each other through the bead would hold it under any load. Only the wall that the load
+// presses does; where that is not enough, how it slides depends on what nothing determines.
+TEST_P(ContactShares, WallsOfASlotDoNotPressEachOther) {
+  const Slot held(20.0);
+  const auto run = simulate(held.scene, options(1.0, 2));
+  EXPECT_TRUE(run.events().empty());
+  EXPECT_NEAR(run.multiplier(held.walls[0], 1), 20.0, rounding);
+  EXPECT_EQ(run.multiplier(held.walls[1], 1), 0.0);
+  EXPECT_THROW((void)simulate(Slot(10.0).scene, options(1.0, 2)), Error);
 }
 
 // Only one of two blocks that a rod joins presses the floor: that one's friction balances the push of 2.
