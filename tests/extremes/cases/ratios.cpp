@@ -1,6 +1,6 @@
-#include <dalembert/bench/extremes/bounds.h>
-#include <dalembert/bench/extremes/chain_of_masses.h>
 #include <dalembert/models/double_pendulum.h>
+#include <dalembert/tests/extremes/cases/bounds.h>
+#include <dalembert/tests/extremes/cases/chain_of_masses.h>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/bench/extremes/bounds.h>
+#include <dalembert/tests/extremes/cases/bounds.h>
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include <dalembert/bench/extremes/bounds.h>
+#include <dalembert/tests/extremes/cases/bounds.h>
 
 #include <cmath>
 #include <numbers>

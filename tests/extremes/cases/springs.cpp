@@ -1,8 +1,8 @@
-#include "dalembert/bench/extremes/stiff_scenes.h"
-#include <dalembert/bench/extremes/bounds.h>
+#include "dalembert/tests/extremes/cases/stiff_scenes.h"
 #include <dalembert/models/governor.h>
 #include <dalembert/models/minimal_ode.h>
 #include <dalembert/models/plane_pendulum.h>
+#include <dalembert/tests/extremes/cases/bounds.h>
 
 #include <numbers>
 

@@ -1,7 +1,7 @@
-#include <dalembert/bench/extremes/bounds.h>
 #include <dalembert/models/cone.h>
 #include <dalembert/models/minimal_ode.h>
 #include <dalembert/models/plane_pendulum.h>
+#include <dalembert/tests/extremes/cases/bounds.h>
 
 #include <algorithm>
 #include <cmath>

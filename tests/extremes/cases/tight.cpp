@@ -1,7 +1,7 @@
-#include <dalembert/bench/extremes/bounds.h>
 #include <dalembert/models/catalogue.h>
 #include <dalembert/models/four_bar.h>
 #include <dalembert/models/minimal_ode.h>
+#include <dalembert/tests/extremes/cases/bounds.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-#include <dalembert/bench/extremes/bounds.h>
 #include <dalembert/models/chain.h>
 #include <dalembert/models/plane_pendulum.h>
+#include <dalembert/tests/extremes/cases/bounds.h>
 
 #include <malloc.h>
 

@@ -1,5 +1,5 @@
-#include <dalembert/bench/extremes/bounds.h>
-#include <dalembert/bench/extremes/stiff_scenes.h>
+#include <dalembert/tests/extremes/cases/bounds.h>
+#include <dalembert/tests/extremes/cases/stiff_scenes.h>
 
 namespace dalembert::extremes {
 

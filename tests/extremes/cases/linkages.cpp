@@ -1,10 +1,10 @@
-#include <dalembert/bench/extremes/bounds.h>
 #include <dalembert/models/andrews.h>
 #include <dalembert/models/four_bar.h>
 #include <dalembert/models/governor.h>
 #include <dalembert/models/minimal_ode.h>
 #include <dalembert/models/slider_crank.h>
 #include <dalembert/models/sliding_rod.h>
+#include <dalembert/tests/extremes/cases/bounds.h>
 
 #include <cmath>
 

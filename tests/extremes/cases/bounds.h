@@ -1,7 +1,7 @@
 #pragma once
 
-#include <dalembert/bench/extremes/case.h>
 #include <dalembert/models/error.h>
+#include <dalembert/tests/extremes/cases/case.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "dalembert/bench/extremes/case.h"
+#include "dalembert/tests/extremes/cases/case.h"
 
 namespace dalembert::extremes {
 

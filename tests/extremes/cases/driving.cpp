@@ -1,6 +1,6 @@
-#include <dalembert/bench/extremes/bounds.h>
 #include <dalembert/models/driven_pivot.h>
 #include <dalembert/models/minimal_ode.h>
+#include <dalembert/tests/extremes/cases/bounds.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,5 @@
-#include <dalembert/bench/extremes/bounds.h>
 #include <dalembert/models/plane_pendulum.h>
+#include <dalembert/tests/extremes/cases/bounds.h>
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
-#include "dalembert/bench/extremes/chain_of_masses.h"
+#include "dalembert/tests/extremes/cases/chain_of_masses.h"
 
-#include <dalembert/bench/extremes/bounds.h>
 #include <dalembert/models/minimal_ode.h>
+#include <dalembert/tests/extremes/cases/bounds.h>
 
 #include <cmath>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include <dalembert/bench/extremes/one_sided.h>
+#include <dalembert/tests/extremes/cases/one_sided.h>
 
 #include <cmath>
 
