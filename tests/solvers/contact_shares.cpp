@@ -51,7 +51,7 @@ struct Beam {
 };
 
 // N = (n, 6 - 2 n, 54 + n) for any n between 0 and 3; the least sum of squares is at n = 0.
-TEST_P(ContactShares, OfABeamOnThreePropsPush) {
+TEST_P(ContactShares, BeamOnThreePropsIsPushedByAll) {
   const Beam beam(6.0, 0.9);
   const auto run = simulate(beam.scene, options(1.0, 3));
   const double by_hand[] = {0.0, 6.0, 54.0};
@@ -85,7 +85,7 @@ struct Table {
 };
 
 // N = (17.5 - n, 2.5 + n, n, 80 - n) for any n between 0 and 17.5; the least sum of squares is at n = 17.5.
-TEST_P(ContactShares, OfATableOnFourLegsPush) {
+TEST_P(ContactShares, TableOnFourLegsIsPushedByAll) {
   const Table table(0.0);
   const auto run = simulate(table.scene, options(1.0, 3));
   const double by_hand[] = {0.0, 20.0, 17.5, 62.5};
@@ -98,7 +98,7 @@ TEST_P(ContactShares, OfATableOnFourLegsPush) {
 // The same on rough legs, pushed along the floor by less than 0.3 times its weight of 100: friction in
 // proportion to the normal forces holds it, of 28/30 of the bound at each leg; where nothing presses there is
 // none.
-TEST_P(ContactShares, OfARoughTableHoldIt) {
+TEST_P(ContactShares, RoughTableIsHeld) {
   Table table(0.3);
   table.scene.add(PointGravity{table.body.point_at({0.6, 0.65, 0.0}), 1.0, Vec<3>(28.0, 0.0, 0.0)});
   const auto run = simulate(table.scene, options(1.0, 3));
@@ -114,7 +114,7 @@ TEST_P(ContactShares, OfARoughTableHoldIt) {
 }
 
 // Pulled along x by P = 20 sin t at the height of its centre, so that N1 + N2 = 20 - P/4: friction holds it.
-TEST_P(ContactShares, OfARoughTableUnderAVaryingPullHoldIt) {
+TEST_P(ContactShares, RoughTableIsHeldUnderAVaryingPull) {
   Table table(0.3);
   table.scene.add(force_law(points(table.body.centre()), [](auto t, auto r, auto) {
     const auto zero = 0.0 * r.x();
@@ -134,7 +134,7 @@ TEST_P(ContactShares, OfARoughTableUnderAVaryingPullHoldIt) {
 }
 
 // Only one of two blocks that a rod joins presses the floor: that one's friction balances the push of 2.
-TEST_P(ContactShares, OfBlocksOnARodAreThoseOfTheOneThatPresses) {
+TEST_P(ContactShares, BlockThatPressesBearsTheRod) {
   Scene<2> scene("blocks");
   std::vector<Constraint<1>> frictions;
   std::vector<Particle<2>> blocks;
@@ -167,7 +167,7 @@ TEST_P(ContactShares, StayWhereAnotherContactOpens) {
 }
 
 // N1 + N2 + N3 = 10, N3 - N1 = 8 sin 3t: a couple of 10 would tip it.
-TEST_P(ContactShares, OfABeamUnderAVaryingCoupleBalanceIt) {
+TEST_P(ContactShares, SharesBalanceAVaryingCouple) {
   Beam beam(1.0, 0.0);
   beam.add_couple([](auto t) { return 4.0 * sin(3.0 * t); });
   const auto run = simulate(beam.scene, options(4.0, 41));
@@ -182,7 +182,7 @@ TEST_P(ContactShares, OfABeamUnderAVaryingCoupleBalanceIt) {
 
 // It tips over the last prop when the couple 20 t passes 10, at t = 1/2; about that prop the moment of
 // inertia is 3, and 3 omega' = -(20 t - 10) for small angles. The contacts that open say so once.
-TEST_P(ContactShares, OfABeamThatTipsEndWhereItDoes) {
+TEST_P(ContactShares, ShareEndsWhereTheBeamTips) {
   Beam beam(1.0, 0.0);
   beam.add_couple([](auto t) { return 10.0 * t; });
   const auto run = simulate(beam.scene, options(0.6, 3));
@@ -199,7 +199,7 @@ TEST_P(ContactShares, OfABeamThatTipsEndWhereItDoes) {
 // A bead slides along a floor without restitution and bounces off a wall that leans over it, so that both are
 // struck at once. Along the floor it falls with a: impacts follow in 2 e^k v/a, v^2 = 2 a d, and end after
 // 2 v e/(a (1 - e)). The floor is at rest all the while, which must not end the bounces.
-TEST_P(ContactShares, OfAFloorUnderAWallLetTheWallBounce) {
+TEST_P(ContactShares, WallAboveAFloorBounces) {
   constexpr double a = 4.0, d = 0.5, e = 0.3;
   Scene<2> scene;
   scene.add(UniformGravity<2>{{a, -g}});

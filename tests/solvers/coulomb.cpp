@@ -135,7 +135,7 @@ TEST_P(CoulombFriction, LetsGoWhereItsBoundIsReached) {
   EXPECT_NEAR(run.velocity(scene.block, 10).x(), v, bound * v);
 }
 
-TEST_P(CoulombFriction, OfAWireThatPressesEitherWay) {
+TEST_P(CoulombFriction, WirePressesEitherWay) {
   // A bead on a horizontal ring, no gravity: v' = -mu v^2/R, v = v0/(1 + mu v0 t/R). With gravity across the
   // ring's plane its multiplier changes sign on the way.
   constexpr double mu = 0.2, R = 1.5, v0 = 3.0;
@@ -152,7 +152,7 @@ TEST_P(CoulombFriction, OfAWireThatPressesEitherWay) {
   }
 }
 
-TEST_P(CoulombFriction, OfAWireWhoseForceTurns) {
+TEST_P(CoulombFriction, FrictionFollowsAWireWhoseForceTurns) {
   // Up a circular wire from its lowest point, theta from there, y = theta'^2: its force y + G cos theta, G =
   // g/R, turns above the height of the centre, where gravity takes over, and with it the sign s of
   //
@@ -186,7 +186,7 @@ TEST_P(CoulombFriction, OfAWireWhoseForceTurns) {
   EXPECT_TRUE(run.events().empty());
 }
 
-TEST_P(CoulombFriction, OfASkiddingWheelEndsInRolling) {
+TEST_P(CoulombFriction, SkiddingWheelEndsInRolling) {
   // A disk set down at v0 without spin: v' = -mu g, R w' = mu g m R^2/I: rolls from t = v0/(mu g (1 + m
   // R^2/I)).
   constexpr double mu = 0.2, R = 0.5, v0 = 3.0, m = 2.0, I = 0.25;
@@ -219,7 +219,7 @@ TEST_P(CoulombFriction, IsToldBesideMuchLargerForces) {
   EXPECT_NEAR(run.velocity(light, 10).x(), 1.0 - 0.05 * g, bound);
 }
 
-TEST_P(CoulombFriction, OfFeetThatHoldTheSameIsRefusedWhereTheirSharesDecide) {
+TEST_P(CoulombFriction, FeetWhoseSharesDecideAreRefused) {
   // Two feet joined by a rod stick together; which of them has how much is not determined, and with
   // mu_static > mu it would be that which decides when they go.
   Scene<2> scene("feet");
@@ -236,7 +236,7 @@ TEST_P(CoulombFriction, OfFeetThatHoldTheSameIsRefusedWhereTheirSharesDecide) {
               ThrowsMessage<IntegrationFailure>(AllOf(HasSubstr("\"left\""), HasSubstr("not determined"))));
 }
 
-TEST_P(CoulombFriction, ThatLetsGoMayOpenAContact) {
+TEST_P(CoulombFriction, FrictionThatLetsGoMayOpenAContact) {
   // A rod leans on a smooth wall at 45 degrees, its foot pulled away by F = k t. The foot holds F + m g of
   // what 1.5 (2 m g) it could; then, without friction, the rod would have to pull its top onto the wall by
   // F - m g. Free, it is under a tension of sqrt(2) (F - m g)/3, which gives its top a third of g.
@@ -263,7 +263,7 @@ TEST_P(CoulombFriction, ThatLetsGoMayOpenAContact) {
   EXPECT_NEAR(run.sample_after(1).acceleration(top).x(), g / 3.0, bound * g);
 }
 
-TEST_P(CoulombFriction, OfAWireWhoseForceChangesItsSignIsAsExactAsTheRun) {
+TEST_P(CoulombFriction, FrictionIsExactWhereTheForceOfAWireChangesItsSign) {
   // N = -3 cos t: v = v0 - 3 mu integral |cos t| dt. |N| has a kink where the force is 0.
   constexpr double mu = 0.3, v0 = 5.0;
   for (const double loose : {1e-3, 1e-4, 1e-5, 1e-6, 1e-8}) {
