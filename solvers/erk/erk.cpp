@@ -1,6 +1,7 @@
 #include "dalembert/solvers/erk/erk.h"
 
 #include <dalembert/core/autodiff/branches.h>
+#include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/erk/hermite.h>
@@ -133,7 +134,7 @@ void ErkStepper::step(double wanted) {
   }
   // Round-off in the sum must not leave the last part of the way short of its goal.
   const double goal = std::min(wanted, s.t_end);
-  if (std::abs(s.next.t - goal) <= 1e-14 * std::max(std::abs(goal), s.scales.time)) s.next.t = goal;
+  if (std::abs(s.next.t - goal) <= converged_to * std::max(std::abs(goal), s.scales.time)) s.next.t = goal;
   s.accept(false);
 
   if (!s.switches.same(s.from.side, s.to.side)) s.go_on_behind();

@@ -151,7 +151,7 @@ bool ErkStepper::RungeKutta::worth_taking(double error) {
     best_extrapolated = next;
     return error <= std::min(1.0, to.sine);
   }
-  if (best_extrapolation * tolerance > std::sqrt(tolerance)) return false;
+  if (best_extrapolation * tolerance > Accuracy(tolerance).of_forces()) return false;
   next = best_extrapolated;
   return true;
 }

@@ -15,8 +15,8 @@ namespace {
 /// its 9th and 10th stage.
 constexpr double most_weight = 25.0;
 
-/// Stages that a step is made of. All must lie in front of a switch: in its search for the longest step the
-/// bisection below would find the lengths at which some behind it deceive the error estimate.
+/// Stages that enter a step. None may lie behind a switch: at some lengths those behind it cancel in the
+/// error estimate, and `stop_short`, which seeks the longest step in front of it, would find just these.
 bool counts(std::size_t stage) { return verner87.b[stage] != 0.0; }
 
 }  // namespace
