@@ -1,10 +1,10 @@
 #include "dalembert/bench/audit.h"
 
-#include <dalembert/bench/extremes/case.h>
 #include <dalembert/bench/median.h>
 #include <dalembert/bench/outcome.h>
 #include <dalembert/bench/progress.h>
 #include <dalembert/models/catalogue.h>
+#include <dalembert/tests/extremes/cases/case.h>
 
 #include <iostream>
 #include <limits>

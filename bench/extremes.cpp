@@ -1,7 +1,7 @@
 #include "dalembert/bench/extremes.h"
 
-#include <dalembert/bench/extremes/case.h>
 #include <dalembert/bench/progress.h>
+#include <dalembert/tests/extremes/cases/case.h>
 
 #include <algorithm>
 #include <iostream>

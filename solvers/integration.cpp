@@ -22,30 +22,7 @@ std::unique_ptr<TimeStepper> make_stepper(const Problem& problem, const Start& s
 
 }  // namespace
 
-Start first_start(const Problem& problem, std::span<const double> q, std::span<const double> v,
-                  const Options& options, double nearest_contact) {
-  Start start = consistent_start(problem, q, v, options, nearest_contact);
-  if (!start.scales.length_from_path) return start;
-  Options looking = options;
-  looking.tolerance = Options{}.tolerance;  // the scene's length is its own, whatever is asked of the run
-  try {
-    ErkStepper first(problem, start, looking);
-    first.step(options.t_end);
-    const Scales& scales = first.scales();
-    start.scales.length_from_path =
-        scales.extent.length > Scales::least;  // else it rests, and any length will do
-    if (start.scales.length_from_path) start.scales.adopt(scales.extent);
-  } catch (const StepFailure&) {
-    start.scales.length_from_path = false;  // the run will stop, and say why
-  }
-  return start;
-}
-
-Integration::Integration(std::shared_ptr<const System> of, std::span<const double> q,
-                         std::span<const double> v, const Options& options, double nearest_contact)
-    : options_(options) {
-  const Problem problem(std::move(of));
-  Start start = first_start(problem, q, v, options, nearest_contact);
+Integration::Integration(const Problem& problem, Start start, const Options& options) : options_(options) {
   lambda_at_start_ = start.lambda;
   state_ = {start.q, start.v};
   if (problem.system().compliant()) compliant_ = CompliantMultipliers(start.lambda.size());
@@ -110,10 +87,10 @@ std::unique_ptr<Integration::Segment> Integration::make_segment(const Problem& p
   return made;
 }
 
-/// Whole, or not begun: whatever may fail has been made before anything here changes.
+/// With the strong guarantee: what may throw is made before anything here changes.
 void Integration::enter_segment(std::unique_ptr<Segment> next) {
   Statistics past = statistics(time());
-  past.advice.clear();  // of a crossing it would be about the wrong stepper
+  past.advice.clear();  // beside a singular position it would be about the wrong stepper
   const double t = next->stepper->time();
   if (kept_) own_steps().add_segment(next->problem.shared_system(), next->start, t);
   past_ = std::move(past);
@@ -252,14 +229,13 @@ void Integration::watch_sliding() {
 void Integration::restart_with_constraints(double t, std::shared_ptr<const System> system,
                                            std::span<const double> q, std::span<const double> v) {
   const Problem problem(std::move(system));
-  // A path begins anew: the shorter flights behind impacts are held to the tolerance as the first ones are.
+  // A path starts again: the shorter flights behind impacts are held to the tolerance as the first ones are.
   Start next = dalembert::restart_with_constraints(problem, start(), t, q, v, options_.tolerance);
   if (next.scales.length_from_path) {  // a first step, see IdaStepper, must advance the time
     const double rounding = constants.roundings_of_path * epsilon * std::abs(t);
     PathExtent extent = next.scales.extent;
-    extent.length =
-        std::max(extent.length,
-                 extent.speed * rounding / (constants.first_implicit_step * std::sqrt(options_.tolerance)));
+    const double first = Accuracy(options_.tolerance).first_implicit_step();
+    extent.length = std::max(extent.length, extent.speed * rounding / first);
     next.scales.adopt(extent);
   }
   enter_segment(make_segment(problem, std::move(next), t, options_.stepper));

@@ -14,20 +14,13 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// The start of a run. A scene without a characteristic length gets that of a first explicit step, whose
-/// error is within the tolerance of its own length. Throws InconsistentStart.
-/// A contact that is not in force may be as near as `nearest_contact`.
-[[nodiscard]] Start first_start(const Problem& problem, std::span<const double> q, std::span<const double> v,
-                                const Options& options, double nearest_contact);
-
 /// A system's way through time: the stepper that the options ask for, restarted with other rows where those
 /// in use come to depend on each other, and handed over to the explicit one at isolated singular positions.
 /// What is read from it lies on the constraints.
 class Integration {
  public:
-  /// See first_start. Throws InconsistentStart; StepFailure and EquationFault at the start.
-  Integration(std::shared_ptr<const System> system, std::span<const double> q, std::span<const double> v,
-              const Options& options, double nearest_contact);
+  /// From a consistent start, see Opening. Throws StepFailure, EquationFault.
+  Integration(const Problem& problem, Start start, const Options& options);
 
   /// Where the last step ended, or where it came to a switch of the equations.
   [[nodiscard]] double time() const { return switch_ ? switch_->at.t : segment_->stepper->time(); }
@@ -45,19 +38,19 @@ class Integration {
   [[nodiscard]] double tolerance() const { return options_.tolerance; }
   /// Throws StepFailure, EquationFault.
   void step(double wanted);
-  /// Begins anew at a time inside the last step, with constraints that changed and velocities that may have.
-  /// Throws StepFailure, EquationFault, and then it has not begun.
+  /// A new segment from a time inside the last step, with constraints that changed and velocities that may
+  /// have. Throws StepFailure, EquationFault; then the last segment goes on.
   void restart_with_constraints(double t, std::shared_ptr<const System> system, std::span<const double> q,
                                 std::span<const double> v);
   /// Everything at a time inside the last step (or at the start, before the first). Throws StepFailure,
   /// EquationFault.
   void read(double t, OutputState& m);
-  /// The same a while after the last beginning, by its velocities and accelerations instead of steps.
+  /// The same a while after the start of the segment, by its velocities and accelerations instead of steps.
   void read_ahead(double while_after, OutputState& m);
 
   /// The stepper's own velocities where the last step ended.
   [[nodiscard]] std::span<const double> velocities() { return interpolate(time()).v; }
-  /// What it began from, or last began anew from.
+  /// Of the current segment.
   [[nodiscard]] const Start& start() const { return segment_->start; }
   /// Those of the scene at a time inside the last step: a length of its path grows.
   [[nodiscard]] Scales scales(double t) const;
@@ -70,7 +63,7 @@ class Integration {
   [[nodiscard]] Statistics statistics(double until) const;
 
  private:
-  /// What each beginning makes anew.
+  /// What a restart makes from its start.
   struct Segment {
     Problem problem;
     Start start;

@@ -2,8 +2,9 @@
 
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/audit/auditor.h>
-#include <dalembert/solvers/event_log.h>
+#include <dalembert/solvers/event_handler.h>
 #include <dalembert/solvers/integration.h>
+#include <dalembert/solvers/opening.h>
 #include <dalembert/solvers/run/diagnosis.h>
 #include <dalembert/solvers/run/stopwatch.h>
 
@@ -15,93 +16,78 @@
 
 namespace dalembert {
 
-namespace {
-
-/// An impact would have to give impulses to what reads the force of a contact.
-void require_no_force_reads(const System& system) {
-  for (std::size_t k = 0; k < system.multiplier_force_pattern().size(); ++k) {
-    for (const std::size_t c : system.contacts()) {
-      const Layout::Constraint& contact = system.layout()->constraints[c];
-      if (system.multiplier_force_pattern()[k].column != contact.own_rows().front()) continue;
-      throw InvalidScene(system.name_of_multiplier_force(k) + " reads the force of " + contact.label() +
-                         ", which is one-sided: state it as a bilateral one, and end the run by an event "
-                         "where its force vanishes");
-    }
-  }
-}
-
-}  // namespace
-
 struct DALEMBERT_HIDDEN Integrator::Run {
   Run(System s, std::span<const double> q0, std::span<const double> v0, const Options& o,
-      std::vector<FlatEvent> events) try
+      std::vector<FlatEvent> asked_for) try
       : options(o),
         times(sample_times(o)),
         system(std::make_shared<const System>(std::move(s))),
-        begin{q0, v0},
-        conditional(find_conditional()),
-        integration(conditional ? conditional->system() : system, begin.q, begin.v, o, begin.nearest_contact),
-        now(*system, integration.start(), EventLog::changes(events)),
+        opening(open_run(system, q0, v0, o)),
+        integration(opening.problem, std::move(opening.start), o),
+        stop{integration.time()},
+        now(*system, integration.start(), EventHandler::any_changes_scene(asked_for)),
         next(now) {
     if (o.audit != Audited::off) auditor.emplace(system, o, [this](bool reached) { return claim(reached); });
-    if (conditional) conditional->adopt(integration.start().scales);
-    if (!events.empty() || conditional)
-      log.emplace(std::move(events), conditional.get(), conditional ? &begin.change : nullptr,
-                  auditor ? &*auditor : nullptr, integration);
-    visit(o.t_start);                     // what the log has opened there exerts no force
+    if (!asked_for.empty() || opening.conditional) {
+      handler.emplace(std::move(asked_for), opening.conditional.get(), auditor ? &*auditor : nullptr,
+                      integration);
+      if (opening.conditional) handler->list_at_start(std::move(opening.change), integration);
+      stop = handler->restart(stop, integration);
+    }
+    visit(o.t_start);                     // contacts that would pull are open by now
   } catch (const StepFailure& failure) {  // before the first step it is a fault of the start
     throw InconsistentStart(failure.what);
   } catch (const EquationFault& fault) {
     throw InconsistentStart(fault.what());
   }
 
-  /// A start, in q and v that stay where they are.
-  struct Begin {
-    std::span<const double> q, v;
-    std::vector<double> own_q{};
-    ConditionalConstraints::Change change{};
-    double nearest_contact = std::numeric_limits<double>::infinity();
-  };
-
-  /// The constraints that do not always hold, if there are any: where the others hold, with those in force
-  /// that are, after the impacts of the start.
-  std::unique_ptr<ConditionalConstraints> find_conditional() {
-    const auto numbers = system->conditional_constraints();
-    if (numbers.empty()) return nullptr;
-    require_no_force_reads(*system);
-    begin.nearest_contact = nearest_contact(*system, {options.t_start, begin.q, begin.v});
-    Start start =
-        first_start(Problem(system->without(numbers)), begin.q, begin.v, options, begin.nearest_contact);
-    const Instant at{options.t_start, start.q, start.v};
-    auto found = std::make_unique<ConditionalConstraints>(system, start.scales, options.tolerance, at);
-    begin.change = found->resolve_start(at);
-    begin.own_q = std::move(start.q);
-    begin.q = begin.own_q;
-    begin.v = begin.change.v;
-    return found;
+  /// The loop of a run.
+  void advance(double to) {
+    while (stop.time < to && !stop.ends_run) step_once(to);
   }
 
-  /// If anything fails the current moment stays as it is.
+  /// A turn of it: from what the last step came to, a step to the earliest event that changes something, or
+  /// ends the run. It is resolved by the next turn, so that all before it is read from the steps before it.
+  void step_once(double wanted) {
+    count_turn();
+    audit_to(stop.time);
+    if (!stop.changes.empty()) start_next_segment();
+    if (!stop.changes.empty()) return;  // an impact has driven another contact to its surface
+    integration.step(wanted);
+    if (auditor && auditor->follows_steps()) auditor->step(integration.time(), integration.velocities());
+    if (handler) {
+      handler->locate(integration, stop);
+    } else {
+      stop.time = integration.time();
+    }
+  }
+
+  /// Resolves the first change that is due, and goes on from it.
+  void start_next_segment() {
+    integration.read(stop.time, next);
+    const OutputState before = next;
+    const EventList::Side side{before.flat(), integration.system().layout()};
+    if (auditor) auditor->sample(side.sample);
+    Change change = handler->resolve(stop, side.sample, integration);
+    integration.restart_with_constraints(stop.time, change.system, change.q, change.v);
+    handler->list(std::move(change), side, integration);
+    stop = handler->restart(stop, integration);
+  }
+
+  void count_turn() {
+    if (++steps <= options.max_steps) return;
+    throw StepFailure{"max_steps = " + std::to_string(options.max_steps) +
+                          " was reached; raise it, or ask for a looser tolerance",
+                      integration.time()};
+  }
+
+  /// If anything fails the current state stays as it is.
   void visit(double time) {
     audit_to(time);
     integration.read(time, next);
     if (auditor) auditor->sample(next.flat());
     std::swap(now, next);
     read_from = integration.shared_system();
-  }
-
-  void step_once(double wanted) {
-    if (++steps > options.max_steps) {
-      throw StepFailure{"max_steps = " + std::to_string(options.max_steps) +
-                            " was reached; raise it, or ask for a looser tolerance",
-                        integration.time()};
-    }
-    audit_to(reached());
-    if (log) log->carry_out(integration);
-    if (log && log->pending()) return;
-    integration.step(wanted);
-    if (auditor && auditor->follows_steps()) auditor->step(integration.time(), integration.velocities());
-    if (log) log->locate(integration);
   }
 
   /// With a ledger every step is gone over, up to where the run stands.
@@ -116,31 +102,29 @@ struct DALEMBERT_HIDDEN Integrator::Run {
   [[nodiscard]] Claim claim(bool reached) const {
     const Scales& scales = integration.start().scales;
     if (!reached && !scales.length_from_path) return {scales.length, scales.time, options.tolerance};
-    const Statistics so_far = integration.statistics(this->reached());
+    const Statistics so_far = integration.statistics(stop.time);
     return {so_far.length, so_far.time, std::max(options.tolerance, so_far.accuracy)};
   }
 
-  /// Where an event ends the run, or its last step went so far.
-  [[nodiscard]] double reached() const { return log ? log->reached() : integration.time(); }
-  [[nodiscard]] bool ended() const { return log && log->end(); }
+  /// Whether an event has ended the run where it is now.
+  [[nodiscard]] bool ended() const { return stop.ends_run && now.t >= stop.time; }
   void require_not_ended(const char* what) const {
-    if (!ended() || now.t < *log->end()) return;
+    if (!ended()) return;
     std::ostringstream text;
-    text << what << ": an event has ended the run at t = " << *log->end();
+    text << what << ": an event has ended the run at t = " << stop.time;
     throw InvalidArgument(text.str());
   }
 
   void go_to(double time) {
-    while (reached() < time && !ended()) step_once(time);
-    visit(std::min(time, reached()));
+    advance(time);
+    visit(std::min(time, stop.time));
     finish();
   }
 
-  /// What changes where the run ends is carried out, though no step follows; not before all of the last step
-  /// has been read.
+  /// What changes where the run ends is resolved, though no step follows; not before all of the last step has
+  /// been read.
   void finish() {
-    const auto at_end = [this] { return now.t >= options.t_end || (ended() && now.t >= reached()); };
-    while (log && log->pending() && at_end()) log->carry_out(integration);
+    while (!stop.changes.empty() && (now.t >= options.t_end || ended())) start_next_segment();
   }
 
   template <class Observe>
@@ -151,7 +135,7 @@ struct DALEMBERT_HIDDEN Integrator::Run {
       if (t < now.t) continue;
       if (t > now.t) guarded([&] { go_to(t); });
       observe(now.flat());
-      if (ended() && now.t >= reached()) break;
+      if (ended()) break;
     }
   }
 
@@ -167,25 +151,25 @@ struct DALEMBERT_HIDDEN Integrator::Run {
     try {
       f();
     } catch (const StepFailure& failure) {
-      throw stop(failure.what, failure.time);
+      throw stopped_by(failure.what, failure.time);
     } catch (const EquationFault& fault) {
-      throw stop(fault.what(), reached(), false);
+      throw stopped_by(fault.what(), stop.time, false);
     } catch (const Error& fault) {
-      throw stop(fault.what(), reached());
+      throw stopped_by(fault.what(), stop.time);
     } catch (...) {
-      stop("an exception interrupted it", reached());
+      stopped_by("an exception interrupted it", stop.time);
       throw;
     }
   }
 
   /// What also may be amiss is said where a step failed, not where an equation did.
-  const IntegrationFailure& stop(const std::string& why, double time, bool of_step = true) {
+  const IntegrationFailure& stopped_by(const std::string& why, double time, bool of_step = true) {
     const std::string suspect = integration.unbounded_multiplier();
     auto kept = std::make_shared<Record>(record);
     kept->statistics = statistics();
-    kept->dense = dense(std::min(time, reached()));
+    kept->dense = dense(std::min(time, stop.time));
     keep_ledger(*kept);
-    if (log) log->write(*kept);
+    if (handler) handler->events().write(*kept);
     std::ostringstream what;
     what.precision(10);
     what << "Scene \"" << system->layout()->scene << "\" stopped at t = " << time << ": " << why;
@@ -195,7 +179,7 @@ struct DALEMBERT_HIDDEN Integrator::Run {
   }
 
   [[nodiscard]] Statistics statistics() const {
-    Statistics s = integration.statistics(this->reached());
+    Statistics s = integration.statistics(stop.time);
     s.run_time = stopwatch.read();
     if (auditor) {
       s.audit = auditor->read();
@@ -232,13 +216,13 @@ struct DALEMBERT_HIDDEN Integrator::Run {
   Options options;
   std::vector<double> times;
   std::shared_ptr<const System> system;
-  Begin begin;
-  std::unique_ptr<ConditionalConstraints> conditional;  // if any constraint does not always hold
+  Opening opening;
   Integration integration;
+  Stop stop;
   OutputState now, next;
   std::shared_ptr<const System> read_from;  // `now` is of its layout
   std::optional<Auditor> auditor;           // unless the options turn it off
-  std::optional<EventLog> log;              // if there is anything to be listed
+  std::optional<EventHandler> handler;      // if there is anything to be found
   long steps = 0;
   Stopwatch stopwatch;
   std::optional<IntegrationFailure> stopped;
@@ -254,7 +238,7 @@ Integrator::~Integrator() = default;
 FlatSample Integrator::sample() const { return run_->now.flat(); }
 const System& Integrator::system() const { return *run_->read_from; }
 std::span<const EventRecord> Integrator::events() const {
-  return run_->log ? std::span<const EventRecord>(run_->log->occurred()) : std::span<const EventRecord>();
+  return run_->handler ? std::span(run_->handler->events().events()) : std::span<const EventRecord>();
 }
 Statistics Integrator::statistics() const { return run_->statistics(); }
 
@@ -268,8 +252,8 @@ void Integrator::step() {
   s.require_not_ended("step()");
   const Stopwatch::While timed(s.stopwatch, true);
   s.guarded([&s] {
-    if (s.reached() < s.options.t_end && !s.ended()) s.step_once(s.options.t_end);
-    s.visit(s.reached());
+    if (s.stop.time < s.options.t_end && !s.stop.ends_run) s.step_once(s.options.t_end);
+    s.visit(s.stop.time);
     s.finish();
   });
 }
@@ -308,9 +292,9 @@ std::shared_ptr<const Record> Integrator::run() {
   // The samples are handed over, not copied: they may be most of the memory.
   auto record = std::make_shared<Record>(std::exchange(s.record, s.empty_record()));
   record->statistics = s.statistics();
-  record->dense = s.dense(s.reached());
+  record->dense = s.dense(s.stop.time);
   s.keep_ledger(*record);
-  if (s.log) s.log->write(*record);
+  if (s.handler) s.handler->events().write(*record);
   return record;
 }
 

@@ -61,7 +61,8 @@ class Simulation : public Readings<D, Simulation<D>> {
 /// Runs a scene and returns its motion and forces of constraint. Throws InvalidScene, InvalidArgument,
 /// InconsistentStart, IntegrationFailure; see there.
 template <int D>
-[[nodiscard]] Trajectory<D> simulate(  // is an option misspelled, or not in the order of solvers/options.h?
+[[nodiscard]] Trajectory<D>
+simulate(  // is an option misspelled, or not in the order of solvers/base/options.h?
     const Scene<D>& scene, const Options& options) {
   return Simulation<D>(scene, options).run();
 }

@@ -1,6 +1,8 @@
 #include "equations.h"
 
-#include "finite_differences.h"
+#include <dalembert/testing/laws.h>
+
+#include <gtest/gtest.h>
 
 namespace dalembert {
 
@@ -48,50 +50,7 @@ Derivatives derivatives(const System& system, const State& s, const Eigen::Vecto
 }
 
 void expect_consistent(const System& system, const State& at, const Eigen::VectorXd& lambda) {
-  const Values now = values(system, at);
-  const Derivatives d = derivatives(system, at, lambda);
-  const Eigen::Index holonomic = index(system.holonomic_rows());
-  for (Eigen::Index j = 0; j < at.q.size(); ++j) {
-    const auto force_moved = [&](double s) {
-      State to = at;
-      to.q[j] += s;
-      return Eigen::VectorXd(values(system, to).F + friction(system, to, lambda));
-    };
-    const auto force_kicked = [&](double s) {
-      State to = at;
-      to.v[j] += s;
-      return Eigen::VectorXd(values(system, to).F + friction(system, to, lambda));
-    };
-    const auto moved = [&](double s) {
-      State to = at;
-      to.q[j] += s;
-      return values(system, to);
-    };
-    const auto kicked = [&](double s) {
-      State to = at;
-      to.v[j] += s;
-      return values(system, to);
-    };
-    const std::string column = ", column " + std::to_string(j);
-    expect_slope(slope([&](double s) { return moved(s).g; }), now.W.col(j).head(holonomic), "g_q" + column);
-    expect_slope(slope([&](double s) { return kicked(s).psi; }), now.W.col(j), "psi_v" + column);
-    expect_slope(slope([&](double s) { return moved(s).psi; }), d.psi_q.col(j), "psi_q" + column);
-    expect_slope(
-        slope([&](double s) { return Eigen::VectorXd(force_moved(s) + moved(s).W.transpose() * lambda); }),
-        d.stiffness.col(j), "(F + W^T lambda)_q" + column);
-    expect_slope(slope(force_kicked), d.damping.col(j), "F_v" + column);
-  }
-  for (Eigen::Index r = 0; r < lambda.size(); ++r) {
-    const auto pressed = [&](double s) {
-      Eigen::VectorXd to = lambda;
-      to[r] += s;
-      return friction(system, at, to);
-    };
-    expect_slope(slope(pressed), d.friction.col(r), "F_lambda, row " + std::to_string(r));
-  }
-  const auto later = [&](double s) { return values(system, {at.t + s, at.q + s * at.v, at.v}); };
-  expect_slope(slope([&](double s) { return later(s).g; }), now.psi.head(holonomic), "psi = dg/dt");
-  expect_slope(slope([&](double s) { return later(s).psi; }), now.gamma, "gamma = psi_q v + psi_t");
+  EXPECT_EQ(broken_laws(system, at.instant(), {lambda.data(), static_cast<std::size_t>(lambda.size())}), "");
 }
 
 }  // namespace dalembert

@@ -6,7 +6,7 @@
 
 set(rooms core core/autodiff core/points core/equations core/forces core/results core/scene core/analysis core/lagrange
           constraints/geometry constraints constraints/bodies constraints/joints
-          solvers/base solvers/audit solvers/linear solvers/manifold solvers/contact solvers/run solvers/ida solvers/erk solvers solvers/certificate solvers/equilibrium solvers/lagrange view sweep)
+          solvers/base solvers/audit solvers/linear solvers/manifold solvers/contact solvers/run solvers/ida solvers/erk solvers solvers/certificate solvers/equilibrium solvers/lagrange view sweep testing)
 set(public "solvers/base/options|solvers/integrator|solvers/simulation|solvers/certificate/(certificate|largest_errors|report|simulate_to|two_runs|work_precision)|solvers/equilibrium/(branches|equilibrium|floquet|normal_modes|steady|steady_branches|uniform_rotation)|solvers/lagrange/(cross_check|lagrangian_simulation)|view/write_(gltf|html)|sweep/(parameters|runs|sweep|write_hdf5)")
 set(theirs "(sundials|ida|nvector|sunlinsol|sunmatrix|sunnonlinsol)/|(suitesparse/)?(klu|amd|colamd|btf|ldl|hdf5|mpi)\\.h|(boost|tbb|oneapi)/")
 
@@ -18,7 +18,7 @@ foreach(room IN LISTS rooms)
   endif()
   foreach(file IN LISTS files)
     set(for_users FALSE)
-    if(file MATCHES "^(core|constraints|models)/|^(${public})\\.h")
+    if(file MATCHES "^(core|constraints|models|testing)/|^(${public})\\.h")
       set(for_users TRUE)
     endif()
     file(STRINGS ${root}/${file} lines REGEX "^[ \t]*#[ \t]*include")

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/bench/extremes/case.h>
+#include <dalembert/tests/extremes/cases/case.h>
 
 #include <functional>
 #include <string>

@@ -15,7 +15,7 @@ namespace dalembert {
 
 namespace detail {
 
-/// v/|v|, compiled once: every file would compile what is no template.
+/// v/|v|. Not inline, so that it is compiled once and not in every file.
 [[nodiscard]] Vec<3> unit_vector(const Vec<3>& v);
 
 template <int D>

@@ -4,13 +4,13 @@ namespace dalembert {
 
 namespace {
 
-/// Calls f(first, end) for stretches of elements of which none is left out.
+/// Calls f(first, end) for ranges of elements, of so many rows each, that are all in force.
 template <class F>
-void for_those_in_force(std::size_t size, std::span<const char> left_out, const F& f) {
-  if (left_out.empty()) return f(std::size_t{0}, size);
+void for_those_in_force(std::size_t size, std::size_t rows, std::span<const char> out_of_force, const F& f) {
+  if (out_of_force.empty()) return f(std::size_t{0}, size);
   for (std::size_t i = 0; i < size;) {
     std::size_t end = i;
-    while (end < size && !left_out[end]) ++end;
+    while (end < size && !out_of_force[end * rows]) ++end;
     if (end > i) f(i, end);
     i = end + 1;
   }
@@ -29,10 +29,11 @@ ConstraintShape ConstraintBatch::shape() const {
           type_->timed,        its.singular};
 }
 
-void ConstraintBatch::evaluate(const Instant& at, const ConstraintValues& out) const {
+void ConstraintBatch::evaluate(const Instant& at, const ConstraintValues& out,
+                               std::span<const char> out_of_force) const {
   const auto rows = static_cast<std::size_t>(type_->equation.rows),
              width = static_cast<std::size_t>(type_->equation.elements.coordinates);
-  for_those_in_force(size(), left_out_, [&](std::size_t first, std::size_t end) {
+  for_those_in_force(size(), rows, out_of_force, [&](std::size_t first, std::size_t end) {
     const auto part = [](std::span<double> all, std::size_t from) {
       return all.empty() ? all : all.subspan(from);
     };
@@ -55,15 +56,16 @@ void ConstraintBatch::laws(std::span<RowLaw> out) const {
         type_->compliance(equations_.elements()[row / static_cast<std::size_t>(type_->equation.rows)])};
 }
 
-void ConstraintBatch::bias(const Instant& at, std::span<double> gamma) const {
-  evaluate(at, {.g = {}, .psi = {}, .w = {}, .gamma = gamma});
+void ConstraintBatch::bias(const Instant& at, std::span<double> gamma,
+                           std::span<const char> out_of_force) const {
+  evaluate(at, {.g = {}, .psi = {}, .w = {}, .gamma = gamma}, out_of_force);
 }
 
 void ConstraintBatch::linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
-                                std::span<double> stiffness) const {
+                                std::span<double> stiffness, std::span<const char> out_of_force) const {
   const auto rows = static_cast<std::size_t>(type_->equation.rows),
              width = static_cast<std::size_t>(type_->equation.elements.coordinates);
-  for_those_in_force(size(), left_out_, [&](std::size_t first, std::size_t end) {
+  for_those_in_force(size(), rows, out_of_force, [&](std::size_t first, std::size_t end) {
     equations_.linearise(at, first, end, lambda.data() + first * rows, psi_q.data() + first * rows * width,
                          stiffness.data() + first * width * width);
   });
@@ -71,11 +73,6 @@ void ConstraintBatch::linearise(const Instant& at, std::span<const double> lambd
 
 void ConstraintBatch::gaps(const Instant& at, std::span<double> g, std::span<double> rate) const {
   if (type_->conditional) equations_.evaluate(at, 0, size(), {.g = g, .psi = rate});
-}
-
-void ConstraintBatch::leave_out(std::size_t element, bool out) {
-  left_out_.resize(size());
-  left_out_[element] = out;
 }
 
 }  // namespace dalembert

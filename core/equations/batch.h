@@ -68,9 +68,10 @@ class ConstraintBatch {
   void add(const void* constraint) { equations_.elements().add(constraint); }
   void replace(std::size_t i, const void* constraint) { equations_.elements().replace(i, constraint); }
 
-  /// Residuals, W, and gamma if it is asked for. What is left out writes nothing, here and below, and its
-  /// equation is not evaluated.
-  void evaluate(const Instant& at, const ConstraintValues& out) const;
+  /// Residuals, W, and gamma if it is asked for. `out_of_force`, here and below, has a flag per row, or is
+  /// empty: such constraints write nothing, and their equations are not evaluated.
+  void evaluate(const Instant& at, const ConstraintValues& out,
+                std::span<const char> out_of_force = {}) const;
   /// Per constraint `rows x inputs` numbers U, one row after the other, out of its part of w: lambda has
   /// the size |U^T lambda|, that of the force at one of its points. See detail::forces_at_points.
   void forces_at_points(std::span<const double> w, std::span<const double> lengths,
@@ -78,21 +79,17 @@ class ConstraintBatch {
   /// The law of each row, as `out` comes if it is rigid.
   void laws(std::span<RowLaw> out) const;
   /// gamma = psi_q v + psi_t, so that W v' + gamma = 0 at acceleration level.
-  void bias(const Instant& at, std::span<double> gamma) const;
+  void bias(const Instant& at, std::span<double> gamma, std::span<const char> out_of_force = {}) const;
   /// psi_q, and for each constraint the dense `width x width` block (rows first) of
   /// d(W^T lambda)/dq.
   void linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
-                 std::span<double> stiffness) const;
-  /// g and dg/dt of one-sided constraints, the slip velocities of Coulomb's, left out or not.
+                 std::span<double> stiffness, std::span<const char> out_of_force = {}) const;
+  /// g and dg/dt of one-sided constraints, the slip velocities of Coulomb's, in force or not.
   void gaps(const Instant& at, std::span<double> g, std::span<double> rate) const;
-
-  /// Whether an element takes part.
-  void leave_out(std::size_t element, bool out = true);
 
  private:
   const ConstraintType* type_;
   detail::DifferentiatedEquations equations_;
-  std::vector<char> left_out_;  // empty if none is
 };
 
 /// What all forces of one type have in common.

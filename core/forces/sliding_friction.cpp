@@ -31,9 +31,9 @@ SlidingFriction::SlidingFriction(const detail::Owned<ConstraintBatch>& of, std::
       sliding_(std::move(sliding)),
       rows_(static_cast<std::size_t>(of->shape().rows)),
       width_(static_cast<std::size_t>(of->shape().width)) {
-  for (std::size_t i = 0; i < of->size(); ++i) (*batch_).leave_out(i);
+  not_sliding_.assign(of->size() * rows_, 1);
   for (const Sliding& s : sliding_) {
-    (*batch_).leave_out(s.element, false);
+    std::fill_n(not_sliding_.begin() + static_cast<std::ptrdiff_t>(s.element * rows_), rows_, char{0});
     const auto own = of->coordinates().subspan(s.element * width_, width_);
     coordinates_.insert(coordinates_.end(), own.begin(), own.end());
     pressed_by_.push_back(s.pressed_by);
@@ -53,7 +53,7 @@ void SlidingFriction::evaluate(const Instant& at, Work& work) const try {
   work.w.resize(work.psi.size() * width_);
   work.d.resize(rows_);
   work.f.resize(width_);
-  batch_->evaluate(at, {{}, work.psi, work.w});
+  batch_->evaluate(at, {{}, work.psi, work.w}, not_sliding_);
 } catch (const ElementFault& fault) {
   const auto own = std::ranges::find(sliding_, fault.element, &Sliding::element);
   throw ElementFault{static_cast<std::size_t>(own - sliding_.begin()), fault.what};
@@ -120,7 +120,7 @@ void SlidingFriction::linearise(const Instant& at, const Multipliers& lambda, st
     for (std::size_t k = 0; k < rows_; ++k)
       work.sigma[sliding_[i].element * rows_ + k] = -pressure * work.d[k];
   }
-  batch_->linearise(at, work.sigma, work.psi_q, work.stiffness);
+  batch_->linearise(at, work.sigma, work.psi_q, work.stiffness, not_sliding_);
   for (std::size_t i = 0; i < sliding_.size(); ++i) {
     const std::size_t block = width_ * width_, element = sliding_[i].element;
     const auto own = stiffness.subspan(i * block, block), own_damping = damping.subspan(i * block, block);

@@ -54,7 +54,8 @@ class SlidingFriction final : public ForceBatch {
   void find_direction(std::size_t i, Work& work) const;
   void find_force_per_lambda(std::size_t i, Work& work) const;
 
-  detail::Owned<ConstraintBatch> batch_;  // all others left out
+  detail::Owned<ConstraintBatch> batch_;
+  std::vector<char> not_sliding_;  // per row of it
   std::vector<Sliding> sliding_;
   std::vector<int> coordinates_, pressed_by_;
   std::size_t rows_, width_;

@@ -139,16 +139,18 @@ void System::evaluate_all(const Instant& at, Evaluation& out, std::span<double> 
     add_forces(at, out.force);
   });
   on_constraints(at.t, [&](const ConstraintBatch& batch, const ConstraintPlaces& own) {
-    batch.evaluate(at, {own.holonomic ? own.rows.in(std::span(out.g)) : std::span<double>{},
-                        own.rows.in(std::span(out.psi)), own.w.in(std::span(out.w)),
-                        gamma.empty() ? gamma : own.rows.in(gamma)});
+    batch.evaluate(
+        at,
+        {own.holonomic ? own.rows.in(std::span(out.g)) : std::span<double>{}, own.rows.in(std::span(out.psi)),
+         own.w.in(std::span(out.w)), gamma.empty() ? gamma : own.rows.in(gamma)},
+        out_of_force(own.rows));
   });
 }
 
 void System::bias(const Instant& at, std::span<double> gamma) const {
   if (!out_of_force_.empty()) std::ranges::fill(gamma, 0.0);
   on_constraints(at.t, [&](const ConstraintBatch& batch, const ConstraintPlaces& own) {
-    batch.bias(at, own.rows.in(gamma));
+    batch.bias(at, own.rows.in(gamma), out_of_force(own.rows));
   });
 }
 
@@ -168,7 +170,7 @@ void System::linearise_constraints(const Instant& at, std::span<const double> la
   }
   on_constraints(at.t, [&](const ConstraintBatch& batch, const ConstraintPlaces& own) {
     batch.linearise(at, own.rows.in(lambda), own.w.in(std::span(out.psi_q)),
-                    own.stiffness.in(std::span(out.stiffness)));
+                    own.stiffness.in(std::span(out.stiffness)), out_of_force(own.rows));
   });
 }
 

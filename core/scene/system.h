@@ -226,6 +226,10 @@ class System {
     Places slope, stiffness, damping;
     std::vector<std::size_t> first_row{};
   };
+  /// Of these rows; empty if all rows are in force.
+  [[nodiscard]] std::span<const char> out_of_force(const Places& own) const {
+    return out_of_force_.empty() ? std::span<const char>() : own.in(std::span(out_of_force_));
+  }
   /// The label of the force that an entry of an array belongs to.
   [[nodiscard]] std::string force_of(std::size_t entry, Places ForcePlaces::*array) const;
 
@@ -236,7 +240,7 @@ class System {
   std::size_t holonomic_rows_ = 0;
   std::vector<std::size_t> row_start_;
   std::vector<std::size_t> w_columns_;
-  std::vector<char> out_of_force_;  // empty if none is
+  std::vector<char> out_of_force_;  // per row; empty if all are in force
   std::size_t rows_in_force_ = 0;
   std::vector<RowLaw> laws_;
   std::size_t compliant_rows_ = 0;

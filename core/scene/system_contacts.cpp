@@ -40,17 +40,8 @@ std::string System::conditional_label() const {
 System System::without(std::span<const std::size_t> constraints) const {
   System other = *this;
   other.out_of_force_.resize(rows());
-  std::vector<char> out(layout_->constraints.size(), 0);
-  for (const std::size_t number : constraints) out[number] = 1;
-  for (std::size_t b = 0; b < parts_.constraints.size(); ++b) {
-    const auto& numbers = parts_.constraint_numbers[b];
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-      const auto number = static_cast<std::size_t>(numbers[i]);
-      if (!out[number]) continue;
-      (*other.parts_.constraints[b]).leave_out(i);
-      for (const std::size_t r : layout_->constraints[number].own_rows()) other.out_of_force_[r] = 1;
-    }
-  }
+  for (const std::size_t number : constraints)
+    for (const std::size_t r : layout_->constraints[number].own_rows()) other.out_of_force_[r] = 1;
   other.rows_in_force_ = static_cast<std::size_t>(std::ranges::count(other.out_of_force_, char{0}));
   return other;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <dalembert/core/scene/system.h>
-#include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/base/numbers.h>
 
@@ -42,12 +42,12 @@ struct Limits {
   /// A speed at which two slip velocities count as rest, where friction takes hold of them at once: twice
   /// that of the run, whose length may have grown since it looked.
   [[nodiscard]] double rest_in_space(std::size_t i) const {
-    return 2.0 * constants.rest_in_space * std::sqrt(accuracy) * unit(i) / time;
+    return 2.0 * Accuracy(accuracy).rest_in_space() * unit(i) / time;
   }
   /// A speed at which what touches counts as at rest, as users round what they state: of all contacts of one
   /// coordinate.
   [[nodiscard]] double rest_at_contacts(std::size_t i) const {
-    return 1e-8 * static_cast<double>(contacts) * unit(i) / time;
+    return start_tolerance * static_cast<double>(contacts) * unit(i) / time;
   }
   /// How far a gap that changes at this rate may be off by the rounding of a time.
   [[nodiscard]] double by_time(double t, double rate) const { return round_off * std::abs(t * rate); }

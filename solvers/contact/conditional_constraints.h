@@ -14,13 +14,6 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// All constraints of a run that hold only at times: contacts, and dry friction.
 class ConditionalConstraints {
  public:
-  /// What happened at an instant, by numbers of constraints in the layout; the velocities before and after
-  /// it, and the impulses, one per row of the system.
-  struct Change {
-    std::vector<double> v_before{}, v{}, impulses{};
-    std::vector<EventRecord> what{};
-  };
-
   /// At a state that satisfies all constraints that always hold. Throws InconsistentStart where a gap is
   /// negative.
   ConditionalConstraints(const std::shared_ptr<const System>& stated, const Scales& scales, double tolerance,
@@ -55,13 +48,12 @@ class ConditionalConstraints {
   /// The scales of the run, where they differ from those of the constraints that always hold.
   void adopt(const Scales& scales);
   /// See Contacts.
-  [[nodiscard]] bool open_pulling(const FlatSample& now, std::vector<EventRecord>& what);
+  [[nodiscard]] bool open_pulling(const FlatSample& now, Change& change);
 
  private:
-  [[nodiscard]] Change resolve_friction(Contacts::Change contacts, const Instant& at,
+  [[nodiscard]] Change resolve_friction(Change of_contacts, const Instant& at,
                                         std::optional<std::size_t> triggered = {});
-  void add(const std::vector<Contacts::Happening>& contacts,
-           const std::vector<DryFriction::Happening>& friction, std::vector<EventRecord>& what) const;
+  void find_modes(const Instant& at, std::optional<std::size_t> triggered, Change& change);
 
   Contacts contacts_;
   DryFriction friction_;

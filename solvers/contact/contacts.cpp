@@ -71,7 +71,7 @@ Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, d
                    const Instant& start, bool friction)
     : stated_(std::move(stated)),
       scales_(scales),
-      tolerance_(tolerance),
+      accuracy_(tolerance),
       friction_(friction),
       g_(stated_->rows()),
       psi_(stated_->rows()) {
@@ -101,6 +101,10 @@ Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, d
   rebuild_system();
 }
 
+Contacts::Contact& Contacts::contact_of(const EventRecord& event) {
+  return *std::ranges::lower_bound(contacts_, event.source, {}, &Contact::number);
+}
+
 bool Contacts::among(const std::vector<std::size_t>& all, std::size_t contact) {
   return std::ranges::find(all, contact) != all.end();
 }
@@ -123,7 +127,7 @@ double Contacts::largest_force(const FlatSample& now) const {
 
 double Contacts::switching(std::size_t contact, const FlatSample& now) const {
   const Contact& c = contacts_[contact];
-  if (c.closed) return c.sign * now.lambda[c.row] + tolerance_ * largest_force(now);
+  if (c.closed) return c.sign * now.lambda[c.row] + accuracy_.of_positions() * largest_force(now);
   if (now.time == c.opened_at) return c.rate_at_opening;
   if (gaps_at_ != now.time) find_gaps({now.time, now.q, now.v});
   const double gap = c.sign * g_[c.row], rate = c.sign * psi_[c.row];
@@ -149,7 +153,7 @@ double Contacts::rate(std::size_t contact, const FlatSample& now) const {
 /// resolution of times; and those closed in the islands of these.
 std::vector<std::size_t> Contacts::touching(const Instant& at,
                                             const std::vector<std::size_t>& triggered) const {
-  const double same_time = tolerance_ * scales_.time;
+  const double same_time = accuracy_.of_times() * scales_.time;
   std::vector<char> touches(contacts_.size(), 0);
   std::set<std::size_t> islands;
   find_gaps(at);
@@ -192,7 +196,7 @@ void Contacts::refuse(const std::vector<std::size_t>& contacts, double t, const 
   throw StepFailure{names + ": " + what, t};
 }
 
-bool Contacts::open_pulling(const FlatSample& now, std::vector<Happening>& what) {
+bool Contacts::open_pulling(const FlatSample& now, std::vector<EventRecord>& events) {
   find_gaps({now.time, now.q, now.v});
   double largest = 0.0;
   for (const double lambda : now.lambda) largest = std::max(largest, std::abs(lambda));
@@ -209,8 +213,7 @@ bool Contacts::open_pulling(const FlatSample& now, std::vector<Happening>& what)
     if (!opens) continue;
     open(c, now.time, 0.0);
     found = true;
-    if (c.closed_at < now.time)
-      what.push_back({static_cast<std::size_t>(&c - contacts_.data()), EventKind::opened, now.time});
+    if (c.closed_at < now.time) events.push_back({c.number, now.time, EventKind::opened});
   }
   rebuild_system();
   return found;
@@ -223,7 +226,7 @@ double Contacts::no_gap(const Contact& contact, std::span<const double> q) const
 
 /// The error of a step in a gap.
 double Contacts::error_of_gap(const Contact& contact) const {
-  return tolerance_ * scales_.length * contact.gradient;
+  return accuracy_.of_positions() * scales_.length * contact.gradient;
 }
 
 void Contacts::require_open(const FlatSample& now) {
@@ -238,7 +241,6 @@ void Contacts::require_open(const FlatSample& now) {
   }
 }
 
-/// Accelerations are known as forces are, to the root of the tolerance.
 void Contacts::require_separation(const FlatSample& now) const {
   const Instant at{now.time, now.q, now.v};
   find_gaps(at);
@@ -259,7 +261,7 @@ void Contacts::require_separation(const FlatSample& now) const {
       terms += std::abs(e.w[k] * now.a[i]) + std::abs(e.w[k] * e.force[i] / stated_->masses()[i]);
     }
     // Beside springs whose force is lost in round-off it is not known.
-    if (!(c.sign * rate < -std::sqrt(tolerance_) * terms)) continue;
+    if (!(c.sign * rate < -accuracy_.of_accelerations() * terms)) continue;
     throw StepFailure{
         stated_->row_label(c.row) +
             " touches and would be penetrated: no forces of contact and friction were found that "
@@ -281,9 +283,10 @@ void Contacts::close(Contact& contact, double t) {
   contact.closed = true;
 }
 
-void Contacts::open(std::size_t number, double t, double rate, Change& change) {
-  if (contacts_[number].closed) change.what.push_back({number, EventKind::opened, t});
-  open(contacts_[number], t, rate);
+void Contacts::open(std::size_t contact, double t, double rate, Change& change) {
+  Contact& c = contacts_[contact];
+  if (c.closed) change.events.push_back({c.number, t, EventKind::opened});
+  open(c, t, rate);
 }
 
 std::vector<std::size_t> Contacts::replace_system(std::shared_ptr<const System> stated, const Instant& at) {
@@ -298,7 +301,7 @@ std::vector<std::size_t> Contacts::replace_system(std::shared_ptr<const System> 
     c.sign = law.sign();
     const double gap = c.sign * g_[c.row], allowed = start_tolerance * scales_.length * c.gradient;
     if (gap < -allowed) refuse({i}, at.t, "a change of the scene leaves it violated");
-    c.moved = c.closed && std::abs(psi_[c.row]) > tolerance_ * scales_.speed() * c.gradient;
+    c.moved = c.closed && std::abs(psi_[c.row]) > accuracy_.of_velocities() * scales_.speed() * c.gradient;
     if (gap <= allowed) {
       if (!c.closed) touching.push_back(i);
     } else if (c.closed) {
@@ -320,12 +323,9 @@ std::vector<std::size_t> Contacts::open() const {
 
 void Contacts::rebuild_system() {
   gaps_at_ = forces_at_ = never;  // the state watched goes on from another one
-  std::vector<std::size_t> closed;
-  for (std::size_t i = 0; i < contacts_.size(); ++i)
-    if (contacts_[i].closed) closed.push_back(i);
-  if (system_ && closed == in_force_) return;
-  system_ = only(closed);
-  in_force_ = std::move(closed);
+  const auto as_stated = [this](const Contact& c) { return system_->in_force(c.row) == c.closed; };
+  if (!system_ || !std::ranges::all_of(contacts_, as_stated))
+    system_ = std::make_shared<const System>(stated_->without(open()));
 }
 
 }  // namespace dalembert

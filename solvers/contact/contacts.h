@@ -1,9 +1,10 @@
 #pragma once
 
-#include <dalembert/core/results/event.h>
 #include <dalembert/core/scene/system.h>
+#include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/contact/accumulation.h>
+#include <dalembert/solvers/contact/change.h>
 #include <dalembert/solvers/manifold/scales.h>
 
 #include <Eigen/Core>
@@ -46,8 +47,6 @@ class Contacts {
   /// The system with the closed contacts in force, and the others not.
   [[nodiscard]] const std::shared_ptr<const System>& system() const { return system_; }
   [[nodiscard]] std::size_t size() const { return contacts_.size(); }
-  /// The index of its constraint in the layout.
-  [[nodiscard]] std::size_t index(std::size_t contact) const { return contacts_[contact].number; }
   [[nodiscard]] std::string label(std::size_t contact) const {
     return stated_->row_label(contacts_[contact].row);
   }
@@ -72,16 +71,6 @@ class Contacts {
   /// redundant contacts with friction which are closed is not always found.
   void require_separation(const FlatSample& now) const;
 
-  struct Happening {
-    std::size_t contact;
-    EventKind kind;
-    double time;
-  };
-  /// The velocities before and after an instant, impulses, one per row of the system, and what happened.
-  struct Change {
-    std::vector<double> v_before{}, v{}, impulses{};
-    std::vector<Happening> what{};
-  };
   /// The impacts of that state, and which contacts are closed after them. What touches and separates is open.
   Change resolve_start(const Instant& start);
   /// A contact driven back to its surface by an impact on others, of those that touched and were separating:
@@ -96,7 +85,7 @@ class Contacts {
   /// reads them or all cannot push, though others, those of (2), push: opens the contacts without a force by
   /// these; with friction the one that pulls most.
   /// Returns whether there was any, and adds those closed before.
-  [[nodiscard]] bool open_pulling(const FlatSample& now, std::vector<Happening>& what);
+  [[nodiscard]] bool open_pulling(const FlatSample& now, std::vector<EventRecord>& events);
   /// The numbers in the layout of those that are open.
   [[nodiscard]] std::vector<std::size_t> open() const;
 
@@ -106,7 +95,8 @@ class Contacts {
     std::size_t row;
     double sign, restitution;
     std::size_t island;
-    bool closed = false, moved = false;  // though closed
+    bool closed = false;
+    bool moved = false;  // closed, but a change of the scene has set its surface moving
     double closed_at = 0.0;
     bool bears = false;                 // by the forces of (2) that were found when it was last closed
     std::optional<double> opened_at{};  // if it was closed before
@@ -117,6 +107,7 @@ class Contacts {
     double gradient = 1.0;  // its length at the start
   };
 
+  [[nodiscard]] Contact& contact_of(const EventRecord& event);
   [[nodiscard]] static bool among(const std::vector<std::size_t>& all, std::size_t contact);
   void find_gaps(const Instant& at) const;
   [[nodiscard]] double largest_force(const FlatSample& now) const;
@@ -133,7 +124,7 @@ class Contacts {
   };
   [[nodiscard]] std::vector<Limit> limits_of_impacts(const Change& change, const Instant& at);
   void rest(const Coupling& coupling, const std::vector<std::size_t>& touching,
-            const std::vector<Limit>& limits, Eigen::VectorXd& U, Change& change) const;
+            const std::vector<Limit>& limits, Eigen::VectorXd& U, Change& change);
   std::vector<Eigen::Index> open_separating(const std::vector<std::size_t>& touched, const Eigen::VectorXd& U,
                                             double t, Change& change);
   [[nodiscard]] double still(const Contact& contact) const;
@@ -155,18 +146,17 @@ class Contacts {
   [[nodiscard]] double no_gap(const Contact& contact, std::span<const double> q) const;
   void open(Contact& contact, double t, double rate) const;
   static void close(Contact& contact, double t);
-  void open(std::size_t number, double t, double rate, Change& change);
+  void open(std::size_t contact, double t, double rate, Change& change);
   void rebuild_system();
 
   std::shared_ptr<const System> stated_, system_;
   Scales scales_;
-  double tolerance_;
+  Accuracy accuracy_;
   bool friction_;
   std::vector<Contact> contacts_;
   std::vector<std::size_t> touching_at_start_;
   bool started_ = false;
   bool everywhere_ = true;  // all islands are to be looked at: at the start, and after a change of the scene
-  std::vector<std::size_t> in_force_;    // of them
   mutable std::vector<double> g_, psi_;  // of all rows,
   static constexpr double never = std::numeric_limits<double>::quiet_NaN();
   mutable double gaps_at_ = never;                          // at this time of the state watched

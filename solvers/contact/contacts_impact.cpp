@@ -59,12 +59,12 @@ void Contacts::solve_impact(const Coupling& coupling, const std::vector<std::siz
     for (Index i = 0; i < after.size(); ++i) {
       if (!((*p)[i] > 0.0)) continue;
       after[i] = before[i] - q[i];  // -e U-
-      change.what.push_back({its[static_cast<std::size_t>(i)], EventKind::struck, t});
+      change.events.push_back({contacts_[its[static_cast<std::size_t>(i)]].number, t, EventKind::struck});
     }
     U(island) = after;
     P(island) = *p;
   }
-  std::ranges::sort(change.what, {}, &Happening::contact);
+  std::ranges::sort(change.events, {}, &EventRecord::source);
   coupling.apply_impulses(P, change.v, change.impulses);
 }
 
@@ -75,13 +75,12 @@ std::vector<Contacts::Limit> Contacts::limits_of_impacts(const Change& change, c
   find_gaps(at);
   std::vector<Limit> limits;
   std::set<std::size_t> bouncing;
-  for (const Happening& happening : change.what) {
-    Contact& c = contacts_[happening.contact];
+  for (const EventRecord& impact : change.events) {
+    Contact& c = contact_of(impact);
     Accumulation& impacts = c.impacts;
     impacts.add(t);
     const double rate = std::abs(psi_[c.row]);
-    const bool ends = (c.closed && !c.moved) || rate <= still(c) ||
-                      rate * impacts.left() <= tolerance_ * scales_.length * c.gradient;
+    const bool ends = (c.closed && !c.moved) || rate <= still(c) || rate * impacts.left() <= error_of_gap(c);
     if (!ends) bouncing.insert(c.island);
     if (!std::isfinite(impacts.limit()) || !ends) continue;
     auto limit = std::ranges::find(limits, c.island, &Limit::island);
@@ -94,22 +93,24 @@ std::vector<Contacts::Limit> Contacts::limits_of_impacts(const Change& change, c
 
 /// Brings all rates in these islands to 0, after the impacts there.
 void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& touching,
-                    const std::vector<Limit>& limits, VectorXd& U, Change& change) const {
-  const auto limit_of = [&](std::size_t contact) {
-    return std::ranges::find(limits, contacts_[contact].island, &Limit::island);
+                    const std::vector<Limit>& limits, VectorXd& U, Change& change) {
+  const auto limit_of = [&](const Contact& contact) {
+    return std::ranges::find(limits, contact.island, &Limit::island);
   };
-  std::erase_if(change.what, [&](const Happening& one) { return limit_of(one.contact) != limits.end(); });
+  std::erase_if(change.events,
+                [&](const EventRecord& one) { return limit_of(contact_of(one)) != limits.end(); });
   const VectorXd rates = coupling.rates(change.v);
   VectorXd P = VectorXd::Zero(U.size());
   for (const auto& island : coupling.islands()) {
     const auto its = those_at(island, touching);
-    const auto limit = limit_of(its.front());
+    const auto limit = limit_of(contacts_[its.front()]);
     if (limit == limits.end()) continue;
     P(island) = dense::least_squares(coupling.S(island), -rates(island), rank_threshold);
     U(island).setZero();
-    for (const std::size_t i : its) change.what.push_back({i, EventKind::rested, limit->time});
+    for (const std::size_t i : its)
+      change.events.push_back({contacts_[i].number, limit->time, EventKind::rested});
   }
-  std::ranges::sort(change.what, {}, &Happening::contact);
+  std::ranges::sort(change.events, {}, &EventRecord::source);
   coupling.apply_impulses(P, change.v, change.impulses);
 }
 
@@ -118,7 +119,7 @@ double Contacts::still(const Contact& contact) const {
   return start_tolerance * scales_.speed() * contact.gradient;
 }
 
-Contacts::Change Contacts::resolve_start(const Instant& start) {
+Change Contacts::resolve_start(const Instant& start) {
   std::vector<std::size_t> stay;
   find_gaps(start);
   for (const std::size_t i : touching_at_start_) {
@@ -162,9 +163,9 @@ bool Contacts::add_slow(const Instant& at, std::vector<std::size_t>& touched) co
   return touched.size() > before;
 }
 
-Contacts::Change Contacts::resolve(const Instant& at, const std::vector<std::size_t>& triggered) {
+Change Contacts::resolve(const Instant& at, const std::vector<std::size_t>& triggered) {
   const std::vector<double> v(at.v.begin(), at.v.end());
-  Change change{v, v, std::vector<double>(stated_->rows())};
+  Change change{.v_before = v, .v = v, .impulses = std::vector<double>(stated_->rows())};
   const bool known_roughly = !started_ || approaching();
   started_ = true;
   auto touched = touching(at, triggered);
@@ -176,7 +177,7 @@ Contacts::Change Contacts::resolve(const Instant& at, const std::vector<std::siz
     double& rate = U[static_cast<Index>(k)];
     // What has not left the surface, within the error of a step, and no longer leaves it, rests.
     const bool returns = among(triggered, touched[k]) && !c.parted && c.opened_at != at.t &&
-                         std::abs(rate) <= tolerance_ * scales_.speed() * c.gradient;
+                         std::abs(rate) <= accuracy_.of_velocities() * scales_.speed() * c.gradient;
     const bool slow = known_roughly && std::abs(rate) <= still(c);
     if ((c.closed && !c.moved) || returns || slow) rate = 0.0;
   }
@@ -279,7 +280,7 @@ void Contacts::open_or_close(std::size_t i, const std::vector<std::size_t>& trig
   // A force that has fallen to 0 goes on falling: the contact opens, though nothing separates it yet.
   const double own = scales_.speed() / scales_.time * contacts_[i].gradient * pair.unit;
   const bool falls = among(triggered, i) && contacts_[i].closed &&
-                     pair.force <= tolerance_ * std::max(pair.largest, own) * pair.unit;
+                     pair.force <= accuracy_.of_positions() * std::max(pair.largest, own) * pair.unit;
   if ((pair.acceleration > 0.0 && pair.force == 0.0) || falls) {
     open(i, t, 0.0, change);
   } else {

@@ -20,9 +20,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// The fraction of the scene's speed below which two slip velocities are slow.
-double slow_in_space(double tolerance) { return constants.rest_in_space * std::sqrt(tolerance); }
-
 }  // namespace
 
 DryFriction::DryFriction(std::shared_ptr<const System> stated, const Scales& scales, double tolerance)
@@ -60,7 +57,7 @@ void DryFriction::adopt(const Scales& scales) {
   scales_ = scales;
   for (Rough& r : all_) {
     r.still = tolerance_ * scales.speed();
-    r.slow = slow_in_space(tolerance_) * scales.speed();
+    r.slow = Accuracy(tolerance_).rest_in_space() * scales.speed();
   }
 }
 
@@ -105,9 +102,10 @@ double DryFriction::round_off_of(const Rough& rough, std::span<const double> a,
   return std::min(round_off(), tolerance_) * force + std::numeric_limits<double>::min();
 }
 
-/// The stepper takes what slides on past rest, in its direction: a single slip velocity keeps that. Two have
-/// none at rest: where they are slow the run goes on in the direction that they have. What is 0 to round-off,
-/// of what slides without moving, has not fallen.
+/// Steps carry what slides past rest, with friction in the direction that it had, up to where this function
+/// tells that it rested. A single slip velocity has one direction or the other. Two have none at rest: slow
+/// ones keep the direction that they have. Something that slides without moving, to round-off, does not
+/// trigger.
 double DryFriction::switching(std::size_t function, const FlatSample& now) const {
   const Rough& r = all_[function / kinds];
   const auto watched = static_cast<Watched>(function % kinds);

@@ -2,6 +2,7 @@
 
 #include <dalembert/core/results/event.h>
 #include <dalembert/core/scene/system.h>
+#include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/contact/slip_coupling.h>
 #include <dalembert/solvers/manifold/scales.h>
@@ -28,13 +29,6 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// to rest where u reaches 0, and sticks there or slides on.
 class DryFriction {
  public:
-  /// What happened to a constraint, by its number in the layout.
-  struct Happening {
-    std::size_t constraint;
-    EventKind kind;
-    double time;
-  };
-
   /// Of the constraints that a scene states.
   DryFriction(std::shared_ptr<const System> stated, const Scales& scales, double tolerance);
 
@@ -52,8 +46,8 @@ class DryFriction {
   /// Decides what sticks, at a state where constraints with these numbers are open. `triggered` is the
   /// switching function that has fallen. Throws StepFailure, naming the constraints, where nothing satisfies
   /// (1); EquationFault.
-  std::vector<Happening> find_modes(const std::vector<std::size_t>& open, const Instant& at,
-                                    std::optional<std::size_t> triggered = {});
+  std::vector<EventRecord> find_modes(const std::vector<std::size_t>& open, const Instant& at,
+                                      std::optional<std::size_t> triggered = {});
   /// Throws StepFailure if an impact has loaded any of them.
   void require_no_impulse(std::span<const double> impulses, const Instant& at) const;
   /// The system with what sticks and what slides.
@@ -125,8 +119,8 @@ class DryFriction {
   [[nodiscard]] bool release_most_exceeded(const Motion& motion, double t);
   [[nodiscard]] bool turn(Rough& rough, const Instant& at, const Motion& motion) const;
   [[nodiscard]] std::vector<double> modes() const;
-  [[nodiscard]] std::vector<Happening> changes(const std::vector<Rough>& before, double t,
-                                               Triggered triggered) const;
+  [[nodiscard]] std::vector<EventRecord> changes(const std::vector<Rough>& before, double t,
+                                                 Triggered triggered) const;
   [[noreturn]] void refuse(double t) const;
 
   std::shared_ptr<const System> stated_, system_;

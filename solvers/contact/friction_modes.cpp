@@ -53,7 +53,7 @@ VectorXd DryFriction::slip_acceleration(const Rough& rough, const Instant& at, c
       terms = std::max(terms, rough.mu * std::abs(motion.lambda[rough.pressing_row]) *
                                   inverse_effective_mass(*stated_, e.w, row));
   }
-  if (rate.norm() <= std::sqrt(tolerance_) * terms) rate.setZero();
+  if (rate.norm() <= Accuracy(tolerance_).of_accelerations() * terms) rate.setZero();
   return rate;
 }
 
@@ -279,22 +279,22 @@ void DryFriction::refuse(double t) const {
                     t};
 }
 
-std::vector<DryFriction::Happening> DryFriction::changes(const std::vector<Rough>& before, double t,
-                                                         Triggered triggered) const {
-  std::vector<Happening> what;
+std::vector<EventRecord> DryFriction::changes(const std::vector<Rough>& before, double t,
+                                              Triggered triggered) const {
+  std::vector<EventRecord> events;
   for (std::size_t i = 0; i < all_.size(); ++i) {
     const Rough &was = before[i], &is = all_[i];
     const bool due = own(is, triggered, mode);
     const bool turned = was.mode == Mode::slides && is.mode == Mode::slides && due && is.at_rest;
     if (was.mode == Mode::absent || is.mode == Mode::absent || (was.mode == is.mode && !turned)) continue;
-    what.push_back({is.number, is.mode == Mode::sticks ? EventKind::sticks : EventKind::slides,
-                    due && was.turns ? t + *was.turns : t});
+    events.push_back({is.number, due && was.turns ? t + *was.turns : t,
+                      is.mode == Mode::sticks ? EventKind::sticks : EventKind::slides});
   }
-  return what;
+  return events;
 }
 
-std::vector<DryFriction::Happening> DryFriction::find_modes(const std::vector<std::size_t>& open,
-                                                            const Instant& at, Triggered triggered) {
+std::vector<EventRecord> DryFriction::find_modes(const std::vector<std::size_t>& open, const Instant& at,
+                                                 Triggered triggered) {
   const auto before = all_;
   find_slip(at);
   for (Rough& r : all_) set_mode_by_slip(r, open, at.t, triggered);

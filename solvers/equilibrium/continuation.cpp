@@ -88,11 +88,10 @@ Eigen::VectorXd Corrector::direction(const Eigen::VectorXd& shape) const {
 }
 
 std::optional<Node> EquilibriumCorrector::finished(Node guess) const {
-  constexpr double close = 1e-8;  // what `normal_modes` asks of an equilibrium
   try {
     const Here here = at(parameter(guess), guess.x);
     const EquilibriumSolver::State s = state(here, guess);
-    if (!(s.relative_residual <= close)) return std::nullopt;
+    if (!(s.relative_residual <= equilibrium_tolerance)) return std::nullopt;
     finish(here, s, guess);
     return guess;
   } catch (const Error&) {

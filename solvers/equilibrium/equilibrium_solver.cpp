@@ -222,7 +222,7 @@ void EquilibriumSolver::share_along_rows(std::span<const double> w) {
 bool EquilibriumSolver::step(const State& s, std::span<const double> shift, std::vector<double>& x) const {
   const ActiveRows rows = rows_at(s);
   const LinearTerms terms = linear_terms(*system_, frame_, {time_, s.q, s.v}, s.lambda);
-  TangentMatrix matrix(*system_, rows, terms, shift);
+  TangentMatrix matrix(*system_, rows, terms, shift, tangent_);
   if (!matrix.regular()) return false;
   const std::size_t n = s.q.size();
   std::vector<double> y(n + rows.size());
@@ -386,7 +386,9 @@ bool EquilibriumSolver::is_equilibrium(const State& s, double close) const {
 bool EquilibriumSolver::project(State& s) const {
   Manifold manifold(problem_, rows_at(s), scales_.lengths());
   const double close = 1e-12 * scales_.length + scales_.rounding(s.q);
-  if (manifold.project_positions(time_, s.q, s.v, close).size > 1e-8 * scales_.length + close) return false;
+  if (manifold.project_positions(time_, s.q, s.v, close).size >
+      equilibrium_tolerance * scales_.length + close)
+    return false;
   frame_.velocity(s.q, s.v);
   std::vector<double> v(s.v), a(s.q.size());
   if (!manifold.solve_motion(time_, s.q, v, a, s.lambda)) return false;
@@ -449,9 +451,9 @@ void EquilibriumSolver::refuse(const State& s, const std::string& why) const {
 /// load with one row, then with another.
 bool EquilibriumSolver::has_other_multipliers(State& s) const {
   const std::vector<double> q = s.q;
-  if (!project(s) || s.relative_residual > 1e-8) return false;
+  if (!project(s) || s.relative_residual > equilibrium_tolerance) return false;
   for (std::size_t i = 0; i < q.size(); ++i) {
-    if (std::abs(s.q[i] - q[i]) > 1e-8 * scales_.unit(i)) return false;
+    if (std::abs(s.q[i] - q[i]) > equilibrium_tolerance * scales_.unit(i)) return false;
   }
   return true;
 }
@@ -485,7 +487,7 @@ void EquilibriumSolver::require_lasting(const State& s) const {
     auto e = system_->evaluation();
     system_->evaluate({time_ + later, at.q, at.v}, e);
     const Violation moving = velocity_violation(*system_, e, lengths);
-    if (moving.size > 1e-8 * speed + scales_.rounding(s.q) / t) {
+    if (moving.size > start_tolerance * speed + scales_.rounding(s.q) / t) {
       std::ostringstream what;
       what << system_->row_label(moving.row) << " moves by " << moving.size << " at t = " << time_ + later
            << (frame_.rotates() ? " relative to the rotating frame" : ", where the scene is to be at rest")
@@ -495,7 +497,7 @@ void EquilibriumSolver::require_lasting(const State& s) const {
     EquilibriumSolver then = *this;
     then.time_ += later;
     then.evaluate(at);
-    if (!then.is_equilibrium(at, 1e-8) && !then.has_other_multipliers(at))
+    if (!then.is_equilibrium(at, equilibrium_tolerance) && !then.has_other_multipliers(at))
       then.refuse(at, frame_.rotates()
                           ? "the forces or constraints do not turn with the scene"
                           : "the forces or constraints change with time, and so does the balance");
@@ -544,11 +546,11 @@ std::shared_ptr<const Record> find_equilibrium(System system, std::span<const do
 
 namespace detail {
 
-/// As a start is compared with its constraints: to 1e-8 of the largest velocity.
+/// As a start is compared with its constraints: relative to the largest velocity.
 std::string left_out(const Record& found, std::span<const double> stated) {
   const Layout& layout = *found.layout;
   const FlatSample at = found.sample(0);
-  const double close = 1e-8 * std::max(largest(stated), largest(at.v));
+  const double close = start_tolerance * std::max(largest(stated), largest(at.v));
   std::string names;
   const auto look = [&](const auto& all, int width) {
     for (const auto& one : all) {

@@ -17,6 +17,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// A state whose residual no longer falls counts as balanced if it is below this, see
 /// EquilibriumSolver::State.
 inline constexpr double residual_tolerance = 1e-10;
+/// What is handed on counts as an equilibrium with a hundred times that: as much as a start may violate.
+inline constexpr double equilibrium_tolerance = start_tolerance;
 
 /// The search for a state (q, lambda) in which all forces balance, see `equilibrium`:
 ///
@@ -91,7 +93,7 @@ class EquilibriumSolver {
   [[noreturn]] void refuse(const State& s, const std::string& why) const;
 
   Problem problem_;
-  const System* system_;  // its own
+  const System* system_;  // points into problem_
   double time_;
   RotatingFrame frame_;
   std::vector<double> q0_, lambda0_;
@@ -101,6 +103,7 @@ class EquilibriumSolver {
   std::vector<double> shift_, least_shift_;  // see measure_stiffness
   /// Of the forces on each coordinate, so that a displacement of round-off unbalances nothing.
   std::vector<double> least_force_;
+  mutable std::shared_ptr<const TangentMatrix::Pattern> tangent_;  // of the last step
 };
 
 }  // namespace dalembert

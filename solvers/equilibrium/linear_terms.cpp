@@ -2,6 +2,9 @@
 
 #include <dalembert/core/errors.h>
 
+#include <algorithm>
+#include <utility>
+
 namespace dalembert {
 
 namespace {
@@ -47,6 +50,37 @@ void add_rotating(const System& system, const RotatingFrame& frame, LinearTerms&
   }
 }
 
+std::vector<LuPattern::Entry> tangent_entries(const System& system, const ActiveRows& rows,
+                                              const LinearTerms& terms) {
+  const std::size_t n = system.coordinates();
+  std::vector<LuPattern::Entry> entries;
+  for (std::size_t i = 0; i < n; ++i) entries.push_back({i, i});
+  for (std::size_t a = 0; a < rows.size(); ++a) {
+    for (const std::size_t k : system.row(rows.rows[a])) {
+      entries.push_back({system.w_columns()[k], n + a});
+      entries.push_back({n + a, system.w_columns()[k]});
+    }
+    entries.push_back({n + a, n + a});
+  }
+  for (const auto& entry : terms.stiffness) entries.push_back({entry.row(), entry.col()});
+  return entries;
+}
+
+using Pattern = TangentMatrix::Pattern;
+
+/// The one that is known, if it still is the one.
+std::shared_ptr<const Pattern> pattern_of(const System& system, const ActiveRows& rows,
+                                          const LinearTerms& terms, std::shared_ptr<const Pattern> known) {
+  const std::size_t size = system.coordinates() + rows.size();
+  auto entries = tangent_entries(system, rows, terms);
+  const auto same = [](const LuPattern::Entry& a, const LuPattern::Entry& b) {
+    return a.row == b.row && a.column == b.column;
+  };
+  if (known && known->lu.size() == size && std::ranges::equal(known->entries, entries, same)) return known;
+  LuPattern lu(size, entries);
+  return std::make_shared<const Pattern>(Pattern{std::move(entries), std::move(lu)});
+}
+
 }  // namespace
 
 LinearTerms linear_terms(const System& system, const RotatingFrame& frame, const Instant& at,
@@ -72,28 +106,17 @@ LinearTerms linear_terms(const System& system, const RotatingFrame& frame, const
   return terms;
 }
 
-std::vector<LuPattern::Entry> TangentMatrix::entries(const System& system, const ActiveRows& rows,
-                                                     const LinearTerms& terms) {
-  const std::size_t n = system.coordinates();
-  std::vector<LuPattern::Entry> entries;
-  for (std::size_t i = 0; i < n; ++i) entries.push_back({i, i});
-  for (std::size_t a = 0; a < rows.size(); ++a) {
-    for (const std::size_t k : system.row(rows.rows[a])) {
-      entries.push_back({system.w_columns()[k], n + a});
-      entries.push_back({n + a, system.w_columns()[k]});
-    }
-    entries.push_back({n + a, n + a});
-  }
-  for (const auto& entry : terms.stiffness) entries.push_back({entry.row(), entry.col()});
-  return entries;
-}
-
 TangentMatrix::TangentMatrix(const System& system, const ActiveRows& rows, const LinearTerms& terms, double s)
-    : TangentMatrix(system, rows, terms, std::vector<double>(system.coordinates(), s)) {}
+    : TangentMatrix(pattern_of(system, rows, terms, nullptr), system, rows, terms,
+                    std::vector<double>(system.coordinates(), s)) {}
 
 TangentMatrix::TangentMatrix(const System& system, const ActiveRows& rows, const LinearTerms& terms,
-                             std::span<const double> s)
-    : pattern_(system.coordinates() + rows.size(), entries(system, rows, terms)), lu_(pattern_) {
+                             std::span<const double> s, std::shared_ptr<const Pattern>& known)
+    : TangentMatrix(known = pattern_of(system, rows, terms, known), system, rows, terms, s) {}
+
+TangentMatrix::TangentMatrix(std::shared_ptr<const Pattern> pattern, const System& system,
+                             const ActiveRows& rows, const LinearTerms& terms, std::span<const double> s)
+    : pattern_(std::move(pattern)), lu_(pattern_->lu) {
   std::size_t entry = 0;
   lu_.set_zero();
   for (std::size_t i = 0; i < s.size(); ++i) lu_.add(entry++, s[i] * system.masses()[i]);

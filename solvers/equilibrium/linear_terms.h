@@ -8,6 +8,7 @@
 
 #include <Eigen/SparseCore>
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -37,18 +38,26 @@ struct LinearTerms {
 /// [ W         c   ]   of some rows, factored.
 class TangentMatrix {
  public:
+  /// Where its entries stand, and the symbolic analysis of that.
+  struct Pattern {
+    std::vector<LuPattern::Entry> entries;
+    LuPattern lu;
+  };
+
   TangentMatrix(const System& system, const ActiveRows& rows, const LinearTerms& terms, double s);
-  /// With an s of its own for each coordinate.
+  /// With an s for each coordinate. `known` keeps the pattern from one matrix to the next of the same
+  /// pattern.
   TangentMatrix(const System& system, const ActiveRows& rows, const LinearTerms& terms,
-                std::span<const double> s);
+                std::span<const double> s, std::shared_ptr<const Pattern>& known);
   [[nodiscard]] bool regular() const { return regular_; }
   /// In place, one number per coordinate and then one per row.
   void solve(std::span<double> x) { lu_.solve(x); }
 
  private:
-  [[nodiscard]] static std::vector<LuPattern::Entry> entries(const System& system, const ActiveRows& rows,
-                                                             const LinearTerms& terms);
-  LuPattern pattern_;
+  TangentMatrix(std::shared_ptr<const Pattern> pattern, const System& system, const ActiveRows& rows,
+                const LinearTerms& terms, std::span<const double> s);
+
+  std::shared_ptr<const Pattern> pattern_;
   SparseLU lu_;
   bool regular_;
 };

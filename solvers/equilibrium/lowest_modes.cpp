@@ -1,5 +1,6 @@
 #include "dalembert/solvers/equilibrium/lowest_modes.h"
 
+#include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
@@ -112,7 +113,7 @@ std::vector<Pair> lanczos(Inverse& T, std::span<const Pair> found, std::size_t w
     diagonal.push_back(basis.back().dot(x));
     orthogonalise(x, basis, found);
     below.push_back(x.norm());
-    exhausted = below.back() <= 1e-14 * std::abs(diagonal.front());
+    exhausted = below.back() <= converged_to * std::abs(diagonal.front());
     if (exhausted || basis.size() % between_looks == 0)
       ritz.compute(diagonal, std::span(below).subspan(1), wanted);
   }

@@ -29,7 +29,7 @@ std::optional<NearbyState> found(const Problem& problem, const Start& start, dou
     try {
       Manifold manifold(problem, start.rows, start.scales.lengths());
       const double close = 1e-13 * L + start.scales.rounding(s.q);
-      if (manifold.project_positions(time, s.q, s.v, close).size > 1e-10 * L) continue;
+      if (manifold.project_positions(time, s.q, s.v, close).size > off_constraints * L) continue;
       if (manifold.solve_motion(time, s.q, s.v, s.a, s.lambda)) return s;
     } catch (const EquationFault&) {
       continue;

@@ -181,21 +181,21 @@ void require_same_size(const System& system, const FlatSample& at) {
 /// Throws unless forces balance there, constraints are satisfied and nothing moves against them, as when it
 /// was found.
 void require_equilibrium(const EquilibriumSolver& balance, const FlatSample& at) {
-  constexpr double close = 1e-8;  // a hundred times what `equilibrium` asks for, and what a start may violate
   const System& system = balance.system();
   EquilibriumSolver::State s = balance.start();
   s.q.assign(at.q.begin(), at.q.end());
   s.lambda.assign(at.lambda.begin(), at.lambda.end());
   balance.evaluate(s);
   std::ostringstream why;
-  if (!balance.is_equilibrium(s, close))
+  if (!balance.is_equilibrium(s, equilibrium_tolerance))
     why << "forces or constraints have a relative residual of " << s.relative_residual;
   auto e = system.evaluation();
   system.evaluate({balance.time(), at.q, at.v}, e);
   const Scales& scales = balance.scales();
   const double time = balance.frame().rotates() ? 1.0 / balance.frame().rate() : scales.time;
   const Violation moving = velocity_violation(system, e, scales.lengths());
-  if (moving.size > close * std::max(scales.length / time, largest(at.v)) + scales.rounding(s.q) / time)
+  if (moving.size >
+      start_tolerance * std::max(scales.length / time, largest(at.v)) + scales.rounding(s.q) / time)
     why << system.row_label(moving.row) << " moves by " << moving.size;
   if (!why.str().empty()) refuse_changed(system, why.str());
 }
@@ -262,7 +262,7 @@ void require_constant(const System& system, const EquilibriumSolver& balance, co
     difference = std::max(difference, std::abs(found[i] - expected[i]));
     size = std::max(size, std::abs(expected[i]));
   }
-  if (difference <= 1e-8 * size) return;
+  if (difference <= equilibrium_tolerance * size) return;
   throw InvalidScene(
       "Normal modes of scene \"" + system.layout()->scene +
       "\": its forces or constraints change with time in the " + (frame.rotates() ? "rotating" : "resting") +

@@ -1,6 +1,7 @@
 #include "dalembert/solvers/equilibrium/quadratic_modes.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
 #include <dalembert/solvers/linear/dense.h>
@@ -190,7 +191,7 @@ Search::Outcome Search::run(unsigned seed) {
       }
     }
     rest = x.norm();
-    const bool exhausted = rest <= 1e-14 * H.norm();
+    const bool exhausted = rest <= converged_to * H.norm();
     if (!exhausted && krylov.size() < std::min(look, most_vectors)) continue;
     look += look / 4;
     const dense::Schur schur = dense::ordered_schur(H);

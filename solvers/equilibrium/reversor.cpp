@@ -220,7 +220,7 @@ bool reverses(const Reversor& R, const Problem& problem, const Start& start, con
   auto e = system.evaluation();
   system.evaluate(image, e);
   const double off = std::max(epsilon, violation(system, e, start.scales, largest(s.v)));
-  if (off > 1e-10) return false;  // what `nearby_state` allows
+  if (off > off_constraints) return false;
   std::vector<double> a(s.a.size());
   if (!Manifold(problem, start.rows, start.scales.lengths()).accelerate(image, a)) return false;
   VectorXd reversed = as_vector(s.a);

@@ -101,7 +101,7 @@ class SteadySearch {
   /// near.
   void require_symmetric(const VectorXd& v) const {
     const VectorXd rest = v - symmetries_.fields(q_) * y_;
-    const double rounding = 1e-8 * v.cwiseAbs().maxCoeff();
+    const double rounding = start_tolerance * v.cwiseAbs().maxCoeff();
     const auto look = [&](const auto& all, int width) {
       for (const auto& one : all) {
         if (rest.segment(one.coordinate, width).norm() <=
@@ -191,12 +191,12 @@ class SteadySearch {
     EquilibriumSolver::State s = balance.start();
     std::ranges::copy(flat(lambda_), s.lambda.begin());
     balance.evaluate(s);
-    if (!balance.is_equilibrium(s, 1e-8)) refuse("forces do not balance");
+    if (!balance.is_equilibrium(s, equilibrium_tolerance)) refuse("forces do not balance");
     balance.require_lasting(s);
     const VectorXd v = vector_of(s.v);
     for (std::size_t k = 0; k < kept_.size(); ++k) {
       const double now = value((*keep_)[k], q_, v);
-      if (std::abs(now - kept_[k]) > 1e-8 * std::max(1.0, std::abs(kept_[k])))
+      if (std::abs(now - kept_[k]) > equilibrium_tolerance * std::max(1.0, std::abs(kept_[k])))
         refuse("\"" + (*keep_)[k].name + "\" cannot be kept");
     }
     return {balance.record(s), std::move(motion)};

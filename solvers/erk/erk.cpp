@@ -1,6 +1,7 @@
 #include "dalembert/solvers/erk/erk.h"
 
 #include <dalembert/core/autodiff/branches.h>
+#include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/erk/hermite.h>
@@ -27,7 +28,7 @@ double ErkStepper::RungeKutta::round_off_of_projection() const {
 /// `fault`, if the equations cannot be evaluated on its way.
 double ErkStepper::RungeKutta::attempt(double step) {
   scales.extent = covered;
-  passed_switch = passed_several = false;
+  switching.start_attempt();
   (void)Branches::strayed();
   strayed = false;
   try {
@@ -36,15 +37,17 @@ double ErkStepper::RungeKutta::attempt(double step) {
     run_stages(to, step, stages - 1, projected);
     finish(to, step, next);
     const bool not_smooth =
-        steps == 0 ? starts_at_switch : step < constants.far_too_short * usual && over == 0.0;
+        steps == 0 ? starts_at_switch : step < constants.far_too_short * usual && switching.over == 0.0;
     const double e = error(step, not_smooth ? constants.unreliable : 1.0);
     if (e > 1.0) return e;
     if (steps % check_interval == 0) watch_stability(step);
     const double correction = project();
     note_sine(next);
-    const double of_switch = strayed || Branches::strayed() ? effect_of_switch(to, next, step) : 0.0;
+    const double of_switch =
+        strayed || Branches::strayed() ? switching.effect_of_switch(to, next, step) : 0.0;
     return std::max({e, correction / (constants.most_correction + round_off_of_projection()),
-                     disagreement(step) / constants.most_disagreement, of_switch, error_of_switch(step)});
+                     disagreement(step) / constants.most_disagreement, of_switch,
+                     switching.error_of_switch(step)});
   } catch (const EquationFault& error) {
     fault = error.what();
     return std::numeric_limits<double>::infinity();
@@ -93,27 +96,27 @@ void ErkStepper::RungeKutta::accept(bool by_extrapolation) {
   extrapolated = by_extrapolation;
   std::swap(from, to);
   std::swap(to, next);
-  extrapolation.remember(to.t, halves(to.va).second);
+  singular.remember(to.t, halves(to.va).second);
 }
 
 void ErkStepper::step(double wanted) {
   RungeKutta& s = *method_;
   s.fault.clear();
-  if (s.end) throw StepFailure(*s.end);
-  if (s.steps == 0 && s.switches.any()) s.find_first_side();
-  if (s.pass_singular_position() == RungeKutta::Passing::passed) {
+  if (s.switching.end) throw StepFailure(*s.switching.end);
+  if (s.steps == 0) s.switching.find_first_side();
+  if (s.singular.attempt() == SingularPassage::Outcome::passed) {
     s.accept(true);
-
-    return s.find_side_anew();
+    return s.switching.find_side_anew();
   }
   if (s.steps % RungeKutta::check_interval == 0) s.measure_noise();
   double growth = constants.most_growth;
   for (;;) {
-    const double step = s.over > 0.0 ? std::min(s.over, s.t_end - s.to.t) : s.step_towards(wanted);
+    const double step =
+        s.switching.over > 0.0 ? std::min(s.switching.over, s.t_end - s.to.t) : s.step_towards(wanted);
     const double error = s.attempt(step);
-    if (s.may_have_passed()) {  // look again from closer
-      s.h = s.shorter(step, 0.5 * (s.least.t - s.to.t) / step);
-      s.over = 0.0;
+    if (s.singular.may_have_passed()) {  // look again from closer
+      s.h = s.shorter(step, 0.5 * (s.singular.least_angle().t - s.to.t) / step);
+      s.switching.over = 0.0;
       growth = 1.0;
       continue;
     }
@@ -122,21 +125,21 @@ void ErkStepper::step(double wanted) {
                               : constants.after_fault;
     if (error <= 1.0) {
       s.h = step * std::min(factor, growth);
-      s.over = 0.0;
+      s.switching.over = 0.0;
       break;
     }
     if (s.failures++ % RungeKutta::check_interval == 0) s.measure_noise();
     growth = 1.0;
-    s.over = 0.0;
-    if (s.stop_short(step)) break;
+    s.switching.over = 0.0;
+    if (s.switching.stop_short(step)) break;
     s.h = s.shorter(step, std::max(factor, constants.most_shrinking));
   }
   // Round-off in the sum must not leave the last part of the way short of its goal.
   const double goal = std::min(wanted, s.t_end);
-  if (std::abs(s.next.t - goal) <= 1e-14 * std::max(std::abs(goal), s.scales.time)) s.next.t = goal;
+  if (std::abs(s.next.t - goal) <= converged_to * std::max(std::abs(goal), s.scales.time)) s.next.t = goal;
   s.accept(false);
 
-  if (!s.switches.same(s.from.side, s.to.side)) s.go_on_behind();
+  s.switching.go_on_behind_switch();
 }
 
 const Scales& ErkStepper::scales() const { return method_->scales; }
@@ -162,13 +165,13 @@ StepError ErkStepper::error() const { return method_->reached; }
 /// polynomial that takes the middle, too, is better.
 void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v) {
   RungeKutta& s = *method_;
-  for (const RungeKutta::Node* node : {&s.to, &s.from}) {
+  for (const Node* node : {&s.to, &s.from}) {
     if (t != node->t) continue;
     std::ranges::copy(node->q, q.begin());
     std::copy_n(node->va.begin(), s.n, v.begin());
     return;
   }
-  if (s.extrapolated) return s.read_extrapolation(t, q, v);
+  if (s.extrapolated) return s.singular.read(t, q, v);
   s.find_middle();
   const Hermite<3> polynomial({s.from.t, s.middle.t, s.to.t}, t);
   const Hermite<3, 2> of_velocities({s.from.t, s.middle.t, s.to.t}, t);
@@ -206,7 +209,7 @@ void ErkStepper::count(Statistics& statistics) const {
   statistics.evaluations += s.manifold.evaluations();
   statistics.factorisations += s.manifold.factorisations();
   statistics.error_test_failures += s.failures;
-  statistics.singular_positions += s.singular_positions;
+  statistics.singular_positions += s.singular.passed();
   statistics.linear_algebra = s.manifold.method();
   statistics.stability_limited += s.stability_limited;
   if (2 * s.stability_limited > s.steps)

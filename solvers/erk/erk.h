@@ -23,7 +23,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// its middle, and the polynomial of degree 8 through q, q', q'' at both ends and the middle serves for all
 /// of them; its error is of order 9 like the step's own.
 ///
-/// Isolated singular positions are passed by extrapolation: see RungeKutta::pass_singular_position.
+/// Isolated singular positions are passed by extrapolation: see SingularPassage.
 ///
 /// Why not ARKODE: on scenes of a few coordinates its own work per stage, 0.2 us, is more than
 /// twice that of the equations of motion here, and its Hermite interpolation (order 5) is less
@@ -51,7 +51,10 @@ class ErkStepper final : public TimeStepper {
   void count(Statistics& statistics) const override;
 
  private:
+  struct Node;
   struct RungeKutta;
+  class SingularPassage;
+  class FrictionSwitches;
   std::unique_ptr<RungeKutta> method_;
 };
 

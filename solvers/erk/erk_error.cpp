@@ -56,11 +56,8 @@ void ErkStepper::RungeKutta::measure_noise() {
   } catch (const EquationFault&) {
     return;  // a rounding away from where the equations end
   }
-  if (switches.any()) {  // behind a switch the accelerations are others, and so are those without a direction
-    manifold.multipliers(multipliers);
-    switches.find({to.t, noise_q, noise_v}, multipliers, stage_side);
-    if (switches.rests(stage_side) || !switches.same(to.side, stage_side)) return;
-  }
+  // Behind a switch the accelerations are others, and so are those without a direction.
+  if (switching.differs({to.t, noise_q, noise_v})) return;
   for (std::size_t i = 0; i < n; ++i)
     noise[i] = std::max(constants.step_memory * noise[i], std::abs(a[i] - to.va[n + i]));
   const double off = position_violation(*system, manifold.equations(), lengths).size,

@@ -46,24 +46,18 @@ ErkStepper::RungeKutta::RungeKutta(const Problem& problem, const Start& start, c
             start.scales.time),
       longest(longest_step(options)),
       h(std::min(usual, longest)),
-      extrapolation(n),
-      switches(*system),
-      multipliers(start.lambda.size()) {
-  for (Node* node : {&from, &to, &middle, &next, &short_of, &beyond}) {
+      singular(*this, n),
+      switching(*this, *system) {
+  for (Node* node : {&from, &to, &middle, &next}) {
     node->t = options.t_start;
     node->q = start.q;
     node->va.reserve(2 * n);
     node->va.assign(start.v.begin(), start.v.end());
     node->va.insert(node->va.end(), start.a.begin(), start.a.end());
   }
-  if (switches.any()) {
-    sticking.emplace(problem, start, tolerance);
-    for (Slope* side : {&from.side, &to.side, &middle.side, &next.side, &short_of.side, &beyond.side,
-                        &stage_side, &behind_side})
-      switches.make_room(*side);
-  }
+  switching.make_room(problem, start);
   for (std::size_t i = 1; i < k.size(); ++i) k[i] = stage(i).data();
-  extrapolation.remember(to.t, start.a);
+  singular.remember(to.t, start.a);
   find_sine(to);
   if (!system->compliant()) return;
   auto e = system->evaluation();
@@ -88,17 +82,6 @@ void ErkStepper::RungeKutta::find_sine(Node& node) {
 void ErkStepper::RungeKutta::note_sine(Node& node) const {
   node.sine = manifold.sine();
   node.rows = manifold.exchanges();
-}
-
-/// At stage i, on whose way other rows may have taken over.
-void ErkStepper::RungeKutta::note_angle(std::size_t i, double t) {
-  angles[i] = {t, manifold.sine()};
-  if (manifold.exchanges() != rows_of_angles) {
-    rows_of_angles = manifold.exchanges();
-    angles.fill(angles[i]);
-    least = angles[i];
-  }
-  if (angles[i].sine < least.sine) least = angles[i];
 }
 
 /// Whether the angle between constraints changes much in a step. An error e of a stage off the manifold is
@@ -129,9 +112,7 @@ void ErkStepper::RungeKutta::record_comparisons_of_stage(std::size_t i, double t
 void ErkStepper::RungeKutta::run_stages(const Node& start, double step, std::size_t last,
                                         bool onto_constraints) {
   k[0] = start.va.data();
-  angles.fill(start.angle());
-  least = angles[0];
-  rows_of_angles = start.rows;
+  singular.start_step(start);
   for (std::size_t i = 1; i <= last; ++i) {
     a[i].move(step, k, start.q.data(), stage_q.data(), start.va.data(), stage(i).data(), n);
     const double t = start.t + pair.c[i] * step;
@@ -139,8 +120,8 @@ void ErkStepper::RungeKutta::run_stages(const Node& start, double step, std::siz
       record_comparisons_of_stage(i, t, onto_constraints);
     else
       run_stage(i, t, onto_constraints);
-    note_angle(i, t);
-    if (&start == &to) check_switch(i, t);
+    singular.note_angle(i, t);
+    if (&start == &to) switching.check_switch(i, t);
   }
 }
 
@@ -154,6 +135,7 @@ void ErkStepper::RungeKutta::finish(const Node& start, double step, Node& end) c
 void ErkStepper::RungeKutta::find_middle() {
   if (has_middle) return;
   const double half = 0.5 * (to.t - from.t);
+  const Angle& least = singular.least_angle();
   const bool dips = least.sine < (1.0 - constants.changing_angle) * std::min(from.sine, to.sine);
   const bool on = projected || (dips && least.sine < constants.close_to_dependent);
   run_stages(from, half, last_stage_of_step, on);

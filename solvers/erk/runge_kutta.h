@@ -4,12 +4,12 @@
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/erk/combination.h>
 #include <dalembert/solvers/erk/erk.h>
+#include <dalembert/solvers/erk/friction_switches.h>
+#include <dalembert/solvers/erk/node.h>
+#include <dalembert/solvers/erk/singular_passage.h>
 #include <dalembert/solvers/erk/verner.h>
 #include <dalembert/solvers/manifold/manifold.h>
 #include <dalembert/solvers/run/accumulated_error.h>
-#include <dalembert/solvers/run/singular_extrapolation.h>
-#include <dalembert/solvers/run/singularity.h>
-#include <dalembert/solvers/run/sticking.h>
 
 #include <array>
 #include <limits>
@@ -28,18 +28,6 @@ struct ErkStepper::RungeKutta {
 
   RungeKutta(const Problem& problem, const Start& start, const Options& options);
 
-  /// An instant between two steps: positions, and velocities and accelerations in one piece, as the
-  /// first stage of the next step.
-  struct Node {
-    double t = 0.0;
-    std::vector<double> q, va;
-    double sine = 1.0;  // see Manifold,
-    long rows = 0;      // of those in use after so many exchanges
-    Slope side{};       // of friction laws; unset if there are none
-
-    [[nodiscard]] Angle angle() const { return {t, sine}; }
-  };
-
   /// Velocities and accelerations.
   [[nodiscard]] std::pair<std::span<double>, std::span<double>> halves(std::span<double> x) const {
     return {x.first(n), x.subspan(n)};
@@ -56,7 +44,6 @@ struct ErkStepper::RungeKutta {
   [[nodiscard]] bool close_to_singular(double step) const;
   void find_sine(Node& node);
   void note_sine(Node& node) const;
-  void note_angle(std::size_t i, double t);
   void finish(const Node& start, double step, Node& end) const;
   void find_middle();
 
@@ -73,36 +60,9 @@ struct ErkStepper::RungeKutta {
   void watch_stability(double step);
 
   [[nodiscard]] double round_off_of_projection() const;
-  // See erk_switch.cpp.
-  void find_first_side();
-  void find_side(Node& node);
-  void find_side_anew();
-  void check_switch(std::size_t i, double t);
-  [[nodiscard]] bool failed_behind_switch();
-  [[nodiscard]] double effect_of_switch(const Node& a, const Node& b, double step);
-  [[nodiscard]] double error_of_switch(double step);
-  [[nodiscard]] bool stop_short(double step);
-  [[nodiscard]] StepFailure why_not_over(Node& before);
-  [[nodiscard]] bool driven_back();
-  void go_on_behind();
-  void read(const Node& node, Motion& out) const;
-
   [[nodiscard]] double attempt(double step);
   void accept(bool by_extrapolation);
 
-  /// The outcome of an attempt to pass a singular position.
-  enum class Passing { none, ahead, passed };
-  [[nodiscard]] Passing pass_singular_position();
-  [[nodiscard]] double time_left() const;
-  [[nodiscard]] bool may_have_passed() const;
-  [[nodiscard]] double least_between_stages() const;
-  [[nodiscard]] double find_singular(double& t);
-  [[nodiscard]] bool extrapolate_past(double singular);
-  [[nodiscard]] bool passes_beside(double singular);
-  [[nodiscard]] bool worth_taking(double error);
-  /// From the last node to t, see SingularExtrapolation.
-  void extrapolate(std::size_t nodes, double t, Node& out);
-  void read_extrapolation(double t, std::span<double> q, std::span<double> v) const;
   [[nodiscard]] double shortest() const;
   [[nodiscard]] double shorter(double step, double factor) const;
   [[nodiscard]] std::string cause() const;
@@ -144,29 +104,10 @@ struct ErkStepper::RungeKutta {
   double h;                             // to try next
   long steps = 0, failures = 0, stability_limited = 0;
 
-  SingularExtrapolation extrapolation;
-  std::size_t extrapolation_nodes = 0;  // of the step that extrapolated
-  static constexpr double none_yet = std::numeric_limits<double>::infinity();
-  std::array<Angle, stages> angles{};  // at the stages of an attempt, since other rows took over,
-  Angle least{};                       // and the least of them
-  long rows_of_angles = 0;
-  bool only_close = false;               // the constraints, not dependent, where the angle falls now
-  double next_attempt = none_yet;        // the distance from which it is worth another attempt
-  double best_extrapolation = none_yet;  // error over the tolerance, of
-  Node best_extrapolated;                // a passage that was not taken yet
-  int singular_positions = 0;
   std::string fault;  // of the last attempt that failed
 
-  Switches switches;
-  std::optional<Sticking> sticking;     // if there are any
-  std::vector<double> multipliers;      // work
-  Motion before_switch, behind_switch;  // work
-  Slope stage_side, behind_side;        // of stages, the latter behind a switch
-  bool passed_switch = false;           // by the last attempt,
-  bool passed_several = false;          // and more than one
-  Node short_of, beyond;                // where steps end in front of a switch, and behind it
-  double over = 0.0;                    // the step to take next, over a switch
-  std::optional<StepFailure> end;       // what the run ends with where the last step ended
+  SingularPassage singular;
+  FrictionSwitches switching;
 };
 
 }  // namespace dalembert

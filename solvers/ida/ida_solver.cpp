@@ -1,5 +1,6 @@
 #include "dalembert/solvers/ida/ida_solver.h"
 
+#include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/ida/vector_operations.h>
@@ -18,7 +19,7 @@ IdaStepper::Solver::Solver(const Problem& problem, const Start& start, const Opt
       lengths(start.scales.lengths()),
       tolerance(tolerance_of_a_step(Stepper::ida, options.tolerance)),
       t_end(options.t_end),
-      first_step(std::min(constants.first_implicit_step * std::sqrt(options.tolerance) * start.scales.time,
+      first_step(std::min(Accuracy(options.tolerance).first_implicit_step() * start.scales.time,
                           longest_step(options))),
       e(system->evaluation()),
       lambda(start.lambda.size()),

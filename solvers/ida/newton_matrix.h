@@ -130,7 +130,7 @@ class NewtonMatrix {
   };
 
   Problem problem_;
-  const System* system_;  // its own
+  const System* system_;  // points into problem_
   ActiveRows rows_;
   double time_;
   double still_soft_ = constants.soft;
@@ -147,7 +147,7 @@ class NewtonMatrix {
   bool asks_sine_ = false;
   double sine_ = 1.0;
   std::vector<double> x1_, x2_, p_, dmu_;
-  std::vector<char> yields_;  // per holonomic active row, see above
+  std::vector<char> yields_;  // per holonomic active row: its compliance outweighs its inertia
   bool k1_in_use_ = false;
   long factorisations_of_earlier_ = 0;  // matrices K1, of fewer islands
   std::size_t first_force_entry_;       // of the stiffness: constraints come first

@@ -1,5 +1,7 @@
 #include "dalembert/solvers/lagrange/cross_check.h"
 
+#include <dalembert/solvers/base/accuracy.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -106,9 +108,8 @@ void Comparison::add_state(const FlatSample& sample, std::span<const double> q, 
 }
 
 void Comparison::require_same_start() const {
-  constexpr double stated = 1e-8;  // as roughly as a start may be stated, see InconsistentStart
   for (const Difference* d : {&found_.position, &found_.velocity}) {
-    if (d->relative() <= stated) continue;
+    if (d->relative() <= start_tolerance) continue;
     std::ostringstream what;
     what << "Scene \"" << system_->layout()->scene << "\" and the Lagrangian do not begin in the same state: "
          << (d == &found_.position ? "positions" : "velocities") << " of \"" << d->where << "\" differ by "

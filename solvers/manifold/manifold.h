@@ -113,7 +113,7 @@ class Manifold {
   /// The multipliers last found, one per row of the system; 0 in rows that are not in use.
   void multipliers(std::span<double> lambda) const;
 
-  /// Per row of the system, whether its last multiplier is determined by the motion.
+  /// Per row of the system, whether the motion gives it one multiplier only.
   [[nodiscard]] std::span<const char> unique() const { return minimum_norm_.unique(); }
 
   /// The equations at the state last visited.
@@ -143,7 +143,7 @@ class Manifold {
   [[nodiscard]] bool solve_with_compliance(const Instant& at, std::span<const double> lambda);
 
   Problem problem_;
-  const System* system_;  // its own
+  const System* system_;  // points into problem_
   ActiveRows rows_;
   std::vector<double> lengths_;
   System::Evaluation e_;

@@ -33,7 +33,7 @@ Recovery::Recovery(const Problem& problem, const Start& start, double tolerance)
       system_(&problem_.system()),
       scales_(start.scales),
       lengths_(start.scales.lengths()),
-      tolerance_(tolerance),
+      accuracy_(tolerance),
       left_out_(problem.islands().count),
       q_given_(start.q.size()),
       v_given_(start.q.size()),
@@ -67,7 +67,8 @@ void Recovery::find_moved_too_far(const OutputState& m) {
     const double dq = std::abs(m.q[i] - q_given_[i]), dv = std::abs(m.v[i] - v_given_[i]);
     far[island] = std::max(far[island], dq * lengths_[i]);
     fast[island] = std::max(fast[island], dv * lengths_[i]);
-    if (dq > scales_.position_error(i, q_given_[i], tolerance_) || dv > tolerance_ * speed)
+    if (dq > scales_.position_error(i, q_given_[i], accuracy_.of_positions()) ||
+        dv > accuracy_.of_velocities() * speed)
       left_out_[island] = 1;
   }
   if (!std::ranges::count(left_out_, 1)) return;
@@ -118,7 +119,9 @@ void Recovery::keep_given(Manifold& manifold, OutputState& m) {
 }
 
 /// How far steps may leave the constraints unnoticed.
-double Recovery::unnoticed() const { return constants.most_correction * tolerance_ * scales_.length; }
+double Recovery::unnoticed() const {
+  return constants.most_correction * accuracy_.of_positions() * scales_.length;
+}
 
 void Recovery::require_agreement(const OutputState& m) const {
   const auto refuse = [&](const Violation& left, const char* what) {
@@ -172,11 +175,12 @@ void Recovery::mark_accelerations(OutputState& m) const {
   }
   for (std::size_t i = 0; i < a_.size(); ++i) largest = std::max(largest, std::abs(m.a[i]) * lengths_[i]);
   for (std::size_t i = 0; i < a_.size(); ++i) {
-    if (!(std::abs(a_[i] - m.a[i]) * lengths_[i] <= std::sqrt(tolerance_) * largest)) m.a[i] = undetermined;
+    if (!(std::abs(a_[i] - m.a[i]) * lengths_[i] <= accuracy_.of_accelerations() * largest))
+      m.a[i] = undetermined;
   }
 }
 
-/// Compares with a second state, see above.
+/// Compares with a second state, see Recovery.
 void Recovery::mark_undetermined(Manifold& manifold, OutputState& m) {
   std::ranges::copy(manifold.equations().w, w_.begin());
   manifold.weakest_directions(n_, response_);
@@ -212,7 +216,7 @@ bool Recovery::mark_multipliers(OutputState& m) const {
   bool any = false;
   for (const Layout::Constraint& c : system_->layout()->constraints) {
     for (const std::size_t r : c.own_rows()) {
-      if (std::isnan(m.lambda[r]) || force(r, lambda_[r] - m.lambda[r]) <= std::sqrt(tolerance_) * largest)
+      if (std::isnan(m.lambda[r]) || force(r, lambda_[r] - m.lambda[r]) <= accuracy_.of_forces() * largest)
         continue;
       m.lambda[r] = undetermined;
       std::ranges::fill(c.slots().in(std::span(m.forces)), undetermined);
@@ -266,7 +270,7 @@ void Recovery::mark_compliant(const Manifold& manifold, OutputState& m, long ste
       if (C == 0.0 || !system_->in_force(r)) continue;
       const double gradient = gradient_length(*system_, w, lengths_, r);
       const double stretch = largest * C + gradient * (to_come.empty() ? 0.0 : to_come[r]);
-      if (gradient * gradient * dx <= std::sqrt(tolerance_) * stretch) continue;
+      if (gradient * gradient * dx <= accuracy_.of_forces() * stretch) continue;
       m.lambda[r] = undetermined;
       std::ranges::fill(c.slots().in(std::span(m.forces)), undetermined);
       for (const std::size_t j : system_->row(r)) m.a[system_->w_columns()[j]] = undetermined;

@@ -35,7 +35,7 @@ struct OutputState {
 /// Where they are close to dependent the forces of a state on the constraints, too, may be those of its
 /// round-off. What the constraints of an island constrain least is one direction n (see
 /// Manifold::weakest_directions). A second state, as far off along n as they do not resolve, shows what that
-/// does: a multiplier that differs by more than the root of the tolerance, relative to the largest
+/// does: a multiplier that differs by more than forces are known to (see Accuracy), relative to the largest
 /// determined, is not determined. It is NaN here, and Sample throws where it is read. So are accelerations.
 ///
 /// Nor is that of a compliant constraint if it is read from positions, lambda = -g/C, and C is so small that
@@ -66,10 +66,10 @@ class Recovery {
   void leave_forces_out(OutputState& m) const;
 
   Problem problem_;
-  const System* system_;  // its own
+  const System* system_;  // points into problem_
   Scales scales_;
   std::vector<double> lengths_;
-  double tolerance_;
+  Accuracy accuracy_;
   std::vector<char> left_out_;  // per island, whether its forces are not determined
   bool any_left_out_ = false;
   std::vector<double> q_given_, v_given_;       // before projection

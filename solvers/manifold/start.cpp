@@ -15,9 +15,6 @@ namespace dalembert {
 
 namespace {
 
-/// What Newton's iteration leaves when it has converged; a few units of round-off.
-constexpr double converged_to = 1e-14;
-
 /// The equations at a state whose springs are as long as it says: compliant rows are satisfied there.
 void evaluate_relaxed(const System& system, const Instant& at, System::Evaluation& e) {
   system.evaluate(at, e);

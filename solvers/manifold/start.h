@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/base/options.h>
 #include <dalembert/solvers/linear/problem.h>
@@ -10,10 +11,6 @@
 #include <vector>
 
 namespace DALEMBERT_HIDDEN dalembert {
-
-/// A start that violates a constraint by less than this, relative to the scene's length or speed,
-/// is taken for one that obeys it in rounded numbers, and projected silently.
-inline constexpr double start_tolerance = 1e-8;
 
 /// A state that satisfies the constraints at position, velocity and acceleration level.
 struct Start {

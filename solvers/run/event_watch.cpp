@@ -25,7 +25,7 @@ bool wanted(Crossing crossing, int before) {
 EventWatch::EventWatch(std::vector<FlatEvent> events, Rate rate, const Layout& layout, double tolerance)
     : events_(std::move(events)),
       rate_(std::move(rate)),
-      tolerance_(tolerance),
+      accuracy_(tolerance),
       largest_(events_.size()),
       largest_before_(events_.size()),
       seen_(events_.size()),
@@ -203,24 +203,23 @@ void EventWatch::find(std::size_t event, const Step& step, const std::vector<Int
   }
 }
 
-/// Whether an interpolant shows a function of contacts, to the root of the tolerance: rates and the slopes of
-/// positions differ by what steps err by. (What would take the whole step to reach 0, at its
-/// largest rate, does not reach it.)
+/// Whether an interpolant shows a function of contacts as exactly as forces are known: rates and the slopes
+/// of positions differ by what steps err by. (What would take the whole step to reach 0, at its largest rate,
+/// does not reach it.)
 bool EventWatch::shows(std::size_t event, const Values& values) const {
   double fastest = 0.0, least = std::numeric_limits<double>::infinity();
   for (const double rate : values.rates) fastest = std::max(fastest, std::isnan(rate) ? 0.0 : std::abs(rate));
   for (const double value : values.whole.values) least = std::min(least, value);
   const double length = values.whole.nodes.back() - values.whole.nodes.front();
   return fastest * length < least ||
-         agrees_in_slope(values.whole, values.rates, std::sqrt(tolerance_) * largest_[event]);
+         agrees_in_slope(values.whole, values.rates, accuracy_.of_forces() * largest_[event]);
 }
 
-/// The interpolants that show a function. Those of contacts are known as forces are, to the root of the
-/// tolerance.
+/// The interpolants that show a function. Those of contacts are known as forces are.
 std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& step, Values values) {
   const auto function = [&](double t) { return value(event, step.read(t)); };
   constexpr std::size_t most_parts = 4096;  // of a step: some hundred periods are still resolved
-  const double known = event < asked_for_ ? round_off() : std::sqrt(tolerance_);
+  const double known = event < asked_for_ ? round_off() : accuracy_.of_forces();
   if (event >= resolved_) {
     if (shows(event, values)) return {std::move(values.whole)};
     const int degree = std::max(step.degree, least_degree);

@@ -2,6 +2,7 @@
 
 #include <dalembert/core/results/event.h>
 #include <dalembert/core/results/trajectory.h>
+#include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/run/interpolant.h>
 
@@ -105,7 +106,7 @@ class EventWatch {
 
   std::vector<FlatEvent> events_;
   Rate rate_;
-  double tolerance_;
+  Accuracy accuracy_;
   double from_ = 0.0;
   std::size_t asked_for_ = 0;             ///< the first of them; behind are those of contacts
   std::size_t resolved_ = 0;              ///< the first of them may be faster than the motion

@@ -1,6 +1,7 @@
 #include "dalembert/solvers/run/sticking.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/step_failure.h>
 
@@ -51,7 +52,7 @@ Sticking::Sticking(const Problem& problem, const Start& start, double tolerance)
       switches_(*system_),
       time_(start.scales.time),
       // The square of this, of the scene's time, is what the time of sticking may be wrong by.
-      soon_(std::sqrt(tolerance) * time_),
+      soon_(Accuracy(tolerance).short_time() * time_),
       lambda_(start.lambda) {}
 
 void Sticking::find_slope(const Motion& at, Slope& side) {

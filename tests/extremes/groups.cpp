@@ -1,4 +1,4 @@
-#include <dalembert/bench/extremes/case.h>
+#include <dalembert/tests/extremes/cases/case.h>
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ TEST(Extremes, LinkagesPassTheirSingularPositions) { expect_right(linkages()); }
 TEST(Extremes, FastAndBrokenDrivesAreFollowed) { expect_right(driving()); }
 TEST(Extremes, LongRunsAndLargeScenesAreRight) { expect_right(length()); }
 TEST(Extremes, FreeParticlesHaveTheLengthOfTheirPath) { expect_right(paths()); }
-TEST(Extremes, UnitsAndTheOriginOfTimeAreOfNoAccount) { expect_right(units()); }
+TEST(Extremes, ResultIsIndependentOfUnitsAndTimeOrigin) { expect_right(units()); }
 TEST(Extremes, StartsAreAssembledOrRefusedByName) { expect_right(starts()); }
 TEST(Extremes, RedundantConstraintsAreAsAccurateAsIndependentOnes) { expect_right(redundancy()); }
 TEST(Extremes, AtRoundOffAndAtSingularPositionsForcesAreRightOrNotRead) { expect_right(at_round_off()); }

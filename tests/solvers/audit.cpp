@@ -337,7 +337,7 @@ TEST(AuditOfWork, FindsEnergyThatChangesBetweenSamples) {
   const FlatSample start = later.run.sample(0).flat();
   for (const double gain : {0.0, 1e-2, -1e-2}) {  // of 20
     WorkBalance balance(system, claim);
-    balance.begin(start.time, start.energy, start.v);
+    balance.start_interval(start.time, start.energy, start.v);
     for (int i = 1; i <= 100; ++i) {  // as many as an explicit run has
       std::vector<double> v = later.now.v;
       for (double& each : v) each *= 0.01 * i;
@@ -359,7 +359,7 @@ TEST(AuditOfWork, LetsCoulombsFrictionTakeEnergyButNotGiveIt) {
   Falsified<2> later(scene.scene);
   for (const double energy : {2.0, 13.0}) {  // of 12.5
     WorkBalance balance(system, claim);
-    balance.begin(0.0, 12.5, later.run.sample(0).flat().v);
+    balance.start_interval(0.0, 12.5, later.run.sample(0).flat().v);
     later.now.energy = energy;
     Findings findings;
     balance.check(later.now.flat(), claim, findings);

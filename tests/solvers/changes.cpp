@@ -120,7 +120,7 @@ TEST_P(Changes, KickWhatRestsOnAFloor) {
   }
 }
 
-TEST_P(Changes, ThatImposeAConstraintLetContactsAndFrictionAnswer) {
+TEST_P(Changes, ContactsAndFrictionAnswerAnImposedConstraint) {
   // A ball rests on a floor, another of the same mass goes up at v beside it; where the rod between them is
   // imposed both go up at v/2: the floor does not hold the first. On a rough floor two blocks go sideways.
   for (const bool rough : {false, true}) {
@@ -232,7 +232,7 @@ struct Reflected {
   }
 };
 
-TEST_P(Changes, ThatChatterAreErrors) {
+TEST_P(Changes, ChatteringChangesAreErrors) {
   // Whatever the ratio of the flights: where too few are seen for their limit to be known, the first that is
   // lost in round-off is enough.
   for (const double restitution : {0.9, 0.5, 0.1, 1e-2, 1e-3, 1e-4}) {
@@ -245,7 +245,7 @@ TEST_P(Changes, ThatChatterAreErrors) {
   }
 }
 
-TEST_P(Changes, ThatStopWhatFallsOnIsLetFall) {
+TEST_P(Changes, ReleasedStopLetsItFall) {
   // Stopped on its way down a ball falls on, through where it was stopped.
   const Reflected its(0.0);
   const auto run = simulate(its.scene, options(1.0), {its.bounce(0.0)});

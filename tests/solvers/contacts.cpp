@@ -50,7 +50,7 @@ TEST(Complementarity, WithoutSolutionSaysSo) {
 class Contacts : public WithEvents {};
 INSTANTIATE_TEST_SUITE_P(Runs, Contacts, at_tolerances, tolerance_name);
 
-TEST_P(Contacts, OfAWashboardAreMetAtItsFirstCrest) {
+TEST_P(Contacts, WashboardIsMetAtItsFirstCrest) {
   // Thrown flat over y = A sin(n x + 0.1), many of whose crests lie within one step of a parabola. The first
   // impact by looking along that in steps of 1e-5 s, and by bisection. The parabola is within round-off;
   // times are as exact as the path along the board is, to the tolerance of 1 m over the least speed of 3 m/s.
@@ -78,7 +78,7 @@ TEST_P(Contacts, OfAWashboardAreMetAtItsFirstCrest) {
   }
 }
 
-TEST_P(Contacts, OfAVibratingTableThrowItsLoadOff) {
+TEST_P(Contacts, VibratingTableThrowsItsLoad) {
   // y = A sin(w t): the load leaves where A w^2 sin(w t) = g, at A w cos(w t).
   constexpr double A = 0.1, w = 20.0;
   Scene<2> scene;
@@ -97,7 +97,7 @@ TEST_P(Contacts, OfAVibratingTableThrowItsLoadOff) {
 
 // A mass drifts, without gravity, onto a floor that vibrates: it meets the first crest that reaches it, found
 // by a scan.
-TEST_P(Contacts, OfAFloorFasterThanTheMotionStrikeAtItsFirstCrest) {
+TEST_P(Contacts, FloorFasterThanTheMotionStrikesAtItsFirstCrest) {
   constexpr double A = 0.01;
   for (const double w : {10.0, 100.0, 300.0}) {
     Scene<2> scene("drifts");
@@ -117,7 +117,7 @@ TEST_P(Contacts, OfAFloorFasterThanTheMotionStrikeAtItsFirstCrest) {
 }
 
 // What rests is pulled up by 12 t sin w t: it leaves the floor where that first is its weight of 10 N.
-TEST_P(Contacts, OfWhatRestsOpenWhereAFastForceFirstLiftsIt) {
+TEST_P(Contacts, RestingBlockOpensWhereAFastForceFirstLiftsIt) {
   for (const double w : {30.0, 100.0, 300.0}) {
     Scene<2> scene("pulled");
     scene.add(UniformGravity<2>{{0.0, -10.0}});
@@ -139,7 +139,7 @@ TEST_P(Contacts, OfWhatRestsOpenWhereAFastForceFirstLiftsIt) {
   }
 }
 
-TEST_P(Contacts, ThatShareALoadInManyWaysPushAll) {
+TEST_P(Contacts, AllContactsThatShareALoadPush) {
   // A table on four legs, the load over one of them: the least squares would pull at the leg across.
   Scene<3> scene("table");
   scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
@@ -170,7 +170,7 @@ TEST_P(Contacts, ThatShareALoadInManyWaysPushAll) {
   EXPECT_TRUE(run.events().empty());
 }
 
-TEST_P(Contacts, OfAStackCarryWhatLiesOnThem) {
+TEST_P(Contacts, StackCarriesWhatLiesOnIt) {
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -g}});
   const auto lower = scene.add_particle({.mass = 1.0}),
@@ -187,7 +187,7 @@ TEST_P(Contacts, OfAStackCarryWhatLiesOnThem) {
   EXPECT_NEAR(run.multiplier(between, 10), 2.0 * g, bound * g);
 }
 
-TEST_P(Contacts, ThatAreGrazedChangeNothing) {
+TEST_P(Contacts, GrazedContactChangesNothing) {
   // The top of a parabola touches a ceiling, y = 1/2.
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -1.0}});
@@ -198,7 +198,7 @@ TEST_P(Contacts, ThatAreGrazedChangeNothing) {
   EXPECT_NEAR(run.energy(10), run.energy(0), bound);
 }
 
-TEST_P(Contacts, ThatTouchWithoutForceStayAsTheyAre) {
+TEST_P(Contacts, TouchWithoutForceStaysAsItIs) {
   // Balls in touch, each with a spring of its own place: they swing together, and press nothing.
   for (const double coarse : {1e-6, 1e-8, 1e-10}) {
     Scene<2> scene;
@@ -222,7 +222,7 @@ TEST_P(Contacts, ThatTouchWithoutForceStayAsTheyAre) {
   }
 }
 
-TEST_P(Contacts, AreStruckWithTheirSpeedToTheTolerance) {
+TEST_P(Contacts, ImpactSpeedIsRightToTheTolerance) {
   // A potential that bends at the floor: the step up to there is short, and its polynomial's derivative would
   // be as inexact as positions over that. 9.81 y + y |y|/2 is fallen through from y = 1.
   Scene<2> scene;
@@ -238,7 +238,7 @@ TEST_P(Contacts, AreStruckWithTheirSpeedToTheTolerance) {
   }
 }
 
-TEST_P(Contacts, ThatCannotBeObeyedAreErrorsByName) {
+TEST_P(Contacts, ContradictoryContactsAreErrorsByName) {
   const auto scene = [](double height) {
     Scene<2> s("press");
     const auto load = s.add_particle({.mass = 1.0, .position = {0.0, height}}, "load");

@@ -50,7 +50,7 @@ TEST_P(ContactsAtRoundOff, OpenWhereTheirForceVanishesAmongImpacts) {
   }
 }
 
-TEST_P(ContactsAtRoundOff, OfASlotWithoutPlayStopWhatIsThrownAcross) {
+TEST_P(ContactsAtRoundOff, SlotWithoutPlayStopsWhatIsThrownAcross) {
   // To and fro in no time, slower each time; then one side bears what pulls, and it goes along the slot.
   Scene<2> scene;
   const auto ball = scene.add_particle({.mass = 1.0, .position = {0.6, -0.5}, .velocity = {-4.0, 0.5}});

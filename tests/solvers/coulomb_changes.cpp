@@ -91,7 +91,7 @@ TEST_P(CoulombChanges, FollowABeltThatReverses) {
   EXPECT_NEAR(run.position(its.block, 10).x(), 1.0 - (2.0 - 1.0 - 2.0 / (mu * g)), bound());
 }
 
-TEST_P(CoulombChanges, OfAVelocityThatIsTurnedIsAgainstIt) {
+TEST_P(CoulombChanges, FrictionOpposesATurnedVelocity) {
   // At t = 0.5 the velocity is set to -2: to rest after 2/(mu g).
   constexpr double mu = 0.3;
   Block its(3.0, mu);
@@ -107,7 +107,7 @@ TEST_P(CoulombChanges, OfAVelocityThatIsTurnedIsAgainstIt) {
   EXPECT_NEAR(run.position(its.block, 10).x(), 3.0 * 0.5 - mu * g * 0.125 - 2.0 / (mu * g), bound());
 }
 
-TEST_P(CoulombChanges, OfABlockThatIsCarriedSlidesBothWays) {
+TEST_P(CoulombChanges, CarriedBlockSlidesBothWays) {
   // x = 1 + A sin w t: friction -mu m g sgn v, the rod gives the rest of m x''.
   constexpr double mu = 0.3, A = 0.1, w = 2.0;
   Scene<2> scene("carried");
@@ -128,7 +128,7 @@ TEST_P(CoulombChanges, OfABlockThatIsCarriedSlidesBothWays) {
 }
 
 // The slip grows from rest like t^2, t^3 or after a rest: friction is there as soon as it is a slip.
-TEST_P(CoulombChanges, OfABlockThatIsCarriedOffSlowlySlidesAtOnce) {
+TEST_P(CoulombChanges, BlockCarriedOffSlowlySlidesAtOnce) {
   constexpr double mu = 0.3;
   const auto carried = [&](const auto& path, double from) {
     Scene<2> scene("carried");
@@ -154,7 +154,7 @@ TEST_P(CoulombChanges, OfABlockThatIsCarriedOffSlowlySlidesAtOnce) {
       1.0);
 }
 
-TEST_P(CoulombChanges, OfADrivenWheelThatIsHeldSlidesBothWays) {
+TEST_P(CoulombChanges, HeldWheelSlidesBothWays) {
   // Centre held, phi = sin t prescribed: the slip is R phi'.
   constexpr double mu = 0.2, R = 0.5, m = 2.0, I = 0.25;
   Scene<2> scene("grinder");
@@ -175,7 +175,7 @@ TEST_P(CoulombChanges, OfADrivenWheelThatIsHeldSlidesBothWays) {
   }
 }
 
-TEST_P(CoulombChanges, OfWhatIsHeldAtRestIsSaidNotToBeDetermined) {
+TEST_P(CoulombChanges, SharesOfHeldFeetAreNotUnique) {
   Scene<2> scene("held");
   scene.add(UniformGravity<2>{{1.0, -g}});
   const auto block = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
@@ -212,7 +212,7 @@ struct Stool {
   }
 };
 
-TEST_P(CoulombChanges, OfThreeFeetHoldsUntilAllOfThemSlide) {
+TEST_P(CoulombChanges, ThreeFeetHoldUntilAllOfThemSlide) {
   // Pushed along the axis of symmetry: k t/3 on each foot, translation from k t = 3 mu g on.
   constexpr double k = 10.0;
   Stool its(0, k);
@@ -231,7 +231,7 @@ TEST_P(CoulombChanges, OfThreeFeetHoldsUntilAllOfThemSlide) {
   EXPECT_LT(static_cast<double>(run.statistics().steps), most_steps());
 }
 
-TEST_P(CoulombChanges, OfThreeFeetTurnsThemAboutOneThatKeepsStill) {
+TEST_P(CoulombChanges, ThreeFeetTurnAboutOneThatKeepsStill) {
   // Pushed at the second: about the third, F sqrt(3) = 2 mu g sqrt(3).
   constexpr double k = 5.0;
   Stool its(1, k);
@@ -252,7 +252,7 @@ TEST_P(CoulombChanges, OfThreeFeetTurnsThemAboutOneThatKeepsStill) {
   EXPECT_LT(static_cast<double>(run.statistics().steps), most_steps());
 }
 
-TEST_P(CoulombChanges, OfTwoFeetIsThatOfBoth) {
+TEST_P(CoulombChanges, TwoFeetHaveTheFrictionOfBoth) {
   // Joined by a rod: they go where the push is mu times both weights.
   constexpr double k = 6.0, mu = 0.3;
   Scene<2> scene("feet");

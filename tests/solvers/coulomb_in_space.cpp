@@ -82,7 +82,7 @@ TEST_P(CoulombFrictionInSpace, GoesTheWayItIsPulled) {
 
 // All decelerate by mu g, without a load on the bars between them, and stop together after v/(mu g), at
 // v^2/(2 mu g). What an error of the steps leaves of the others' slip once one of them sticks is none.
-TEST_P(CoulombFrictionInSpace, OfThreeFeetThatSlideStraightOnStopsThemTogether) {
+TEST_P(CoulombFrictionInSpace, ThreeFeetThatSlideStraightOnStopTogether) {
   constexpr double mu = 0.3, v0 = 1.0;
   for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-11, 1e-12, 1e-13}) {
     Scene<3> scene("feet");
@@ -112,7 +112,7 @@ TEST_P(CoulombFrictionInSpace, OfThreeFeetThatSlideStraightOnStopsThemTogether) 
   }
 }
 
-TEST_P(CoulombFrictionInSpace, OfCoupledPucksGoesAgainstTheirAccelerations) {
+TEST_P(CoulombFrictionInSpace, CoupledPucksAreHeldAgainstTheirAccelerations) {
   // Two pucks with a rod between them, pulled from rest each its own way.
   constexpr double mu = 0.3;
   Scene<3> scene;

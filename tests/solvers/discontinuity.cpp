@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(AtTolerances, Kinks,
 // A spring of rate k on one side of x = 0 is in contact for half a period, pi/sqrt(k), and returns the speed
 // of approach. An error of velocity is one of position over the 2 s that follow; both count like the scene,
 // of some metres and seconds.
-TEST_P(Kinks, OfAOneSidedSpringReturnTheSpeed) {
+TEST_P(Kinks, OneSidedSpringReturnsTheSpeed) {
   const double k = 400.0, x0 = 0.5, t_end = 3.0;
   OnALine line(x0, -1.0);
   line.scene.add(potential(points(line.body),
@@ -111,7 +111,7 @@ TEST_P(Kinks, OfAOneSidedSpringReturnTheSpeed) {
 }
 
 // V = |x|: from the edge at speed 1 out, back after 2, and as far on the other side.
-TEST_P(Kinks, OfAPotentialAreMetAtTheStartAndOnTheWay) {
+TEST_P(Kinks, KinksOfAPotentialAreMetAtTheStartAndOnTheWay) {
   OnALine line(0.0, 1.0);
   line.scene.add(potential(points(line.body), [](const auto& r) { return abs(r[0]); }), "vee");
   const auto run = simulate(line.scene, explicitly(3.0, GetParam()));
@@ -136,7 +136,7 @@ TEST_P(Kinks, FromOneInstantOnIsWhenTheForceActs) {
 }
 
 // 4 N while sin(w t + 0.1) > 0: many times within the steps of a motion that is a parabola.
-TEST_P(Kinks, OfASquareWaveAreAllMet) {
+TEST_P(Kinks, AllJumpsOfASquareWaveAreMet) {
   for (const double w : {10.0, 20.0, 30.0, 60.0}) {
     OnALine line(0.0, 1.0);
     line.push([w](const auto& t, const auto&, const auto&) { return sin(w * t + 0.1) > 0.0 ? 4.0 : 0.0; },
@@ -158,7 +158,7 @@ TEST_P(Kinks, OfASquareWaveAreAllMet) {
 
 // F = 1 beyond x = 2 and 2 in front of it: thrown at it so that it just gets there, the particle turns at the
 // switch. An error of 3 tol of the place leaves it behind for sqrt(2 * 3 tol) twice, at another force by 1 N.
-TEST_P(Kinks, ThatAreTouchedAtATurningPointArePassed) {
+TEST_P(Kinks, KinkTouchedAtATurningPointIsPassed) {
   for (int k = 0; k < 100; ++k) {
     const double v = (k % 2 == 0 ? 0.5 : 1.0) + 0.01 * k, x0 = 2.0 + 0.5 * v * v;
     OnALine line(x0, -v);

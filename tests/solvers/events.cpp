@@ -44,7 +44,7 @@ TEST(Root, IsFoundOfSmoothFunctionsAndOfJumps) {
   EXPECT_EQ(root([](double x) { return x; }, -1.0, -1.0, 0.0, 0.0, 1e-15), 0.0);
 }
 
-TEST_P(Events, AreAllFoundInTheOrderOfTheirTimes) {
+TEST_P(Events, AllEventsAreFoundInTheOrderOfTime) {
   // A pendulum of amplitude 1 passes the lowest point at odd quarters of its period 4 K(sin(1/2))/omega0, and
   // rests at even ones.
   const Pendulum pendulum(1.0);
@@ -100,7 +100,7 @@ TEST_P(Events, EndARunWhereAForceOfConstraintVanishes) {
   EXPECT_EQ(run.size(), 2U);  // that at the start, and the last
 }
 
-TEST_P(Events, OfTwoRootsWithinAStepAreBothFound) {
+TEST_P(Events, BothRootsWithinAStepAreFound) {
   // Free flight, y = t - t^2/2: a height just below the top is passed twice within 2 e, whatever the steps.
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -1.0}});
@@ -116,7 +116,7 @@ TEST_P(Events, OfTwoRootsWithinAStepAreBothFound) {
   }
 }
 
-TEST_P(Events, AreToldByTheWayTheyGo) {
+TEST_P(Events, DirectionOfACrossingDecides) {
   const Pendulum pendulum(1.0);
   const auto times = [&](Crossing crossing) {
     const auto run = simulate(
@@ -133,7 +133,7 @@ TEST_P(Events, AreToldByTheWayTheyGo) {
   EXPECT_EQ(either[1], rising[0]);
 }
 
-TEST_P(Events, AreNoneWhereAFunctionBeginsOrStaysAtZero) {
+TEST_P(Events, FunctionThatBeginsOrStaysAtZeroHasNoEvent) {
   const Pendulum pendulum(1.0);
   const auto run =
       simulate(pendulum.scene, options(0.3),
@@ -170,7 +170,7 @@ TEST_P(Events, EndStepsOfASimulationAsWell) {
   EXPECT_THAT([&] { simulation.step(); }, ThrowsMessage<InvalidArgument>(HasSubstr("ended the run")));
 }
 
-TEST_P(Events, ThatGoWrongStopTheRunByName) {
+TEST_P(Events, FailingEventStopsTheRunByName) {
   const Pendulum pendulum(1.0);
   const auto bad = [&](auto function) {
     return [&, function] { (void)simulate(pendulum.scene, options(1.0), {Event<2>{"slack", function}}); };

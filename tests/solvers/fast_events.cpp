@@ -45,7 +45,7 @@ struct Fall {
   }
 };
 
-TEST_P(FastEvents, OfTimeAreAllFound) {
+TEST_P(FastEvents, AllEventsOfTimeAreFound) {
   for (const double rate : {30.0, 300.0}) {
     const auto run =
         simulate(Fall{}.scene, options(2.0), {{.name = "zero", .function = [rate](const auto& now) {
@@ -59,7 +59,7 @@ TEST_P(FastEvents, OfTimeAreAllFound) {
   }
 }
 
-TEST_P(FastEvents, OfTheStateAreAllFound) {
+TEST_P(FastEvents, AllEventsOfTheStateAreFound) {
   const Fall fall;
   const auto run = simulate(fall.scene, options(2.0), {{.name = "zero", .function = [&](const auto& now) {
                                                           return std::cos(40.0 * now.position(fall.body).x());
@@ -71,7 +71,7 @@ TEST_P(FastEvents, OfTheStateAreAllFound) {
                 100.0 * tolerance());
 }
 
-TEST_P(FastEvents, OfTwoCloseRootsAreBoth) {
+TEST_P(FastEvents, BothOfTwoCloseRootsAreFound) {
   for (const double apart : {1e-1, 1e-2, 1e-3}) {
     const auto run = simulate(Fall{}.scene, options(2.0), {{.name = "zero", .function = [=](const auto& now) {
                                                               const double t = now.time();
@@ -84,7 +84,7 @@ TEST_P(FastEvents, OfTwoCloseRootsAreBoth) {
   }
 }
 
-TEST_P(FastEvents, ThatOnlyTouchZeroAreNone) {
+TEST_P(FastEvents, TouchOfZeroIsNoEvent) {
   const auto run = simulate(
       Fall{}.scene, options(2.0),
       {{.name = "touches", .function = [](const auto& now) { return std::pow(now.time() - 0.7321, 2); }},
@@ -107,7 +107,7 @@ TEST_P(FastEvents, FasterThanCanBeFollowedAreRefusedByNameUnlessStepsAreShort) {
   EXPECT_EQ(run.events().size(), 954U);  // (3000 + 1e-3)/pi
 }
 
-TEST_P(FastEvents, ThatJumpOrHaveCornersAreFound) {
+TEST_P(FastEvents, FunctionsWithJumpsOrCornersAreFollowed) {
   const Fall fall;
   const auto run = simulate(
       fall.scene, options(2.0),
@@ -170,7 +170,7 @@ TEST_P(FastEvents, AtAnyRateAreAllFound) {
 // A kick by 1 m/s every 0.1 s, by a function that rises through 0 there and falls through it in between,
 // which was not asked for. All that follows a kick within a step lies behind it. With a second mass the scene
 // has a length.
-TEST_P(FastEvents, ThatChangeTheSceneOftenDoSoOnceEach) {
+TEST_P(FastEvents, EachEventChangesTheSceneOnce) {
   constexpr double period = 0.1, first = 0.025;
   for (const bool with_another : {false, true}) {
     Scene<2> scene("kicked");

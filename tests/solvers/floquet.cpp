@@ -30,7 +30,7 @@ struct Hung {
   }
 };
 
-TEST(Floquet, OfARestingSceneAreThoseOfItsModes) {
+TEST(Floquet, RestingSceneHasTheMultipliersOfItsModes) {
   // u'' + (d/m) u' + (g/l) u = 0 over T: exp(s T).
   for (const double drag : {0.0, 1.2}) {
     const Hung hung(drag);
@@ -60,7 +60,7 @@ TEST(Floquet, WithRepeatedAndYieldingConstraintsAreThoseOfOne) {
   EXPECT_NEAR(trace.real(), 2.0 + 2.0 * std::cos(0.3 * std::sqrt(50.0)), known);
 }
 
-TEST(Floquet, OfASkateLeaveOutWhatItsBladeForbids) {
+TEST(Floquet, SkateHasNoMultiplierForWhatItsBladeForbids) {
   // Along the blade a spring, w^2 = k/m; across, displacement stays as it is: 1. No velocity across.
   Scene<2> scene;
   const auto skate = scene.add_particle({.mass = 2.0});
@@ -81,7 +81,7 @@ models::DrivenPivot upright(double amplitude, double x) {
   return pivot;
 }
 
-TEST(Floquet, HaveTheProductThatDragTells) {
+TEST(Floquet, ProductOfMultipliersMatchesDrag) {
   // Liouville: det of the monodromy matrix is exp of the integral of the divergence, -(drag/mass) T.
   auto built = upright(0.1, 0.004).scene();
   built.scene.add(force_law(points(built.bob), [](auto t, auto, auto v) {
@@ -111,7 +111,7 @@ TEST(Floquet, TurnAwayFromOneAtKapitzasBoundary) {
   }
 }
 
-TEST(Floquet, OfALibrationAreOneTwice) {
+TEST(Floquet, LibrationHasOneTwice) {
   // Along the motion nothing changes, and another amplitude has another period: a Jordan block, whose
   // eigenvalues are known to the square root.
   const models::PlanePendulum pendulum;
@@ -137,7 +137,7 @@ TEST(Floquet, DoNotDependOnTheUnitOfTime) {
   }
 }
 
-TEST(Floquet, OfWhatDoesNotReturnAreRefused) {
+TEST(Floquet, MotionThatDoesNotReturnIsRefused) {
   const models::PlanePendulum pendulum;
   EXPECT_THAT([&] { (void)floquet(pendulum.scene().scene, 1.0); },
               ThrowsMessage<NoEquilibrium>(HasSubstr("is not periodic")));
@@ -145,7 +145,7 @@ TEST(Floquet, OfWhatDoesNotReturnAreRefused) {
   EXPECT_THAT([&] { (void)floquet(hung.scene, -1.0); }, ThrowsMessage<InvalidArgument>(HasSubstr("period")));
 }
 
-TEST(Floquet, OfAWheelThatTurnsRoundMayBeAskedFor) {
+TEST(Floquet, WheelThatTurnsRoundHasMultipliers) {
   // The wheel alone has the double multiplier 1; beside it a bead of omega = 2, cos(2) +- i sin(2).
   Scene<2> scene;
   const auto wheel = scene.add_rotor({.inertia = 1.0, .angular_velocity = 2.0 * pi});
@@ -163,13 +163,13 @@ TEST(Floquet, OfAWheelThatTurnsRoundMayBeAskedFor) {
   EXPECT_THROW((void)floquet(scene, 1.0), NoEquilibrium);
 }
 
-TEST(Floquet, AreRefusedForAPeriodThatIsNotThatOfTheForces) {
+TEST(Floquet, PeriodOtherThanThatOfTheForcesIsRefused) {
   // Upright on its pivot, at rest in any case; the pivot's period is 2 pi/10.
   auto built = upright(0.1, 0.004).scene();
   EXPECT_THROW((void)floquet(built.scene, 0.5), NoEquilibrium);
 }
 
-TEST(Floquet, AreNoneOfWhatCannotMove) {
+TEST(Floquet, FixedSceneHasNoMultipliers) {
   Scene<2> scene;
   const auto held = scene.add_particle({.mass = 1.0, .position = {0.0, -1.0}});
   scene.add(Coincident{Fixed<2>{{0.0, -1.0}}, held});

@@ -22,7 +22,7 @@ Scene<2> with_stiffness(auto f) {
   return scene;
 }
 
-TEST(Floquet, OfPartOfAPeriodAtWhoseEndsForcesAreEqualAreRefused) {
+TEST(Floquet, PartOfAPeriodIsRefused) {
   // At both ends of each of these times the stiffness is 1, and so is its slope at some.
   const auto sine = with_stiffness([](auto t) { return 0.5 * sin(2.0 * t); });
   EXPECT_THAT([&] { (void)floquet(sine, pi / 2.0); },
@@ -37,7 +37,7 @@ TEST(Floquet, OfPartOfAPeriodAtWhoseEndsForcesAreEqualAreRefused) {
   EXPECT_NEAR(floquet(sine, pi).growth(), 1.4767920253419, 1e-9);
 }
 
-TEST(Floquet, OfADriveOfAnotherPeriodThatMovesNothingAreRefused) {
+TEST(Floquet, DriveOfAnotherPeriodIsRefused) {
   // The bob hangs still while its pivot does, for half of the drive's period.
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -9.81}});
@@ -50,7 +50,7 @@ TEST(Floquet, OfADriveOfAnotherPeriodThatMovesNothingAreRefused) {
   EXPECT_THROW((void)floquet(scene, pi), NoEquilibrium);
 }
 
-TEST(Floquet, OfWhatDecaysFastAreThoseOfTheRest) {
+TEST(Floquet, FastDecayLeavesTheOtherMultipliers) {
   // x'' + c x' + x = 0 with c = 1e4: exp(s T) with s = -1e-4 and -1e4.
   Scene<2> scene;
   const auto x = scene.add_rotor({.inertia = 1.0});
@@ -61,7 +61,7 @@ TEST(Floquet, OfWhatDecaysFastAreThoseOfTheRest) {
   EXPECT_LE(std::abs(found.multipliers[1]), 1e-8);
 }
 
-TEST(Floquet, OfFiftyCoordinatesConservesVolume) {
+TEST(Floquet, FiftyCoordinatesConserveVolume) {
   // 25 masses in the plane on a ring of springs, held weakly, with a stiffness that vibrates: the product of
   // all multipliers is 1 (Liouville).
   Scene<2> scene;

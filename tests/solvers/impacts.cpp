@@ -27,7 +27,7 @@ struct Ball {
   }
 };
 
-TEST_P(Impacts, OfABouncingBallAreAtTheirTimesWithTheirImpulses) {
+TEST_P(Impacts, BouncingBallHasTheTimesAndImpulsesOfTheClosedForm) {
   // It strikes with u_k = e^k sqrt(2 g h), u_0 after sqrt(2 h/g), and flies for 2 e u_k/g; P = m (1 + e) u_k.
   constexpr double e = 0.9;
   const Ball scene(e);
@@ -48,7 +48,7 @@ TEST_P(Impacts, OfABouncingBallAreAtTheirTimesWithTheirImpulses) {
   EXPECT_EQ(run.multiplier(scene.floor, 10), 0.0);
 }
 
-TEST_P(Impacts, ThatAccumulateEndInRestAtTheirLimit) {
+TEST_P(Impacts, AccumulatingImpactsEndInRestAtTheirLimit) {
   // The flights are a geometric series: sqrt(2 h/g) (1 + e)/(1 - e).
   for (const double e : {0.3, 0.5, 0.8}) {
     const Ball scene(e);
@@ -63,7 +63,7 @@ TEST_P(Impacts, ThatAccumulateEndInRestAtTheirLimit) {
   }
 }
 
-TEST_P(Impacts, ThatEndInRestStopNoOtherBallThatBouncesMeanwhile) {
+TEST_P(Impacts, RestOfOneBallLeavesAnotherBouncing) {
   // One of restitution 1/2 rests three times its fall after the start. Near to that, at the loose tolerance
   // within its last bounces, an elastic one lands far from it: that keeps its energy.
   constexpr double loose = 1e-4, h = 0.3;
@@ -95,7 +95,7 @@ TEST_P(Impacts, WithoutRestitutionCloseAtOnce) {
   EXPECT_NEAR(run.multiplier(scene.floor, 10), 2.0 * g, bound);
 }
 
-TEST_P(Impacts, ThatAreElasticKeepTheEnergy) {
+TEST_P(Impacts, ElasticImpactsKeepTheEnergy) {
   const Ball scene(1.0);
   const auto run = simulate(scene.scene, options(100.0));
   EXPECT_EQ(run.events().size(), static_cast<std::size_t>((100.0 / scene.first - 1.0) / 2.0) + 1);
@@ -103,7 +103,7 @@ TEST_P(Impacts, ThatAreElasticKeepTheEnergy) {
   EXPECT_NEAR(run.energy(10), run.energy(0), error_of(run) * 2.0 * g * 30.0);
 }
 
-TEST_P(Impacts, OfAPendulumGiveTheRodAnImpulseToo) {
+TEST_P(Impacts, PendulumsRodGetsAnImpulseToo) {
   // The bob meets a vertical wall at x = -0.2, where the rod makes sin a = 0.2. It goes along (cos a, sin a)
   // at w = sqrt(2 g (cos a - cos 0.5)), and comes back at as much. The wall pushes along x: across the rod 2
   // w = P cos a; along it the rod takes up P sin a.
@@ -145,7 +145,7 @@ std::vector<double> cradle(const std::vector<double>& places, const Options& opt
   return speeds;
 }
 
-TEST_P(Impacts, OfBallsThatTouchObeyMoreausLaw) {
+TEST_P(Impacts, TouchingBallsObeyMoreausLaw) {
   // U+ = 1 at the first contact; the others stay closed, U+ = 0, as nothing parts them: n - 1 balls go on as
   // one of mass n - 1 does, (1 - (n - 1))/n and 2/n.
   for (const int n : {2, 3, 5, 10}) {
@@ -157,7 +157,7 @@ TEST_P(Impacts, OfBallsThatTouchObeyMoreausLaw) {
   }
 }
 
-TEST_P(Impacts, OfBallsApartHandTheSpeedOn) {
+TEST_P(Impacts, BallsApartHandTheSpeedOn) {
   // One after the other, however little they are apart: the last goes off at 1, all others rest.
   for (const double apart : {1e-1, 1e-4, 1e-7}) {
     const auto v = cradle({0.0, 1.0 + apart, 2.0 + 2.0 * apart, 3.0 + 3.0 * apart}, options(1.0));
@@ -198,7 +198,7 @@ TEST_P(Impacts, AtTheStartHaveAStateBefore) {
   EXPECT_NEAR(run.impulse(floor, 0), 3.0, bound);
 }
 
-TEST_P(Impacts, OfThreeBallsThatNeverPartEndInOneVelocity) {
+TEST_P(Impacts, ThreePlasticBallsEndInOneVelocity) {
   // Below e = 7 - 4 sqrt(3), by impacts without number, without any force (McNamara and Young, 1992).
   Scene<2> scene;
   std::vector<Particle<2>> balls;
@@ -215,7 +215,7 @@ TEST_P(Impacts, OfThreeBallsThatNeverPartEndInOneVelocity) {
   for (const auto ball : balls) EXPECT_NEAR(run.velocity(ball, 10).x(), 0.1 / 3.0, bound);
 }
 
-TEST_P(Impacts, AreReadBetweenSamplesAndStepByStep) {
+TEST_P(Impacts, StateIsReadBetweenSamplesAndStepByStep) {
   const Ball scene(1.0);
   Options dense = options(1.0);
   dense.dense = true;

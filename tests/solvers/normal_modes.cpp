@@ -36,7 +36,7 @@ struct Bob {
   [[nodiscard]] NormalModes<2> modes() const { return normal_modes(scene, equilibrium(scene)); }
 };
 
-TEST(NormalModes, OfAPendulumGoAsTheRootOfGravityOverLength) {
+TEST(NormalModes, PendulumVibratesAsTheRootOfGravityOverLength) {
   const Bob pendulum(-1.0);
   const auto modes = pendulum.modes();
   ASSERT_EQ(modes.size(), 1U);
@@ -47,7 +47,7 @@ TEST(NormalModes, OfAPendulumGoAsTheRootOfGravityOverLength) {
   EXPECT_NEAR(std::abs(modes.shape(0, pendulum.bob).y()), 0.0, rounding);
 }
 
-TEST(NormalModes, OfAPendulumUpsideDownGrowAndAreUnstable) {
+TEST(NormalModes, PendulumUpsideDownIsUnstable) {
   const auto modes = Bob(1.0).modes();
   EXPECT_NEAR(modes.damping(0), -std::sqrt(9.81), rounding);
   EXPECT_EQ(modes.stability(), Stability::unstable);
@@ -74,7 +74,7 @@ TEST(NormalModes, WithMuchDragAreTwoThatCreep) {
   EXPECT_NEAR(modes.damping(1), 4.0 + std::sqrt(16.0 - 9.81), 10 * rounding);
 }
 
-TEST(NormalModes, OfACompliantRodAreThePendulumsAndTheSprings) {
+TEST(NormalModes, CompliantRodHasTheModesOfPendulumAndSpring) {
   for (const double k : {1e4, 1e8}) {
     Scene<2> scene;
     scene.add(UniformGravity<2>{{0.0, -9.81}});
@@ -88,7 +88,7 @@ TEST(NormalModes, OfACompliantRodAreThePendulumsAndTheSprings) {
   }
 }
 
-TEST(NormalModes, OfRepeatedConstraintsAreThoseOfOne) {
+TEST(NormalModes, RepeatedConstraintsChangeNoMode) {
   Bob twice(-1.0);
   twice.scene.add(Distance{twice.bob, Fixed<2>{}, 1.0});
   EXPECT_NEAR(twice.modes().frequency(0), std::sqrt(9.81), rounding);
@@ -122,7 +122,7 @@ TEST(NormalModes, DoNotDecideWhereTermsOfHigherOrderDo) {
   }
 }
 
-TEST(NormalModes, OfABeadThatAHoopHoldsUp) {
+TEST(NormalModes, BeadHeldUpByAHoopVibrates) {
   // mex39: omega = Omega sin phi0, cos phi0 = g/(R Omega^2).
   const auto built = models::HoopAboutDiameter{.spin = 4.5}.scene();
   const auto modes =
@@ -133,7 +133,7 @@ TEST(NormalModes, OfABeadThatAHoopHoldsUp) {
   EXPECT_EQ(modes.stability(), Stability::stable);
 }
 
-TEST(NormalModes, OfACircularOrbitAreHeldByGyroscopicForces) {
+TEST(NormalModes, CircularOrbitIsHeldByGyroscopicForces) {
   // mex133: omega^2 = 3 Omega^2 sin^2 a, and the bead goes round freely. The centrifugal potential has its
   // maximum at the orbit: without Coriolis forces it would be unstable.
   const double Omega = std::sqrt(9.81 / std::tan(0.6));
@@ -146,7 +146,7 @@ TEST(NormalModes, OfACircularOrbitAreHeldByGyroscopicForces) {
   EXPECT_EQ(modes.stability(), Stability::stable);
 }
 
-TEST(NormalModes, OfVibrationsSeenFromATurningFrameHaveEnergyOfEitherSign) {
+TEST(NormalModes, VibrationsInATurningFrameHaveEnergyOfEitherSign) {
   // x'' - 2 W y' = (W^2 - k) x, y'' + 2 W x' = (W^2 - k) y for a bead of mass 1 on a spring k < W^2:
   // frequencies W +- sqrt(k). The centre is a maximum of the centrifugal and elastic potential: what goes
   // round more slowly than the frame has negative energy, and drag against the frame would make it grow.
@@ -161,7 +161,7 @@ TEST(NormalModes, OfVibrationsSeenFromATurningFrameHaveEnergyOfEitherSign) {
   EXPECT_EQ(modes.stability(), Stability::undecided);
 }
 
-TEST(NormalModes, OfARollingBallInABowlHaveTheInertiaOfItsSpin) {
+TEST(NormalModes, RollingBallInABowlHasTheInertiaOfItsSpin) {
   // A wheel of mass m, radius r, inertia I rolls along the bottom of a valley V = k x^2/2 without slipping,
   // v_x = r w: (m + I/r^2) x'' = -k x; the constraint is of velocities, and turning it is no vibration.
   Scene<2> scene;
@@ -178,7 +178,7 @@ TEST(NormalModes, OfARollingBallInABowlHaveTheInertiaOfItsSpin) {
   EXPECT_EQ(modes.stability(), Stability::stable);
 }
 
-TEST(NormalModes, AreRefusedWhereTheirEquationsChangeWithTime) {
+TEST(NormalModes, EquationsThatChangeWithTimeAreRefused) {
   // At the bottom of a turning hoop the bead rests, but the plane it can move in does not.
   const auto built = models::HoopAboutDiameter{.spin = 2.0, .angle = 0.0}.scene();
   const auto at_rest = equilibrium(built.scene);
@@ -188,7 +188,7 @@ TEST(NormalModes, AreRefusedWhereTheirEquationsChangeWithTime) {
   EXPECT_NEAR(normal_modes(built.scene, turning).frequency(0), std::sqrt(9.81 - 4.0), 10 * rounding);
 }
 
-TEST(NormalModes, OfWhichThereAreFewerAreRefused) {
+TEST(NormalModes, MoreModesThanThereAreIsRefused) {
   EXPECT_THAT([] { (void)Bob(-1.0).modes().frequency(1); },
               ThrowsMessage<InvalidArgument>(HasSubstr("no mode 1")));
 }
@@ -463,7 +463,7 @@ TEST(LinearTerms, AreTheDerivativesOfTheResidual) {
   }
 }
 
-TEST(NormalModes, AreNoneOfWhatCannotMove) {
+TEST(NormalModes, FixedSceneHasNoModes) {
   // A bob on two rods beside a pendulum: the pendulum's only.
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -9.81}});
@@ -492,7 +492,7 @@ TEST(NormalModes, DoNotDecideWhereTheStiffnessVanishes) {
   EXPECT_EQ(modes.frequency(0), 0.0);
 }
 
-TEST(NormalModes, AreRefusedWhereConstraintsTouch) {
+TEST(NormalModes, TouchingConstraintsAreRefused) {
   // On y = 0 and on y = x^2: the bead cannot move, though one equation of two seems to leave it a way. Stated
   // twice, y = x^2 alone leaves that: omega^2 = 2 g.
   const auto stated = [](bool touching) {
@@ -516,7 +516,7 @@ TEST(NormalModes, AreRefusedWhereConstraintsTouch) {
 }
 
 // Planes have no curvature, so the rod's part in their dependence is round-off: no singular position.
-TEST(NormalModes, OfAPendulumWhosePlaneIsStatedTwice) {
+TEST(NormalModes, PendulumWithARedundantPlaneHasItsMode) {
   Scene<3> scene("pendulum");
   scene.add(UniformGravity<3>{{0.0, 0.0, -10.0}});
   const auto bob = scene.add_particle({.mass = 1.0, .position = {0.6, 0.0, -0.8}});

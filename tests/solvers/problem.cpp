@@ -4,11 +4,11 @@
 #include <dalembert/core/scene/scene.h>
 #include <dalembert/models/chain.h>
 #include <dalembert/solvers/integration.h>
+#include <dalembert/solvers/opening.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -20,8 +20,8 @@ template <int D>
 SaddlePattern::Analyses analyses(const Scene<D>& scene, Stepper stepper) {
   const Options options{.t_end = 0.2, .stepper = stepper};
   const auto system = std::make_shared<const System>(scene.system());
-  Integration integration(system, scene.initial_positions(), scene.initial_velocities(), options,
-                          std::numeric_limits<double>::infinity());
+  const Opening opening = open_run(system, scene.initial_positions(), scene.initial_velocities(), options);
+  Integration integration(opening.problem, opening.start, options);
   OutputState moment(*system, integration.start());
   for (int i = 1; i <= 20; ++i) {
     const double t = options.t_end * i / 20;

@@ -1,6 +1,7 @@
 #include "readings.h"
 #include <dalembert/models/four_bar.h>
 #include <dalembert/solvers/integration.h>
+#include <dalembert/solvers/opening.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -92,6 +93,13 @@ struct Counted {
   }
 };
 
+template <int D>
+Integration integration_of(const std::shared_ptr<const System>& system, const Scene<D>& scene,
+                           const Options& options) {
+  const Opening opening = open_run(system, scene.initial_positions(), scene.initial_velocities(), options);
+  return Integration(opening.problem, opening.start, options);
+}
+
 /// All that can be read from a run at its last step, and before it.
 std::vector<double> seen(Integration& run, OutputState& now) {
   std::vector<double> all{run.time(), static_cast<double>(run.statistics(run.time()).steps)};
@@ -107,14 +115,13 @@ std::vector<double> seen(Integration& run, OutputState& now) {
 
 /// Wherever in the evaluations of its force restart_with_constraints fails, what a run has computed is read
 /// as before.
-TEST(Restart, ThatFailsLeavesWhatWasComputed) {
+TEST(Restart, FailureLeavesWhatWasComputed) {
   const Counted counted;
   const auto system = std::make_shared<const System>(counted.scene.system());
   const auto other = std::make_shared<const System>(counted.scene.system());
   for (const Stepper stepper : both) {
-    Integration run(system, counted.scene.initial_positions(), counted.scene.initial_velocities(),
-                    {.t_end = 1.0, .stepper = stepper, .dense = true},
-                    std::numeric_limits<double>::infinity());
+    Integration run =
+        integration_of(system, counted.scene, {.t_end = 1.0, .stepper = stepper, .dense = true});
     while (run.time() < 0.5) run.step(1.0);
     OutputState now(*system, run.start());
     const std::vector<double> before = seen(run, now);
@@ -138,7 +145,7 @@ TEST(Restart, ThatFailsLeavesWhatWasComputed) {
 
 /// The same where the implicit stepper hands over to the explicit one, in front of a singular position, and
 /// takes over again behind it: their polynomials differ in degree.
-TEST(Restart, ThatFailsAtAHandoverLeavesWhatWasComputed) {
+TEST(Restart, FailureAtAHandoverLeavesWhatWasComputed) {
   long left = 0;
   const long enough = std::numeric_limits<long>::max();
   models::FourBarScene linkage = models::FourBar{.loops = 1}.scene();
@@ -149,8 +156,7 @@ TEST(Restart, ThatFailsAtAHandoverLeavesWhatWasComputed) {
   const auto system = std::make_shared<const System>(linkage.scene.system());
   const auto integration = [&] {
     left = enough;
-    return Integration(system, linkage.scene.initial_positions(), linkage.scene.initial_velocities(),
-                       {.t_end = 10.0}, std::numeric_limits<double>::infinity());
+    return integration_of(system, linkage.scene, {.t_end = 10.0});
   };
   Integration untroubled = integration(), troubled = integration();
   int handovers = 0;

@@ -73,7 +73,7 @@ double thrown(double v, double f, double t) { return v * t - 0.5 * f * t * t; }
 
 // V = 3 + 3x below -0.3, -7x in between, 3x above 0, energy 1.1: there and back between 1.1/3 and -1.1/7,
 // with speed sqrt(2.2) at 0.
-TEST_P(Switches, OfABandBetweenEqualSlopesTurnTheMotionBack) {
+TEST_P(Switches, BandBetweenEqualSlopesTurnsTheMotionBack) {
   Flight flight(0.2, 1.0);
   flight.in_potential([](auto x) {
     if (x < -0.3) return 3.0 + 3.0 * x;
@@ -93,7 +93,7 @@ TEST_P(Switches, OfABandBetweenEqualSlopesTurnTheMotionBack) {
 
 // Free flight at 1 m/s over two ridges of width 2w and height h at 1 and 2 m, whatever their width: each
 // delays by twice the time over a slope less 2w.
-TEST_P(Switches, OfTwoNarrowRidgesInOneStepAreAllSeen) {
+TEST_P(Switches, AllSwitchesOfTwoNarrowRidgesInOneStepAreSeen) {
   for (const double w : {0.1, 1e-3, 1e-5}) {
     const double h = 0.3;
     Flight flight(0.0, 1.0);
@@ -109,7 +109,7 @@ TEST_P(Switches, OfTwoNarrowRidgesInOneStepAreAllSeen) {
 }
 
 // A saw-tooth of slopes +-s and period 1: half a tooth up takes as long as one down.
-TEST_P(Switches, OfASawToothWrittenWithFloorAreAllPassed) {
+TEST_P(Switches, AllTeethOfASawWrittenWithFloorArePassed) {
   const double s = 0.5, v = 1.0;
   Flight flight(0.0, v);
   flight.in_potential([=](auto x) { return s * abs(x - floor(x + 0.5)); });
@@ -121,7 +121,7 @@ TEST_P(Switches, OfASawToothWrittenWithFloorAreAllPassed) {
 }
 
 // Backlash: a spring of rate k behind a gap d on either side.
-TEST_P(Switches, OfABacklashReturnTheSpeed) {
+TEST_P(Switches, BacklashReturnsTheSpeed) {
   const double k = 50.0, d = 0.2;
   Flight flight(0.0, 1.0);
   flight.in_potential([=](auto x) {
@@ -136,7 +136,7 @@ TEST_P(Switches, OfABacklashReturnTheSpeed) {
 }
 
 // A well with a flat bottom of width 2, walls of slope 5: 2/v across, 2v/5 at a wall.
-TEST_P(Switches, OfAFlatBottomAreSeenFromIt) {
+TEST_P(Switches, EndOfAFlatBottomIsSeenFromIt) {
   const double v = 0.7;
   Flight flight(0.0, v);
   flight.in_potential([](auto x) { return 5.0 * max(abs(x) - 1.0, 0.0); });
@@ -200,7 +200,7 @@ TEST_P(Switches, ToARootThatEndsThereArePassed) {
 }
 
 // V = |x|^3: continuous up to the second derivative of the force's slope, so nothing stops there.
-TEST_P(Switches, OfCurvatureAloneArePassedInStride) {
+TEST_P(Switches, SwitchOfCurvatureAloneIsPassedInStride) {
   const auto steps = [&](bool kinked) {
     Flight flight(0.0, 1.0);
     if (kinked)
@@ -232,7 +232,7 @@ TEST_P(Switches, ToACornerOfACurveAreNamed) {
 }
 
 // a = -+3 on the two sides of x + v = 0: v - 3 < 0 and v + 3 > 0 there, so both lead to it.
-TEST_P(Switches, ThatChatterAreNamed) {
+TEST_P(Switches, ChatteringSwitchIsNamed) {
   Flight flight(0.0, 1.0);
   flight.push(
       [](const auto&, const auto& x, const auto& v) {
@@ -246,7 +246,7 @@ TEST_P(Switches, ThatChatterAreNamed) {
 }
 
 // A curve of a line and a parabola, y = x^2/2 beyond 0: the bead leaves the line at 1 m/s; energy is kept.
-TEST_P(Switches, OfTheCurvatureOfACurveJumpItsForce) {
+TEST_P(Switches, ForceJumpsWithTheCurvatureOfACurve) {
   Scene<2> scene("run-out");
   scene.add(UniformGravity<2>{{0.0, -g}});
   const auto bead = scene.add_particle({.mass = 1.0, .position = {-1.0, 0.0}, .velocity = {1.0, 0.0}});
@@ -262,7 +262,7 @@ TEST_P(Switches, OfTheCurvatureOfACurveJumpItsForce) {
 
 // Together with a contact, an event and dense output: a ball falls through a band of half the gravity onto a
 // floor.
-TEST_P(Switches, AreFoundBesideContactsAndEvents) {
+TEST_P(Switches, SwitchesAreFoundBesideContactsAndEvents) {
   Scene<2> scene("fall");
   const auto ball = scene.add_particle({.mass = 1.0, .position = {0.0, 1.0}, .velocity = {0.1, 0.0}}, "ball");
   scene.add(potential(points(ball),

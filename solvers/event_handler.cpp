@@ -1,0 +1,238 @@
+#include "dalembert/solvers/event_handler.h"
+
+#include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/contact/round_off.h>
+#include <dalembert/solvers/manifold/start.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <memory>
+#include <utility>
+
+namespace dalembert {
+
+namespace {
+
+std::vector<std::string> names_of(const std::vector<FlatEvent>& events) {
+  std::vector<std::string> names;
+  for (const FlatEvent& event : events) names.push_back(event.name);
+  return names;
+}
+
+std::vector<FlatEvent> with_switching(std::vector<FlatEvent> events,
+                                      const ConditionalConstraints* conditional) {
+  for (std::size_t i = 0; conditional != nullptr && i < conditional->functions(); ++i) {
+    events.push_back({conditional->label(i),
+                      [conditional, i](const FlatSample& now) { return conditional->switching(i, now); },
+                      Crossing::falling, false});
+  }
+  return events;
+}
+
+EventWatch::Rate rates_of_switching(std::size_t asked_for, const ConditionalConstraints* conditional) {
+  if (conditional == nullptr) return {};
+  return [=](std::size_t event, const FlatSample& now) { return conditional->rate(event - asked_for, now); };
+}
+
+}  // namespace
+
+EventHandler::EventHandler(std::vector<FlatEvent> events, ConditionalConstraints* conditional,
+                           Auditor* auditor, const Integration& integration)
+    : asked_for_(events.size()),
+      events_(names_of(events)),
+      conditional_(conditional),
+      auditor_(auditor),
+      seen_(integration.system(), integration.start(), any_changes_scene(events)),
+      watch_(with_switching(std::move(events), conditional), rates_of_switching(asked_for_, conditional),
+             *integration.system().layout(), integration.tolerance()),
+      changes_(asked_for_) {}
+
+bool EventHandler::any_changes_scene(const std::vector<FlatEvent>& events) {
+  return std::ranges::any_of(events, [](const FlatEvent& event) { return bool(event.change); });
+}
+
+bool EventHandler::changes(const EventRecord& one) const {
+  return !was_asked_for(one) || watch_.event(one.source).change;
+}
+
+FlatSample EventHandler::read(Integration& integration, double t) {
+  integration.read(t, seen_);
+  return seen_.flat();
+}
+
+/// At the time of a change, or of an end, all that is due there: what was asked for before what follows from
+/// the motion.
+void EventHandler::locate(Integration& integration, Stop& stop) {
+  if (conditional_ != nullptr && integration.start().scales.length_from_path)
+    conditional_->adopt(integration.scales(integration.time()));
+  const EventWatch::Read reader = [&](double t) { return read(integration, t); };
+  const auto all = watch_.locate({reader, integration.time(), integration.degree(), integration.at_end()});
+  std::vector<EventRecord> found;
+  for (const auto& one : all)
+    if (one.wanted) found.push_back(one.record);
+  const auto first = std::ranges::find_if(found, [this](const auto& one) { return changes(one); });
+  double until =
+      first == found.end() ? integration.time() : first->time + same_time(first->time, integration);
+  std::vector<EventRecord> due;
+  for (const EventRecord& one : found) {
+    if (one.time > until) break;
+    if (changes(one)) {
+      if (was_asked_for(one)) due.push_back(one);
+      continue;
+    }
+    list(one, integration);
+    if (stop.ends_run) continue;
+    stop.time = one.time;
+    stop.ends_run = watch_.event(one.source).ends;
+    if (stop.ends_run) until = std::min(until, one.time + same_time(one.time, integration));
+  }
+  const bool changes_there = first != found.end() && first->time <= until;
+  if (changes_there && due.empty()) due.push_back(*first);
+  const double end = changes_there ? due.front().time : integration.time();
+  if (!stop.ends_run) stop.time = end;
+  stop.changes = std::move(due);
+  stop.not_reached.clear();
+  std::ranges::copy_if(all, std::back_inserter(stop.not_reached),
+                       [&](const auto& one) { return one.record.time > until; });
+  if (conditional_ != nullptr)
+    conditional_->require_open(read(integration, changes_there ? stop.time : integration.time()));
+}
+
+void EventHandler::list(const EventRecord& one, Integration& integration) {
+  const FlatSample at = read(integration, one.time);
+  if (auditor_ != nullptr) auditor_->instant(at);
+  const EventList::Side there{at, integration.system().layout()};
+  events_.add(std::span(&one, 1), there, there, std::vector<double>(at.lambda.size()));
+}
+
+/// The difference of two times that are the same to round-off.
+double EventHandler::same_time(double t, const Integration& integration) {
+  return round_off() * std::max(std::abs(t), integration.scales(t).time);
+}
+
+Change EventHandler::resolve(const Stop& stop, const FlatSample& at, const Integration& integration) {
+  const EventRecord due{stop.changes.front().source, stop.time};
+  Change change = was_asked_for(due) ? change_scene(due, at, integration)
+                                     : conditional_->resolve(at, due.source - asked_for_);
+  require_progress(due, integration);
+  return change;
+}
+
+/// Throws StepFailure where changes of one kind accumulate within the run, as impacts do (see Accumulation):
+/// they do not determine what follows their limit. (Contacts come to rest there by themselves.) A parabola of
+/// duration D rises by D^2/8 of its acceleration: this many roots of the tolerance keep that in sight of
+/// EventWatch.
+void EventHandler::require_progress(const EventRecord& change, const Integration& integration) {
+  const double t = change.time, time = integration.scales(t).time;
+  if (was_asked_for(change)) {
+    Accumulation& changes = changes_[change.source];
+    changes.add(t);
+    const double least = std::max(integration.tolerance(), round_off());
+    const double brief = Accuracy(least).brief_change() * time;
+    if (t + changes.left() <= integration.end() && changes.interval() <= brief)
+      watch_.chatters(change.source, t);
+  }
+  const double apart = same_time(t, integration);
+  const bool repeats =
+      last_change_ && last_change_->source == change.source && t - last_change_->time <= apart;
+  repeated_ = repeats ? repeated_ + 1 : 0;
+  last_change_ = change;
+  if (repeated_ >= constants.most_at_one_time) watch_.chatters(change.source, t);
+}
+
+Change EventHandler::change_scene(const EventRecord& due, const FlatSample& at,
+                                  const Integration& integration) {
+  const FlatEvent& event = watch_.event(due.source);
+  const auto refuse = [&](const std::string& what) {
+    throw StepFailure{"Event \"" + event.name + "\": " + what, at.time};
+  };
+  FlatEvent::Changed next;
+  try {
+    next = event.change(at);
+  } catch (const std::exception& error) {
+    refuse(std::string("its change threw \"") + error.what() + '"');
+  } catch (...) {
+    refuse("its change threw something that is no std::exception");
+  }
+  if (next.system->rows() != at.lambda.size() || next.system->coordinates() != at.q.size() ||
+      next.system->layout()->forces.size() != integration.system().layout()->forces.size())
+    refuse("its change adds to the scene; add everything before the run, and release or impose it there");
+  if (auditor_ != nullptr) auditor_->replace_system(at.time, next.system);
+  const Problem always(next.system->without(next.system->conditional_constraints()));
+  std::vector<double> v = next.v;
+  const auto impulses = project_impulsively_onto(always, integration.scales(at.time), at.time, next.q, v,
+                                                 integration.tolerance());
+  Change change{
+      .v = v, .impulses = std::vector<double>(at.lambda.size()), .q = next.q, .system = next.system};
+  if (conditional_ != nullptr)
+    change = conditional_->replace_system(next.system, {at.time, next.q, v}, impulses);
+  change.v_before = next.v;  // what the user gives is what the impulses change
+  for (std::size_t r = 0; r < impulses.size(); ++r) change.impulses[r] += impulses[r];
+  change.events.insert(change.events.begin(), due);
+  return change;
+}
+
+/// Where the distribution of a load among contacts is not unique, those that would pull are opened.
+void EventHandler::open_pulling(Change& change, double t, Integration& integration) {
+  if (conditional_ == nullptr) return;
+  FlatSample now = read(integration, t);
+  while (conditional_->open_pulling(now, change)) {
+    const std::vector<double> q(now.q.begin(), now.q.end()), v(now.v.begin(), now.v.end());
+    integration.restart_with_constraints(t, change.system, q, v);
+    now = read(integration, t);
+  }
+  conditional_->require_separation(now);
+}
+
+void EventHandler::audit(const Change& change, const FlatSample& after) {
+  if (auditor_ == nullptr) return;
+  auditor_->jump({after.time, after.q, change.v_before, after.v, change.impulses, change.events}, after);
+}
+
+void EventHandler::list(Change change, const EventList::Side& before, Integration& integration) {
+  open_pulling(change, before.sample.time, integration);
+  const FlatSample after = read(integration, before.sample.time);
+  audit(change, after);
+  events_.add(change.events, before, {after, integration.system().layout()}, change.impulses);
+}
+
+/// No step has led there: the sample before has the forces of the one after.
+void EventHandler::list_at_start(Change change, Integration& integration) {
+  open_pulling(change, integration.time(), integration);
+  const System& system = integration.system();
+  const FlatSample after = read(integration, integration.time());
+  FlatSample before = after;
+  before.v = change.v_before;
+  before.energy += system.kinetic_energy(before.v) - system.kinetic_energy(after.v);
+  audit(change, after);
+  events_.add(change.events, {before, system.layout()}, {after, system.layout()}, change.impulses);
+}
+
+Stop EventHandler::restart(const Stop& stop, Integration& integration) {
+  const double t = stop.time;
+  const System& system = integration.system();
+  std::optional<std::size_t> changed;
+  if (!stop.changes.empty() && was_asked_for(stop.changes.front())) changed = stop.changes.front().source;
+  const EventWatch::Read ahead = [&](double at) {
+    integration.read_ahead(at - t, seen_);
+    return seen_.flat();
+  };
+  const OutputState start = (read(integration, t), seen_);
+  const bool timed = system.rheonomic() || system.has_timed_forces();
+  watch_.restart(
+      {start.flat(), asked_for_, timed, stop.not_reached, changed, ahead, integration.scales(t).time});
+  Stop next{t, stop.ends_run};
+  if (stop.changes.size() > 1) {
+    next.changes.assign(stop.changes.begin() + 1, stop.changes.end());
+  } else if (conditional_ != nullptr) {
+    if (const auto function = conditional_->approaching()) {
+      next.changes.push_back({asked_for_ + *function, t});
+    } else if (const auto triggered = watch_.triggered_at_start(asked_for_, conditional_->contacts())) {
+      next.changes.push_back({*triggered, t});
+    }
+  }
+  return next;
+}
+
+}  // namespace dalembert

@@ -1,0 +1,69 @@
+#include "dalembert/solvers/opening.h"
+
+#include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/erk/erk.h>
+
+#include <limits>
+#include <utility>
+
+namespace dalembert {
+
+namespace {
+
+/// An impact would have to give impulses to what reads the force of a contact.
+void require_no_force_reads(const System& system) {
+  const auto pattern = system.multiplier_force_pattern();
+  for (std::size_t k = 0; k < pattern.size(); ++k) {
+    for (const std::size_t c : system.contacts()) {
+      const Layout::Constraint& contact = system.layout()->constraints[c];
+      if (pattern[k].column != contact.own_rows().front()) continue;
+      throw InvalidScene(system.name_of_multiplier_force(k) + " reads the force of " + contact.label() +
+                         ", which is one-sided: state it as a bilateral one, and end the run by an event "
+                         "where its force vanishes");
+    }
+  }
+}
+
+/// A scene without a length of its own gets that of the path of a first step.
+Start first_start(const Problem& problem, std::span<const double> q, std::span<const double> v,
+                  const Options& options, double nearest_contact) {
+  Start start = consistent_start(problem, q, v, options, nearest_contact);
+  if (!start.scales.length_from_path) return start;
+  Options looking = options;
+  looking.tolerance = Options{}.tolerance;  // the scene's length is its own, whatever is asked of the run
+  try {
+    ErkStepper first(problem, start, looking);
+    first.step(options.t_end);
+    const PathExtent& extent = first.scales().extent;
+    start.scales.length_from_path = extent.length > Scales::least;  // else it rests, and any length will do
+    if (start.scales.length_from_path) start.scales.adopt(extent);
+  } catch (const StepFailure&) {
+    start.scales.length_from_path = false;  // the run will stop, and say why
+  }
+  return start;
+}
+
+}  // namespace
+
+Opening open_run(const std::shared_ptr<const System>& stated, std::span<const double> q,
+                 std::span<const double> v, const Options& options) {
+  const auto numbers = stated->conditional_constraints();
+  if (numbers.empty()) {
+    const Problem problem(stated);
+    return {
+        nullptr, {}, problem, first_start(problem, q, v, options, std::numeric_limits<double>::infinity())};
+  }
+  require_no_force_reads(*stated);
+  const double nearest = nearest_contact(*stated, {options.t_start, q, v});
+  const Start free = first_start(Problem(stated->without(numbers)), q, v, options, nearest);
+  const Instant at{options.t_start, free.q, free.v};
+  auto conditional = std::make_unique<ConditionalConstraints>(stated, free.scales, options.tolerance, at);
+  Change change = conditional->resolve_start(at);
+  const Problem problem(change.system);
+  Start start = first_start(problem, change.q, change.v, options, nearest);
+  conditional->adopt(start.scales);
+  return {std::move(conditional), std::move(change), problem, std::move(start)};
+}
+
+}  // namespace dalembert

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/base/options.h>
+#include <dalembert/solvers/contact/change.h>
+#include <dalembert/solvers/contact/conditional_constraints.h>
+#include <dalembert/solvers/linear/problem.h>
+#include <dalembert/solvers/manifold/start.h>
+
+#include <memory>
+#include <span>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// How a run opens: a consistent state, with the constraints that are in force after the impacts of its
+/// start.
+struct Opening {
+  std::unique_ptr<ConditionalConstraints> conditional;  ///< null if all constraints always hold
+  Change change;                                        ///< their impacts at the start
+  Problem problem;                                      ///< of the constraints in force
+  Start start;
+};
+
+/// Of what a scene states, from a guess of its state. A scene without a characteristic length gets that of a
+/// first explicit step, whose error is within the tolerance of its own length. Throws InconsistentStart;
+/// StepFailure and EquationFault where contacts cannot be resolved.
+[[nodiscard]] Opening open_run(const std::shared_ptr<const System>& stated, std::span<const double> q,
+                               std::span<const double> v, const Options& options);
+
+}  // namespace dalembert
