@@ -213,13 +213,27 @@ auto operator*(const VecOf<A, N>& a, const MatOf<B, 1, Cols>& b) {
 /// @}
 
 /// @{
-/// With what is of Eigen: a matrix with a fixed number of rows times a vector, a column times a row, and a
-/// rotation or another transformation of space.
+/// With what is of Eigen and of fixed size: products of matrices, a matrix times a vector, a column times a
+/// row, and a rotation or another transformation of space.
 template <detail::OfEigen M, class S, int N>
   requires(M::ColsAtCompileTime == N && M::RowsAtCompileTime > 0)
 auto operator*(const M& matrix, const VecOf<S, N>& x) {
   const auto& m = matrix.eval();
   return detail::times<std::remove_cvref_t<decltype(m(0, 0) * x[0])>, M::RowsAtCompileTime>(m, x, N);
+}
+template <detail::OfEigen M, class S, int Rows, int Cols>
+  requires(M::ColsAtCompileTime == Rows && M::RowsAtCompileTime > 0)
+auto operator*(const M& a, const MatOf<S, Rows, Cols>& b) {
+  return MatOf<typename M::Scalar, M::RowsAtCompileTime, Rows>(a) * b;
+}
+template <class S, int Rows, int Cols, detail::OfEigen M>
+  requires(M::RowsAtCompileTime == Cols && M::ColsAtCompileTime > 0)
+auto operator*(const MatOf<S, Rows, Cols>& a, const M& b) {
+  if constexpr (M::ColsAtCompileTime == 1) {
+    return a * VecOf<typename M::Scalar, Cols>(b);
+  } else {
+    return a * MatOf<typename M::Scalar, Cols, M::ColsAtCompileTime>(b);
+  }
 }
 template <class S, int N, detail::OfEigen M>
   requires(M::RowsAtCompileTime == 1 && M::ColsAtCompileTime > 1)

@@ -62,6 +62,16 @@ concept MaybeColumnOfEigen = OfEigen<E> &&
     ((E::ColsAtCompileTime == 1 && (E::RowsAtCompileTime == N || E::RowsAtCompileTime == -1)) ||
      (E::RowsAtCompileTime == 1 && E::ColsAtCompileTime == N));
 
+/// The conjugate of a complex number, of a real one itself.
+template <class S>
+[[nodiscard]] DALEMBERT_INLINE S conjugate(const S& x) {
+  if constexpr (requires { x.imag(); }) {
+    return S(x.real(), -x.imag());
+  } else {
+    return x;
+  }
+}
+
 /// As `operator<<` of Eigen: columns of numbers of one width.
 void print(std::ostream& out, const double* x, int rows, int cols);
 
@@ -186,6 +196,16 @@ struct VecOf {
     return r;
   }
   [[nodiscard]] VecOf cwiseAbs2() const { return cwiseProduct(*this); }
+  [[nodiscard]] VecOf cwiseMax(const VecOf& b) const {
+    VecOf r;
+    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.at(i) = at(i) < b.at(i) ? b.at(i) : at(i);
+    return r;
+  }
+  [[nodiscard]] VecOf cwiseMin(const VecOf& b) const {
+    VecOf r;
+    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.at(i) = b.at(i) < at(i) ? b.at(i) : at(i);
+    return r;
+  }
   /// @}
   /// Itself: equations may be written for Eigen's expressions, too.
   [[nodiscard]] DALEMBERT_INLINE VecOf eval() const { return *this; }
@@ -251,8 +271,8 @@ struct VecOf {
   }
   template <class T>
   [[nodiscard]] DALEMBERT_INLINE auto dot(const VecOf<T, N>& b) const {
-    auto s = at(0) * b.at(0);
-    DALEMBERT_UNROLL for (int i = 1; i < N; ++i) s += at(i) * b.at(i);
+    auto s = detail::conjugate(at(0)) * b.at(0);
+    DALEMBERT_UNROLL for (int i = 1; i < N; ++i) s += detail::conjugate(at(i)) * b.at(i);
     return s;
   }
   template <class T>
@@ -269,8 +289,14 @@ struct VecOf {
   [[nodiscard]] auto cross(const E& b) const requires(N == 3) {
     return cross(VecOf<typename E::Scalar, N>(b));
   }
-  [[nodiscard]] DALEMBERT_INLINE S squaredNorm() const { return dot(*this); }
-  [[nodiscard]] DALEMBERT_INLINE S norm() const {
+  [[nodiscard]] DALEMBERT_INLINE auto squaredNorm() const {
+    if constexpr (requires { at(0).imag(); }) {
+      return dot(*this).real();
+    } else {
+      return dot(*this);
+    }
+  }
+  [[nodiscard]] DALEMBERT_INLINE auto norm() const {
     using std::sqrt;
     return sqrt(squaredNorm());
   }
@@ -278,7 +304,7 @@ struct VecOf {
   /// Of 0 itself, as in Eigen.
   [[nodiscard]] DALEMBERT_INLINE VecOf normalized() const {
     using std::sqrt;
-    const S square = squaredNorm();
+    const auto square = squaredNorm();
     if (square > 0.0) return *this / sqrt(square);
     return *this;
   }

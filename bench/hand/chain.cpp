@@ -42,7 +42,7 @@ models::Observation<2> CartesianChain::observation(const std::vector<double>& y)
 }
 
 void CartesianChain::find_tensions(const std::vector<double>& y) {
-  const auto vector = [&](std::size_t k) { return Eigen::Map<const Vec<2>>(y.data() + 2 * k); };
+  const auto vector = [&](std::size_t k) { return Vec<2>::from(y.data() + 2 * k); };
   for (std::size_t i = 0; i < n_; ++i) {
     Rod& rod = rods_[i];
     if (i == 0) {

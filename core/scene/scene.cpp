@@ -288,9 +288,10 @@ int Scene<D>::add_any(const detail::ElementTable<ConstraintBatch>& type, const v
                       const std::string& name) {
   const std::string own = unique_name(type.kind, name, layout_.constraints.size());
   Surroundings around = Admitting(*this, {type.kind, own}).of(type, constraint);
+  const Condition condition = type.condition(constraint);
+  auto drawing = type.drawing(constraint);  // copies what a user's lambda captures: may fail
   const Place place = put(constraints_, type, constraint, layout_.constraints.size());
-  return enter(place, own, std::move(around), type.condition(constraint), type.meaning,
-               type.drawing(constraint));
+  return enter(place, own, std::move(around), holds, type.meaning, std::move(drawing));
 }
 
 template <int D>
@@ -298,8 +299,9 @@ Force Scene<D>::add_any(const detail::ElementTable<ForceBatch>& type, const void
                         const std::string& name) {
   const std::string own = unique_name(type.kind, name, layout_.forces.size() - gravities_.size());
   Surroundings around = Admitting(*this, {type.kind, own}).of(type, force);
+  auto drawing = type.drawing(force);
   const Place place = put(forces_, type, force, layout_.forces.size());
-  return enter_force(place, type.kind, own, std::move(around), type.drawing(force));
+  return enter_force(place, type.kind, own, std::move(around), std::move(drawing));
 }
 
 template <int D>
@@ -309,11 +311,13 @@ void Scene<D>::replace_any(int handle, const detail::ElementTable<ConstraintBatc
   Layout::Constraint& its = layout_.constraints[number];
   const bool released = its.condition.released;
   Surroundings around = Admitting(*this, {its.kind, its.name}).of(type, constraint);
+  const Condition condition = type.condition(constraint);
+  auto drawing = type.drawing(constraint);
   exchange(constraints_, type, constraint, constraint_places_[number], number, its.label(),
            std::move(around));
-  its.condition = type.condition(constraint);
+  its.condition = condition;
   its.condition.released = released;
-  its.drawing = type.drawing(constraint);
+  its.drawing = std::move(drawing);
 }
 
 template <int D>
@@ -321,8 +325,9 @@ void Scene<D>::replace_any(int handle, const detail::ElementTable<ForceBatch>& t
   const auto number = static_cast<std::size_t>(handle);
   Layout::Force& its = layout_.forces[number];
   Surroundings around = Admitting(*this, {its.kind, its.name}).of(type, force);
+  auto drawing = type.drawing(force);
   exchange(forces_, type, force, force_places_[number], number, its.label(), std::move(around));
-  its.drawing = type.drawing(force);
+  its.drawing = std::move(drawing);
 }
 
 template <int D>

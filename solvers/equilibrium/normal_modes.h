@@ -85,7 +85,10 @@ class NormalModes {
         return Vec<1>(sample.angular_velocity(point));
       }
     };
-    return read(re) + std::complex<double>(0.0, 1.0) * read(im);
+    const auto real = read(re), imaginary = read(im);
+    VecOf<std::complex<double>, P::dimension> shape;
+    for (int k = 0; k < P::dimension; ++k) shape[k] = {real[k], imaginary[k]};
+    return shape;
   }
 
   /// The verdict.

@@ -1,4 +1,5 @@
 #include <dalembert/dalembert.h>
+#include <dalembert/eigen.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -35,17 +36,17 @@ TEST_P(Body, HasTheMassCentreAndInertiaOfItsState) {
   const auto masses = scene.system();
   Vec<3> centre = Vec<3>::Zero();
   double mass = 0.0;
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  Mat<3, 3> inertia = Mat<3, 3>::Zero();
   for (const auto& p : body.particles) {
     const double m = masses.masses()[static_cast<std::size_t>(p.coordinate)];
     const Vec<3> arm = s.axes.transpose() * (p.gather(scene.initial_positions()) - s.centre);
     mass += m;
     centre += m * arm;
-    inertia += m * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+    inertia += m * (arm.squaredNorm() * Mat<3, 3>::Identity() - arm * arm.transpose());
   }
   EXPECT_NEAR(mass, s.mass, round_off);
   EXPECT_LT(centre.norm(), round_off);
-  EXPECT_LT((inertia - Eigen::Matrix3d(s.inertia.asDiagonal())).norm(), round_off);
+  EXPECT_LT((inertia - Eigen::Matrix3d(eigen(s.inertia).asDiagonal())).norm(), round_off);
 }
 
 TEST_P(Body, EveryPointOfItMovesAsARigidBodyDoes) {

@@ -151,7 +151,9 @@ TEST(FailedCopies, OfWhatIsOverAlignedLeaveNoTrace) {
     }
     EXPECT_EQ(count->alive, 0) << good;
     EXPECT_EQ(count->astray, 0) << good;
-    if (!failed) EXPECT_GT(good, 20);  // as many copies, at least, as there are constraints and scenes
+    if (!failed) {
+      EXPECT_GT(good, 20);  // as many copies, at least, as there are constraints and scenes
+    }
   }
 }
 

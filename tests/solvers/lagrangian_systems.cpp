@@ -38,35 +38,41 @@ TEST(LagrangeTerms, AreTheDerivativesOfTheFunction) {
                "L_vt");
 }
 
+/// Of matrices and columns of Eigen.
+detail::Accelerations accelerations_of(const Eigen::MatrixXd& M, const Eigen::VectorXd& f,
+                                       const Eigen::MatrixXd& A, const Eigen::VectorXd& gamma) {
+  const Eigen::MatrixXd rows = A.transpose();
+  return detail::accelerations({M.data(), M.data() + M.size()}, {f.data(), f.data() + f.size()},
+                               {{rows.data(), rows.data() + rows.size()}, {gamma.begin(), gamma.end()}});
+}
+
 TEST(Accelerations, ObeyTheConstraintsAndLeaveForcesOfConstraintOnly) {
   // Indefinite, in units that differ by nine digits, and with a row that is the sum of two others.
-  detail::SmallMatrix M(4, 4), A(3, 4);
+  Eigen::MatrixXd M(4, 4), A(3, 4);
   M << 2.0, 0.3, 0.0, 1e-9, 0.3, -1.0, 0.2, 0.0, 0.0, 0.2, 1.5, 0.0, 1e-9, 0.0, 0.0, 1e-18;
   A << 1.0, 0.0, 1.0, 0.0, 0.0, 2.0, 0.0, 0.0, 1.0, 2.0, 1.0, 0.0;
-  detail::SmallVector f(4), gamma(3);
-  f << 1.0, 2.0, -1.0, 3e-9;
-  gamma << 0.5, -0.3, 0.2;
-  const auto found = detail::accelerations(M, f, A, gamma);
-  ASSERT_EQ(found.without_inertia.size(), 0);
+  const Eigen::Vector4d f(1.0, 2.0, -1.0, 3e-9);
+  const Eigen::Vector3d gamma(0.5, -0.3, 0.2);
+  const auto found = accelerations_of(M, f, A, gamma);
+  ASSERT_TRUE(found.determined);
+  const Eigen::Vector4d a(found.a.data());
   constexpr double rounding = 1e-14;  // of numbers near 1, over a handful of operations
-  EXPECT_LE((A * found.a + gamma).cwiseAbs().maxCoeff(), rounding);
-  const detail::SmallVector reaction = M * found.a - f;  // a combination of the rows of A
+  EXPECT_LE((A * a + gamma).cwiseAbs().maxCoeff(), rounding);
+  const Eigen::Vector4d reaction = M * a - f;  // a combination of the rows of A
   EXPECT_NEAR(reaction[0], reaction[2], rounding);
   EXPECT_NEAR(reaction[3], 0.0, 1e-9 * rounding);
 }
 
 TEST(Accelerations, SayAlongWhatThereIsNoInertia) {
-  detail::SmallMatrix M(2, 2), none(0, 2), A(1, 2);
-  M << 1.0, 1.0, 1.0, 1.0;
-  A << 1.0, 0.0;
-  detail::SmallVector f(2), zero(1);
-  f << 1.0, 0.0;
-  zero << 0.0;
-  const auto direction = detail::accelerations(M, f, none, detail::SmallVector(0)).without_inertia;
-  ASSERT_EQ(direction.size(), 2);
-  EXPECT_NEAR(direction[0] + direction[1], 0.0, 1e-15);
+  const Eigen::Matrix2d M = Eigen::Matrix2d::Ones();
+  const Eigen::Vector2d f(1.0, 0.0);
+  const auto found = accelerations_of(M, f, Eigen::MatrixXd(0, 2), Eigen::VectorXd(0));
+  ASSERT_FALSE(found.determined);
+  EXPECT_NEAR(found.a[0] + found.a[1], 0.0, 1e-15);
+  EXPECT_GT(std::abs(found.a[0]), 0.0);
   // A constraint that forbids that direction leaves a regular system: a = (0, a_1), a_1 = f_1 = 0.
-  EXPECT_EQ(detail::accelerations(M, f, A, zero).without_inertia.size(), 0);
+  const Eigen::RowVector2d A(1.0, 0.0);
+  EXPECT_TRUE(accelerations_of(M, f, A, Eigen::VectorXd::Zero(1)).determined);
 }
 
 TEST(LagrangianSystems, SayWhereAndAlongWhatNoAccelerationFollows) {

@@ -1,6 +1,7 @@
 #include <dalembert/dalembert.h>
 #include <dalembert/tests/both_steppers.h>
 
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +11,11 @@
 /// Random scenes with Coulomb's friction: it never adds energy, and never exceeds its bound.
 namespace dalembert::rough_scenes_test {
 namespace {
+
+template <int D>
+Vec<D> random() {
+  return Eigen::Vector<double, D>::Random();
+}
 
 constexpr double g = 9.81, tolerance = 1e-6;
 #ifdef NDEBUG
@@ -31,15 +37,14 @@ class RoughScenes : public testing::TestWithParam<Stepper> {
     Scene<D> scene("rough");
     scene.add(UniformGravity<D>{-g * Vec<D>::Unit(D - 1)});
     const Vec<D> n = surface.normal_at(place);
-    Vec<D> v = one_in(4) ? Vec<D>(Vec<D>::Zero()) : Vec<D>(between(0.1, 3.0) * Vec<D>::Random());
+    Vec<D> v = one_in(4) ? Vec<D>(Vec<D>::Zero()) : Vec<D>(between(0.1, 3.0) * random<D>());
     v -= n * n.dot(v);
     const double mass = between(0.1, 3.0);
     const auto particle = scene.add_particle({.mass = mass, .position = place, .velocity = v});
     const auto holds = scene.add(held_by(particle, surface));
     const double mu = between(0.0, 0.9), mu_static = mu + (one_in(2) ? 0.0 : between(0.0, 0.4));
     const auto rough = scene.add(coulomb(holds, Slip{particle, surface}, mu, mu_static));
-    if (one_in(2))
-      scene.add(Spring{Fixed<D>{Vec<D>::Random()}, particle, between(1.0, 50.0), between(0.0, 1.0)});
+    if (one_in(2)) scene.add(Spring{Fixed<D>{random<D>()}, particle, between(1.0, 50.0), between(0.0, 1.0)});
     const auto run =
         simulate(scene, {.t_end = 0.7, .samples = 15, .tolerance = tolerance, .stepper = GetParam()});
     const auto& s = run.statistics();
@@ -88,7 +93,7 @@ TEST_P(RoughScenes, NeverGainEnergy) {
         run<3>(Plane<3>{Vec<3>::Zero(), Vec<3>(between(-1.0, 1.0), between(-1.0, 1.0), 1.0)}, Vec<3>::Zero());
         break;
       default:
-        run<3>(Sphere<3>{.radius = 1.0}, Vec<3>(Vec<3>::Random().normalized()));
+        run<3>(Sphere<3>{.radius = 1.0}, random<3>().normalized());
     }
   }
 }

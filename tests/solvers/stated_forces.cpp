@@ -91,11 +91,9 @@ struct Door {
 
   Door(const Vec<3>& inertia, const Vec<3>& axis) : n(axis.normalized()) {
     scene.add(UniformGravity<3>{-gravity * n});
-    Eigen::Matrix3d axes;
-    axes.col(2) = n;
-    axes.col(0) = n.unitOrthogonal();
-    axes.col(1) = n.cross(axes.col(0));
-    if (n == Vec<3>::UnitZ()) axes.setIdentity();
+    const Vec<3> across = n.unitOrthogonal();
+    const Mat<3, 3> axes =
+        n == Vec<3>::UnitZ() ? Mat<3, 3>::Identity() : Mat<3, 3>(across, n.cross(across), n);
     const Vec<3> centre = w * axes.col(0);
     body = add_body<3>(scene,
                        {.mass = mass,
@@ -190,10 +188,8 @@ TEST(DoorOnTwoHinges, ExertTheSameForcesHoweverTheirEquationsAreWritten) {
   Door written(inertias[0], {1.0, 2.0, -0.5});
   Scene<3> scene;
   scene.add(UniformGravity<3>{-Door::gravity * plain.n});
-  Eigen::Matrix3d axes;
-  axes.col(2) = plain.n;
-  axes.col(0) = plain.n.unitOrthogonal();
-  axes.col(1) = plain.n.cross(axes.col(0));
+  const Vec<3> across = plain.n.unitOrthogonal();
+  const Mat<3, 3> axes(across, plain.n.cross(across), plain.n);
   const auto body = add_body<3>(
       scene, {.mass = Door::mass, .inertia = inertias[0], .centre = Door::w * axes.col(0), .axes = axes},
       "door");

@@ -312,9 +312,7 @@ TEST(LevelSet, OfASphereIsClosed) {
   const auto triangles = level_set(sphere, box, 3, 20);
   double area = 0.0;
   for (std::size_t k = 0; k < triangles.size(); k += 9) {
-    const auto corner = [&](std::size_t i) {
-      return Vec<3>(Eigen::Map<const Vec<3>>(&triangles[k + 3 * i]));
-    };
+    const auto corner = [&](std::size_t i) { return Vec<3>::from(&triangles[k + 3 * i]); };
     area += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
   }
   EXPECT_NEAR(area, 4.0 * std::numbers::pi,
