@@ -128,7 +128,8 @@ void DryFriction::find_way_to_rest(Rough& rough, const std::vector<std::size_t>&
     // Of feet that slide one way together none can be let go alone: they rest together on a straight way.
     const Eigen::Vector2d rate = slip_acceleration(rough, at, motion);
     const double across = std::abs(u[0] * rate[1] - u[1] * rate[0]);
-    if (u.dot(rate) >= 0.0 || across > std::sqrt(tolerance_) * u.norm() * rate.norm()) return;
+    if (u.dot(rate) >= 0.0 || across > Accuracy(tolerance_).of_accelerations() * u.norm() * rate.norm())
+      return;
     rough.pace = Pace::ends;
     rough.blur = only_direction;
     rough.turns = 0.0;
