@@ -291,7 +291,7 @@ int Scene<D>::add_any(const detail::ElementTable<ConstraintBatch>& type, const v
   const Condition condition = type.condition(constraint);
   auto drawing = type.drawing(constraint);  // copies what a user's lambda captures: may fail
   const Place place = put(constraints_, type, constraint, layout_.constraints.size());
-  return enter(place, own, std::move(around), holds, type.meaning, std::move(drawing));
+  return enter(place, own, std::move(around), condition, type.meaning, std::move(drawing));
 }
 
 template <int D>
