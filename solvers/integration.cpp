@@ -185,7 +185,7 @@ const CompliantMultipliers* Integration::compliant_multipliers_at(double t) {
 }
 
 /// The implicit stepper's unknowns are the multipliers of the rows that it began with: where others have
-/// taken over (see Manifold) it begins anew.
+/// taken over (see Manifold) it restarts.
 void Integration::exchange_rows() {
   if (segment_->by == Stepper::erk || start().rows.size() == system().rows_in_force()) return;
   const State& now = interpolate(time());

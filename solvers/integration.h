@@ -14,9 +14,9 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// A system's way through time: the stepper that the options ask for, restarted with other rows where those
-/// in use come to depend on each other, and handed over to the explicit one at isolated singular positions.
-/// What is read from it lies on the constraints.
+/// A system integrated through time, in segments. Each has its own stepper: the one that the options ask for
+/// or, close to an isolated singular position, the explicit one. A segment ends where other rows must take
+/// over, where an equation switches, and where constraints change. All that is read lies on the constraints.
 class Integration {
  public:
   /// From a consistent start, see Opening. Throws StepFailure, EquationFault.

@@ -106,7 +106,7 @@ void ErkStepper::step(double wanted) {
   if (s.steps == 0) s.switching.find_first_side();
   if (s.singular.attempt() == SingularPassage::Outcome::passed) {
     s.accept(true);
-    return s.switching.find_side_anew();
+    return s.switching.find_side_again();
   }
   if (s.steps % RungeKutta::check_interval == 0) s.measure_noise();
   double growth = constants.most_growth;

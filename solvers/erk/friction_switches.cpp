@@ -39,7 +39,7 @@ void ErkStepper::FrictionSwitches::find_side(Node& node) {
   switches_.find({node.t, node.q, rk_.halves(node.va).first}, multipliers_, node.side);
 }
 
-void ErkStepper::FrictionSwitches::find_side_anew() {
+void ErkStepper::FrictionSwitches::find_side_again() {
   if (!switches_.any()) return;
   std::vector<double> unused(rk_.n);
   rk_.require(rk_.manifold.accelerate({rk_.to.t, rk_.to.q, rk_.halves(rk_.to.va).first}, unused));

@@ -22,7 +22,7 @@ class ErkStepper::FrictionSwitches {
   /// yet.
   void find_first_side();
   /// Of the last node, where no attempt has led.
-  void find_side_anew();
+  void find_side_again();
 
   /// An attempt starts; its stage i is at t.
   void start_attempt() { passed_switch_ = passed_several_ = false; }

@@ -150,7 +150,7 @@ bool IdaStepper::Solver::too_short(double step) const {
   return step <= 4.0 * epsilon * std::abs(t) || step * scales.length <= rounding * scales.time;
 }
 
-/// After a step: changes the highest order if the guard does. IDA can lower it only by beginning anew at
+/// After a step: changes the highest order if the guard does. IDA can lower it only by a restart at
 /// order 1.
 void IdaStepper::Solver::watch_order() {
   double h = 0.0;

@@ -41,7 +41,7 @@ struct Start {
                                                            std::span<double> v, double known);
 
 /// A start from a state during a run that began with `before`, in its scales: put onto the
-/// constraints, with as many rows as before, chosen anew. Throws StepFailure where they are dependent.
+/// constraints, with as many rows as before, chosen again. Throws StepFailure where they are dependent.
 [[nodiscard]] Start restart_with_rows(const Problem& problem, const Start& before, double t,
                                       std::span<const double> q, std::span<const double> v);
 

@@ -21,7 +21,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// While sides are held the equations are smooth, so a step and its polynomial know nothing of a switch
 /// within it, and are right up to there. The difference a - b of each comparison is a function over the step:
 /// it is looked at like an event's, and what lies behind its first root is not part of the motion. There the
-/// run begins anew, on the sides behind. Where the accelerations of both sides differ by less than the step
+/// run restarts, on the sides behind. Where the accelerations of both sides differ by less than the step
 /// can tell, as at a jump of a higher derivative, the step goes on.
 class Comparisons {
  public:

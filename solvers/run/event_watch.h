@@ -51,7 +51,7 @@ class EventWatch {
   /// Every crossing in a step, in the order of time; of contacts those that were asked for. Throws
   /// StepFailure if a function throws, gives no number or cannot be followed.
   [[nodiscard]] std::vector<Found> locate(const Step& step);
-  /// Where a run begins, or begins anew.
+  /// Where a segment of a run starts.
   struct Beginning {
     const FlatSample& start;
     std::size_t positive;  ///< functions from this number on come from above 0 where they are 0

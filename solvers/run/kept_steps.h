@@ -20,7 +20,7 @@ class KeptSteps final : public DenseOutput {
  public:
   explicit KeptSteps(double tolerance) : tolerance_(tolerance) {}
 
-  /// From here on the steps are those of a run that begins, or begins anew, with `start` at time t, maybe
+  /// From here on the steps are those of a segment that starts with `start` at time t, maybe
   /// with another system. If it throws nothing has changed.
   void add_segment(std::shared_ptr<const System> system, const Start& start, double t);
   /// What the last step's polynomial has beyond a time is no part of the run.

@@ -13,7 +13,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// there.
 class OutputProjection {
  public:
-  /// For the states of a run that begins, or begins anew, with `start`.
+  /// For the states of a segment that starts with `start`.
   OutputProjection(const Problem& problem, const Start& start, double tolerance);
 
   [[nodiscard]] Manifold& manifold() { return manifold_; }
