@@ -53,14 +53,14 @@ concept OfEigen = requires {
   E::RowsAtCompileTime;
   E::ColsAtCompileTime;
 };
-/// One that is a column of N numbers.
+/// One that is a column of N numbers, as far as its type says.
 template <class E, int N>
-concept ColumnOfEigen = OfEigen<E> &&(E::RowsAtCompileTime == N && E::ColsAtCompileTime == 1);
-/// One that may be, as far as its type says, or a row of as many.
+concept ColumnOfEigen = OfEigen<E> &&
+    (E::ColsAtCompileTime == 1 && (E::RowsAtCompileTime == N || E::RowsAtCompileTime == -1));
+/// The same, or a row.
 template <class E, int N>
-concept MaybeColumnOfEigen = OfEigen<E> &&
-    ((E::ColsAtCompileTime == 1 && (E::RowsAtCompileTime == N || E::RowsAtCompileTime == -1)) ||
-     (E::RowsAtCompileTime == 1 && E::ColsAtCompileTime == N));
+concept MaybeColumnOfEigen = ColumnOfEigen<E, N> ||
+    (OfEigen<E> && (E::RowsAtCompileTime == 1 && E::ColsAtCompileTime == N));
 
 /// A vector of N components. Two or three are written out: g++ at -O2 keeps a loop over numbers with
 /// derivatives, which then go through memory.
