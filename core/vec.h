@@ -53,14 +53,31 @@ concept OfEigen = requires {
   E::RowsAtCompileTime;
   E::ColsAtCompileTime;
 };
-/// One that is a column of N numbers.
+/// One that is a column of N numbers, as far as its type says.
 template <class E, int N>
-concept ColumnOfEigen = OfEigen<E> &&(E::RowsAtCompileTime == N && E::ColsAtCompileTime == 1);
-/// One that may be, as far as its type says, or a row of as many.
+concept ColumnOfEigen = OfEigen<E> &&
+    (E::ColsAtCompileTime == 1 && (E::RowsAtCompileTime == N || E::RowsAtCompileTime == -1));
+/// The same, or a row.
 template <class E, int N>
-concept MaybeColumnOfEigen = OfEigen<E> &&
-    ((E::ColsAtCompileTime == 1 && (E::RowsAtCompileTime == N || E::RowsAtCompileTime == -1)) ||
-     (E::RowsAtCompileTime == 1 && E::ColsAtCompileTime == N));
+concept MaybeColumnOfEigen = ColumnOfEigen<E, N> ||
+    (OfEigen<E> && (E::RowsAtCompileTime == 1 && E::ColsAtCompileTime == N));
+
+/// A vector of N components. Two or three are written out: g++ at -O2 keeps a loop over numbers with
+/// derivatives, which then go through memory.
+template <class S, int N, class F>
+[[nodiscard]] DALEMBERT_INLINE VecOf<S, N> components(const F& of) {
+  if constexpr (N == 1) {
+    return VecOf<S, N>(S(of(0)));
+  } else if constexpr (N == 2) {
+    return VecOf<S, N>(of(0), of(1));
+  } else if constexpr (N == 3) {
+    return VecOf<S, N>(of(0), of(1), of(2));
+  } else {
+    VecOf<S, N> r;
+    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r[i] = of(i);
+    return r;
+  }
+}
 
 /// The conjugate of a complex number, of a real one itself.
 template <class S>
@@ -94,13 +111,10 @@ struct VecOf {
   VecOf& operator=(const VecOf&) & = default;  // not of what a function returned: r.head<2>() is no place
   /// @{
   /// Of its components, of numbers of another type, or of a column of Eigen's.
-  DALEMBERT_INLINE explicit VecOf(const S& x) requires(N == 1) { at(0) = x; }
+  DALEMBERT_INLINE explicit VecOf(const S& x) requires(N == 1) : c_{x} {}
   template <class... T>
     requires(N > 1 && sizeof...(T) == N && (std::convertible_to<T, S> && ...))
-  DALEMBERT_INLINE VecOf(const T&... x) {
-    S* place = c_;
-    ((*place++ = S(x)), ...);
-  }
+  DALEMBERT_INLINE VecOf(const T&... x) : c_{S(x)...} {}
   template <class T>
     requires(!std::is_same_v<T, S> && std::convertible_to<T, S>)
   VecOf(const VecOf<T, N>& x) {  // NOLINT(google-explicit-constructor)
@@ -212,9 +226,7 @@ struct VecOf {
 
   /// The N numbers from a place in memory on.
   [[nodiscard]] DALEMBERT_INLINE static VecOf from(const S* x) {
-    VecOf r;
-    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.at(i) = x[i];
-    return r;
+    return detail::components<S, N>([x](int i) DALEMBERT_INLINE_LAMBDA { return x[i]; });
   }
   /// @{
   /// As those of Eigen.
@@ -265,9 +277,7 @@ struct VecOf {
     return *this;
   }
   DALEMBERT_INLINE VecOf operator-() const {
-    VecOf r;
-    DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r.at(i) = -at(i);
-    return r;
+    return detail::components<S, N>([this](int i) DALEMBERT_INLINE_LAMBDA { return -at(i); });
   }
   template <class T>
   [[nodiscard]] DALEMBERT_INLINE auto dot(const VecOf<T, N>& b) const {
@@ -369,33 +379,28 @@ struct VecOf {
 /// Vectors by value, of the type of numbers that holds both.
 template <class A, class B, int N>
 DALEMBERT_INLINE auto operator+(const VecOf<A, N>& a, const VecOf<B, N>& b) {
-  VecOf<decltype(a[0] + b[0]), N> r;
-  DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r[i] = a[i] + b[i];
-  return r;
+  return detail::components<decltype(a[0] + b[0]), N>([&](int i)
+                                                          DALEMBERT_INLINE_LAMBDA { return a[i] + b[i]; });
 }
 template <class A, class B, int N>
 DALEMBERT_INLINE auto operator-(const VecOf<A, N>& a, const VecOf<B, N>& b) {
-  VecOf<decltype(a[0] - b[0]), N> r;
-  DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r[i] = a[i] - b[i];
-  return r;
+  return detail::components<decltype(a[0] - b[0]), N>([&](int i)
+                                                          DALEMBERT_INLINE_LAMBDA { return a[i] - b[i]; });
 }
 template <class A, class B, int N>
 requires detail::is_scalar<B> DALEMBERT_INLINE auto operator*(const VecOf<A, N>& a, const B& b) {
-  VecOf<std::remove_cvref_t<decltype(a[0] * b)>, N> r;
-  DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r[i] = a[i] * b;
-  return r;
+  return detail::components<std::remove_cvref_t<decltype(a[0] * b)>, N>(
+      [&](int i) DALEMBERT_INLINE_LAMBDA { return a[i] * b; });
 }
 template <class A, class B, int N>
 requires detail::is_scalar<A> DALEMBERT_INLINE auto operator*(const A& a, const VecOf<B, N>& b) {
-  VecOf<std::remove_cvref_t<decltype(a * b[0])>, N> r;
-  DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r[i] = a * b[i];
-  return r;
+  return detail::components<std::remove_cvref_t<decltype(a * b[0])>, N>(
+      [&](int i) DALEMBERT_INLINE_LAMBDA { return a * b[i]; });
 }
 template <class A, class B, int N>
 requires detail::is_scalar<B> DALEMBERT_INLINE auto operator/(const VecOf<A, N>& a, const B& b) {
-  VecOf<std::remove_cvref_t<decltype(a[0] / b)>, N> r;
-  DALEMBERT_UNROLL for (int i = 0; i < N; ++i) r[i] = a[i] / b;
-  return r;
+  return detail::components<std::remove_cvref_t<decltype(a[0] / b)>, N>(
+      [&](int i) DALEMBERT_INLINE_LAMBDA { return a[i] / b; });
 }
 
 /// @}

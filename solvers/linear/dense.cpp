@@ -1,71 +1,13 @@
 #include "dalembert/solvers/linear/dense.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
-
-#include <cmath>
-#include <complex>
 
 namespace dalembert::dense {
 
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
-using Eigen::VectorXd;
-
-MatrixXd product(const MatrixXd& A, const MatrixXd& B) { return A * B; }
-VectorXd product(const MatrixXd& A, const VectorXd& x) { return A * x; }
-MatrixXcd product(const MatrixXd& A, const MatrixXcd& B) { return A * B; }
-VectorXcd product(const MatrixXd& A, const VectorXcd& x) { return A * x; }
-MatrixXd transposed_product(const MatrixXd& A, const MatrixXd& B) { return A.transpose() * B; }
-MatrixXcd adjoint_product(const MatrixXcd& A, const MatrixXcd& B) { return A.adjoint() * B; }
-MatrixXd restricted(const MatrixXd& N, const MatrixXd& X) { return transposed_product(N, X) * N; }
-MatrixXd below(const MatrixXd& A, const MatrixXd& B) {
-  MatrixXd both(A.rows() + B.rows(), A.cols());
-  both << A, B;
-  return both;
-}
-MatrixXd beside(const MatrixXd& A, const MatrixXd& B) {
-  MatrixXd both(A.rows(), A.cols() + B.cols());
-  both << A, B;
-  return both;
-}
-MatrixXd sizes(const MatrixXd& A) { return A.cwiseAbs(); }
-
-SymmetricEigen symmetric_eigen(const MatrixXd& A) {
-  if (A.size() == 0) return {Eigen::VectorXd(0), MatrixXd(0, 0)};
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(A);
-  return {solver.eigenvalues(), solver.eigenvectors()};
-}
-
-ComplexEigen complex_eigen(const MatrixXd& A) {
-  const Eigen::EigenSolver<MatrixXd> solver(A);
-  return {solver.eigenvalues(), solver.eigenvectors()};
-}
-
-VectorXcd eigenvalues(const MatrixXd& A) { return Eigen::EigenSolver<MatrixXd>(A, false).eigenvalues(); }
-
-/// Neighbours on the diagonal change places by one rotation (LAPACK's ztrexc).
-Schur ordered_schur(const MatrixXd& A) {
-  const Eigen::ComplexSchur<MatrixXd> schur(A);
-  Schur s{schur.matrixT(), schur.matrixU()};
-  const Eigen::Index n = A.rows();
-  for (Eigen::Index sorted = 1; sorted < n; ++sorted) {
-    for (Eigen::Index k = sorted; k > 0 && std::abs(s.T(k, k)) > std::abs(s.T(k - 1, k - 1)); --k) {
-      const std::complex<double> first = s.T(k - 1, k - 1), second = s.T(k, k);
-      Eigen::JacobiRotation<std::complex<double>> rotation;
-      rotation.makeGivens(s.T(k - 1, k), second - first);
-      s.T.applyOnTheLeft(k - 1, k, rotation.adjoint());
-      s.T.applyOnTheRight(k - 1, k, rotation);
-      s.U.applyOnTheRight(k - 1, k, rotation);
-      s.T(k, k - 1) = 0.0;
-      s.T(k - 1, k - 1) = second;
-      s.T(k, k) = first;
-    }
-  }
-  return s;
-}
 
 MatrixXd orthonormal(const MatrixXd& columns, Eigen::Index rank) {
   return Eigen::ColPivHouseholderQR<MatrixXd>(columns).householderQ() *

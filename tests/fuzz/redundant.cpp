@@ -91,7 +91,10 @@ std::vector<Vec<D>> nodes(Draft<D>& draft) {
     Vec<D> at = Vec<D>::Zero();
     const bool apex = D == 3 && (i == 0 || i == n - 1);
     if (apex) at[D - 1] = i == 0 ? 1.0 : -1.0;
-    if (!apex) at.template head<2>() = Vec<2>(std::cos(turn * i / around), std::sin(turn * i / around));
+    if (!apex) {
+      at[0] = std::cos(turn * i / around);
+      at[1] = std::sin(turn * i / around);
+    }
     r.push_back(centre + L * (at + uneven * draft.random.template vector<D>()));
   }
   return r;

@@ -1,4 +1,5 @@
 #include "draft.h"
+#include <dalembert/eigen.h>
 
 #include <Eigen/Geometry>
 
@@ -92,7 +93,8 @@ void add_disk(Draft<3>& draft) {
   state.inertia = draft.number(0.25 * state.mass * radius * radius) * Vec<2>::Ones();
   state.centre = draft.numbers(draft.plan.length * draft.random.vector<3>());
   state.axes =
-      Eigen::Quaterniond::FromTwoVectors(Vec<3>::UnitZ(), draft.random.direction<3>()).toRotationMatrix();
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), eigen(draft.random.direction<3>()))
+          .toRotationMatrix();
   if (draft.plan.moving) state.angular_velocity = draft.random.vector<3>() / draft.plan.time;
   Vec<3> N = draft.random.direction<3>();
   const double lean = N.cross(state.axes.col(2)).norm();
