@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
+
 namespace dalembert::laws_of_users_test {
 namespace {
 
@@ -31,9 +33,8 @@ TEST(BrokenLaws, AKinkIsNamed) {
 TEST(BrokenLaws, AMemoryIsFound) {
   Scene<2> scene;
   const auto bead = scene.add_particle({.mass = 1.0, .position = {0.5, 1.0}});
-  scene.add(holonomic(points(bead), [calls = std::make_shared<int>(0)](const auto& r) {
-    return r.y() + 1e-3 * ++*calls;
-  }));
+  scene.add(holonomic(points(bead),
+                      [calls = std::make_shared<int>(0)](const auto& r) { return r.y() + 1e-3 * ++*calls; }));
   EXPECT_THAT(broken_laws(scene), HasSubstr("a second evaluation gives other numbers"));
 }
 
