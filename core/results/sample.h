@@ -18,7 +18,7 @@ struct FlatSample {
   std::span<const double> lambda;  ///< m; NaN where the state does not determine it
   std::span<const double> forces;  ///< the slots of constraint forces; likewise
   double energy = 0.0;             ///< kinetic plus all potential energies
-  std::span<const char> unique{};  ///< m: is this multiplier determined? empty if all are
+  std::span<const char> unique{};  ///< m: is this multiplier unique? See Sample::is_unique; empty if all are
 };
 
 /// What is made of particles: a RigidBody, Lamina, ThinRod, and a BodyPoint, which stands for its body.
@@ -123,7 +123,7 @@ class Sample {
     }
     return true;
   }
-  /// Whether it determines one of them, counted from 0: a door on two hinges has determined horizontal
+  /// Whether it determines one of them, counted from 0: a door on two hinges has unique horizontal
   /// forces, while only the sum of the vertical ones is.
   template <int Rows>
   [[nodiscard]] bool is_unique(Constraint<Rows> constraint, int component) const {
