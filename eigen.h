@@ -6,6 +6,7 @@
 
 /// For programs that use Eigen. Vectors and matrices of the library become Eigen's, and Eigen's become the
 /// library's, without this header; it is for what the compiler does not convert by itself.
+/// Include it before the first equation: Eigen asks for the properties of numbers with derivatives once.
 namespace dalembert {
 
 /// @{
