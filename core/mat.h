@@ -164,7 +164,7 @@ namespace detail {
 template <class S>
 struct InnerProduct : VecOf<S, 1> {
   using VecOf<S, 1>::VecOf;
-  operator const S&() const { return this->data()[0]; }  // NOLINT(google-explicit-constructor)
+  operator S() const { return this->data()[0]; }  // NOLINT(google-explicit-constructor)
 };
 template <class S>
 inline constexpr bool is_vector<InnerProduct<S>> = true;
@@ -246,12 +246,14 @@ auto operator*(const T& transformation, const VecOf<S, N>& x) {
   return VecOf<S, N>(transformation * Eigen::Matrix<S, N, 1, 0, N, 1>(x));
 }
 template <class E, class S, int N>
-requires detail::OfEigen<std::remove_cvref_t<E>> E& operator+=(E&& a, const VecOf<S, N>& b) {
+requires detail::MaybeColumnOfEigen<std::remove_cvref_t<E>, N> E& operator+=(E&& a, const VecOf<S, N>& b) {
+  assert(a.size() == N);
   for (int i = 0; i < N; ++i) a.coeffRef(i) += b[i];
   return a;
 }
 template <class E, class S, int N>
-requires detail::OfEigen<std::remove_cvref_t<E>> E& operator-=(E&& a, const VecOf<S, N>& b) {
+requires detail::MaybeColumnOfEigen<std::remove_cvref_t<E>, N> E& operator-=(E&& a, const VecOf<S, N>& b) {
+  assert(a.size() == N);
   for (int i = 0; i < N; ++i) a.coeffRef(i) -= b[i];
   return a;
 }

@@ -160,10 +160,10 @@ void DryFriction::mark_shared(const Motion& motion) {
   for (Rough& r : all_) r.shared = r.mode == Mode::sticks && shared(r, motion.unique);
 }
 
-/// By how much the friction of what sticks exceeds its bound, as a part of that; at most 0 if it does not.
+/// By how much the friction of what sticks exceeds its bound, as a part of that; -1 if there is none.
 double DryFriction::excess(const Rough& rough, const Motion& motion) const {
   const double sigma = part(rough, motion.lambda).norm();
-  if (rough.mode != Mode::sticks || sigma <= round_off_of(rough, motion.a, motion.lambda)) return 0.0;
+  if (rough.mode != Mode::sticks || sigma <= round_off_of(rough, motion.a, motion.lambda)) return -1.0;
   return sigma / (rough.mu_static * std::abs(motion.lambda[rough.pressing_row])) - 1.0 - round_off();
 }
 
@@ -220,9 +220,10 @@ bool DryFriction::release_most_exceeded(const Motion& motion, double t) {
     by = own;
   }
   if (most == nullptr) return false;
-  const bool together = shared(*most, motion.unique);
+  mark_shared(motion);
+  const bool together = most->shared;
   for (Rough& r : all_) {
-    const bool too = together && shared(r, motion.unique) && excess(r, motion) > -std::sqrt(round_off());
+    const bool too = together && r.shared && excess(r, motion) > -std::sqrt(round_off());
     if (&r != most && !too) continue;
     require_own_share(r, t);
     if (!r.one_sided) r.sign = motion.lambda[r.pressing_row] < 0.0 ? -1.0 : 1.0;

@@ -126,10 +126,9 @@ std::vector<SharedContact> FrictionShares::contacts(std::span<const char> unique
 
 void FrictionShares::spread(const MatrixXd& N, std::span<const char> unique,
                             const std::vector<SharedContact>& pushing, std::span<double> lambda) const {
-  auto chosen = shared(unique);
-  if (chosen.empty()) return;
+  if (all_.empty()) return;
   Forces all(lambda.data(), N.rows());
-  share_friction(N, std::move(chosen), pushing, all);
+  if (auto chosen = shared(unique); !chosen.empty()) share_friction(N, std::move(chosen), pushing, all);
   share_statically(N, contacts(unique, pushing, all), all);
 }
 

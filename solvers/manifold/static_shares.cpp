@@ -179,7 +179,8 @@ void share_statically(const MatrixXd& N, const std::vector<SharedContact>& conta
   shares.hold_idle(N);
   if (!shares.any()) return;
   const auto [x, m] = shares.statical();
-  const double part = m > 0.0 ? shares.part_of(x, 0.5 * (1.0 + shares.largest_part(x))) : 1.0;
+  const double least = shares.largest_part(x);
+  const double part = m > 0.0 && least < 1.0 ? shares.part_of(x, 0.5 * (1.0 + least)) : 1.0;
   lambda += part * shares.change(x);
 }
 

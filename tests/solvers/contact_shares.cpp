@@ -299,7 +299,8 @@ TEST_P(ContactShares, TableHoldsACoupleUpToItsLimit) {
                         return std::make_tuple(vec(zero, f, zero), vec(zero, -f, zero));
                       }));
   const double turns = 0.3 * 100.0 * std::numbers::sqrt2 / 50.0;
-  EXPECT_TRUE(simulate(scene, options(turns - 1e-6, 2)).events().empty());
+  const auto held = simulate(scene, options(turns - 1e-6, 2));
+  EXPECT_TRUE(held.events().empty());
   try {
     (void)simulate(scene, options(1.0, 2));
     FAIL() << "turns by shares that nothing determines";
@@ -333,6 +334,24 @@ TEST_P(ContactShares, WallsOfASlotDoNotPressEachOther) {
   EXPECT_NEAR(run.multiplier(held.walls[0], 1), 20.0, rounding);
   EXPECT_EQ(run.multiplier(held.walls[1], 1), 0.0);
   EXPECT_THROW((void)simulate(Slot(10.0).scene, options(1.0, 2)), Error);
+}
+
+// Only the middle prop is rough: a push of 25 along the floor needs 50 of the weight of 60 there, of which
+// least norm gives 20.
+TEST_P(ContactShares, RoughPropTakesTheLoadThatItNeeds) {
+  constexpr double mu = 0.5, push = 25.0;
+  Beam beam(6.0, 0.0);
+  const auto middle = beam.body.point_at({0.0, 0.0});
+  const auto friction = beam.scene.add(coulomb(beam.props[1], Slip{middle, Plane<2>{}}, mu));
+  beam.scene.add(PointGravity{middle, 1.0, Vec<2>(push, 0.0)});
+  const auto run = simulate(beam.scene, options(1.0, 2));
+  EXPECT_TRUE(run.events().empty());
+  EXPECT_NEAR(run.multiplier(friction, 1), -push, rounding);
+  EXPECT_GE(run.multiplier(beam.props[1], 1), push / mu);
+  double sum = 0.0;
+  for (const auto& prop : beam.props) sum += run.multiplier(prop, 1);
+  EXPECT_NEAR(sum, 60.0, rounding);
+  EXPECT_NEAR(run.multiplier(beam.props[0], 1), run.multiplier(beam.props[2], 1), rounding);
 }
 
 // Only one of two blocks that a rod joins presses the floor: that one's friction balances the push of 2.
