@@ -47,9 +47,9 @@ TEST(Readings, AllTimesAreTheSamplesOneByOne) {
   const auto run = simulate(each.scene, {.t_end = 1.0, .samples = 11});
   const auto pin = each.scene.constraint<2>("pin");
   ASSERT_EQ(run.positions(each.bead).cols(), 11);
-  Eigen::Index column = 0;
+  std::size_t column = 0;
   for (const auto& now : run) {
-    EXPECT_EQ(now.time(), run.times()[static_cast<std::size_t>(column)]);
+    EXPECT_EQ(now.time(), run.times()[column]);
     EXPECT_EQ(run.positions(each.bead).col(column), now.position(each.bead));
     EXPECT_EQ(run.velocities(each.bead).col(column), now.velocity(each.bead));
     EXPECT_EQ(run.accelerations(each.skate).col(column), now.acceleration(each.skate));
@@ -57,7 +57,7 @@ TEST(Readings, AllTimesAreTheSamplesOneByOne) {
     EXPECT_EQ(run.multipliers(pin).col(column), now.multiplier(pin));
     ++column;
   }
-  EXPECT_EQ(column, 11);
+  EXPECT_EQ(column, 11u);
   EXPECT_THROW((void)run.positions(Pendulum().bob), InvalidArgument);
 }
 
