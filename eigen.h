@@ -26,7 +26,8 @@ template <class S, int Rows, int Cols>
 
 namespace Eigen {
 
-/// Matrices of numbers that carry derivatives.
+/// @cond
+// Matrices of numbers that carry derivatives.
 template <dalembert::Differentiated S>
 struct NumTraits<S> : NumTraits<double> {
   using Real = S;
@@ -43,6 +44,7 @@ struct NumTraits<S> : NumTraits<double> {
     MulCost = 32
   };
 };
+/// @endcond
 template <dalembert::Differentiated S, class Op>
 struct ScalarBinaryOpTraits<S, double, Op> {
   using ReturnType = S;

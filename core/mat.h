@@ -23,11 +23,16 @@ template <class S, int Rows, int Cols>
 struct MatOf {
   static_assert(Rows > 0 && Cols > 0);
   using Scalar = S;  ///< of its entries
-  static constexpr int RowsAtCompileTime = Rows, ColsAtCompileTime = Cols;
+  /// Eigen's of this shape.
+  using OfEigen = Eigen::Matrix<S, Rows, Cols, (Rows == 1 && Cols > 1), Rows, Cols>;
+  static constexpr int RowsAtCompileTime = Rows;  ///< as Eigen says it
+  static constexpr int ColsAtCompileTime = Cols;  ///< as Eigen says it
 
   MatOf() = default;
-  MatOf(const MatOf&) = default;
+  MatOf(const MatOf&) = default;  ///< A copy.
+  /// Not of what a function returned.
   MatOf& operator=(const MatOf&) & = default;
+  /// Of one of Eigen's.
   template <detail::MaybeMatrixOfEigen<Rows, Cols> E>
     requires(std::convertible_to<typename E::Scalar, S>)
   MatOf(const E& of_eigen) {  // NOLINT(google-explicit-constructor)
@@ -49,11 +54,7 @@ struct MatOf {
       for (int i = 0; i < Rows; ++i) (*this)(i, k) = rows[i][k];
   }
   /// As one of Eigen's, for who has included Eigen.
-  operator Eigen::Matrix<S, Rows, Cols, (Rows == 1 && Cols > 1), Rows, Cols>()  // NOLINT
-      const {
-    using M = Eigen::Matrix<S, Rows, Cols, (Rows == 1 && Cols > 1), Rows, Cols>;
-    return M(c_);
-  }
+  operator OfEigen() const { return OfEigen(c_); }  // NOLINT(google-explicit-constructor)
   friend bool operator==(const MatOf& a, const MatOf& b) {
     for (int i = 0; i < Rows * Cols; ++i)
       if (!(a.c_[i] == b.c_[i])) return false;
@@ -67,26 +68,36 @@ struct MatOf {
   DALEMBERT_INLINE S& operator[](std::ptrdiff_t k) requires(Rows == 1) { return c_[k]; }
   DALEMBERT_INLINE const S& operator[](std::ptrdiff_t k) const requires(Rows == 1) { return c_[k]; }
   /// @}
+  /// @{
   /// Where its numbers are, column after column.
   [[nodiscard]] S* data() { return c_; }
   [[nodiscard]] const S* data() const { return c_; }
+  /// @}
+  /// @{
+  /// How many rows and columns it has.
   [[nodiscard]] static constexpr int rows() { return Rows; }
   [[nodiscard]] static constexpr int cols() { return Cols; }
+  /// @}
+  /// A column, by value.
   [[nodiscard]] VecOf<S, Rows> col(std::ptrdiff_t k) const { return VecOf<S, Rows>::from(c_ + k * Rows); }
+  /// Takes a column.
   void set_col(std::ptrdiff_t k, const VecOf<S, Rows>& column) {
     for (int i = 0; i < Rows; ++i) (*this)(i, k) = column[i];
   }
+  /// A row, by value.
   [[nodiscard]] MatOf<S, 1, Cols> row(std::ptrdiff_t i) const {
     MatOf<S, 1, Cols> r;
     for (int k = 0; k < Cols; ++k) r(0, k) = (*this)(i, k);
     return r;
   }
+  /// The transpose; of a row a vector.
   [[nodiscard]] auto transpose() const {
     std::conditional_t<Rows == 1, VecOf<S, Cols>, MatOf<S, Cols, Rows>> r;
     for (int k = 0; k < Cols; ++k)
       for (int i = 0; i < Rows; ++i) r.data()[i * Cols + k] = (*this)(i, k);
     return r;
   }
+  /// Itself: equations may be written for Eigen's expressions, too.
   [[nodiscard]] MatOf eval() const { return *this; }
   /// With every entry as a T.
   template <class T>
@@ -140,6 +151,8 @@ struct MatOf {
     for (S& x : c_) x *= b;
     return *this;
   }
+  /// @}
+  /// @cond
   friend MatOf operator+(MatOf a, const MatOf& b) { return a += b; }
   friend MatOf operator-(MatOf a, const MatOf& b) { return a -= b; }
   friend MatOf operator-(MatOf a) { return a *= S(-1.0); }
@@ -149,7 +162,7 @@ struct MatOf {
     for (S& x : a.c_) x /= b;
     return a;
   }
-  /// @}
+  /// @endcond
 
  private:
   S c_[Rows * Cols];

@@ -103,12 +103,14 @@ void print(std::ostream& out, const double* x, int rows, int cols);
 template <class S, int N>
 struct VecOf {
   static_assert(N > 0);
-  using Scalar = S;  ///< of its components
-  static constexpr int RowsAtCompileTime = N, ColsAtCompileTime = 1;
+  using Scalar = S;                            ///< of its components
+  static constexpr int RowsAtCompileTime = N;  ///< as Eigen says it
+  static constexpr int ColsAtCompileTime = 1;  ///< as Eigen says it
 
   VecOf() = default;
-  VecOf(const VecOf&) = default;
-  VecOf& operator=(const VecOf&) & = default;  // not of what a function returned: r.head<2>() is no place
+  VecOf(const VecOf&) = default;  ///< A copy.
+  /// Not of what a function returned: `r.head<2>()` is no place to write to.
+  VecOf& operator=(const VecOf&) & = default;
   /// @{
   /// Of its components, of numbers of another type, or of a column of Eigen's.
   DALEMBERT_INLINE explicit VecOf(const S& x) requires(N == 1) : c_{x} {}
@@ -143,14 +145,19 @@ struct VecOf {
     return true;
   }
 
+  /// @{
   /// Where its numbers are, one after the other.
   [[nodiscard]] DALEMBERT_INLINE S* data() { return c_; }
   [[nodiscard]] DALEMBERT_INLINE const S* data() const { return c_; }
+  [[nodiscard]] const S* begin() const { return c_; }
+  [[nodiscard]] const S* end() const { return c_ + N; }
+  /// @}
+  /// @{
+  /// How many they are, also as rows and columns.
   [[nodiscard]] static constexpr int size() { return N; }
   [[nodiscard]] static constexpr int rows() { return N; }
   [[nodiscard]] static constexpr int cols() { return 1; }
-  [[nodiscard]] const S* begin() const { return c_; }
-  [[nodiscard]] const S* end() const { return c_ + N; }
+  /// @}
 
   /// @{
   /// A component, not checked; of a vector that is about to go by value.

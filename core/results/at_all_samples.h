@@ -17,7 +17,9 @@ class AtAllSamples {
 
   /// Of samples.
   [[nodiscard]] std::size_t size() const { return samples_; }
+  /// Of numbers at each sample.
   [[nodiscard]] static constexpr int rows() { return Rows; }
+  /// Of samples, as Eigen counts.
   [[nodiscard]] std::ptrdiff_t cols() const { return static_cast<std::ptrdiff_t>(samples_); }
   /// One number, not checked.
   [[nodiscard]] double operator()(int row, std::size_t i) const {
