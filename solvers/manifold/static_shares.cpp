@@ -137,6 +137,7 @@ class Shares {
     basis_ = N * Z;
     S_.clear();
     T_.clear();
+    if (!any()) return;
     for (const SharedContact& c : its_) {
       S_.emplace_back(c.sign * basis_.row(c.pressing_row));
       T_.emplace_back(basis_.middleRows(c.row, c.rows));
