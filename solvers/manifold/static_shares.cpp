@@ -20,10 +20,10 @@ using Eigen::VectorXd;
 /// Far enough from their bounds for those of least norm: by (1) what is moved ends between 1/2 and 1.
 constexpr double moderate = 0.5;
 /// Of the largest normal force, what light ones have at least in d: m = 0 does not depend on it.
-constexpr double light = 1e-2;
+constexpr double light = 1e-2;  // 1e-1 and 1e-3 pass the same tests
 /// Forces of contacts that press each other are looked for up to this multiple of a load; those that a load
 /// of 1 makes larger than its root count as wedged.
-constexpr double without_end = 1e6;
+constexpr double without_end = 1e6;  // 1e4 and 1e8 pass the same tests
 /// Some hundred roundings.
 constexpr double rounding = 1e-13;
 
