@@ -132,7 +132,7 @@ double Contacts::switching(std::size_t contact, const FlatSample& now) const {
   if (gaps_at_ != now.time) find_gaps({now.time, now.q, now.v});
   const double gap = c.sign * g_[c.row], rate = c.sign * psi_[c.row];
   const double none = no_gap(c, now.q), below = c.parted ? none : std::max(none, error_of_gap(c));
-  const bool leaves = rate > round_off() * scales_.speed() * c.gradient;
+  const bool leaves = rate > no_rate(c);
   if (leaves && gap <= none && gap >= c.gap_at_opening - below) return rate;
   const double since = c.opened_at ? now.time - *c.opened_at : 1.0;
   return std::abs(gap) <= none ? 0.0 : gap / since;
@@ -222,6 +222,11 @@ bool Contacts::open_pulling(const FlatSample& now, std::vector<EventRecord>& eve
 /// Gaps that count as 0: round-off of the positions.
 double Contacts::no_gap(const Contact& contact, std::span<const double> q) const {
   return contact.gradient * scales_.rounding(q);
+}
+
+/// Rates that count as 0: round-off of the scene's own speed, however slow it is just then.
+double Contacts::no_rate(const Contact& contact) const {
+  return round_off() * scales_.speed() * contact.gradient;
 }
 
 /// The error of a step in a gap.

@@ -179,7 +179,7 @@ Change Contacts::resolve(const Instant& at, const std::vector<std::size_t>& trig
     const bool returns = among(triggered, touched[k]) && !c.parted && c.opened_at != at.t &&
                          std::abs(rate) <= accuracy_.of_velocities() * scales_.speed() * c.gradient;
     const bool slow = known_roughly && std::abs(rate) <= still(c);
-    if ((c.closed && !c.moved) || returns || slow) rate = 0.0;
+    if ((c.closed && !c.moved) || returns || slow || std::abs(rate) <= no_rate(c)) rate = 0.0;
   }
   if (U.minCoeff() < 0.0) {
     solve_impact(*coupling, touched, at.t, U, change);
@@ -277,10 +277,13 @@ void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& to
 /// By the acceleration and the force of (2).
 void Contacts::open_or_close(std::size_t i, const std::vector<std::size_t>& triggered, const Pair& pair,
                              double t, Change& change) {
-  // A force that has fallen to 0 goes on falling: the contact opens, though nothing separates it yet.
-  const double own = scales_.speed() / scales_.time * contacts_[i].gradient * pair.unit;
-  const bool falls = among(triggered, i) && contacts_[i].closed &&
-                     pair.force <= accuracy_.of_positions() * std::max(pair.largest, own) * pair.unit;
+  // A force that has fallen to 0 goes on falling: the contact opens, though nothing separates it yet. So does one
+  // that has fallen at this very time, before another: it stays open.
+  const Contact& c = contacts_[i];
+  const double own = scales_.speed() / scales_.time * c.gradient * pair.unit;
+  const bool fallen = c.closed ? among(triggered, i) : c.opened_at == t && c.rate_at_opening == 0.0;
+  const bool falls =
+      fallen && pair.force <= accuracy_.of_positions() * std::max(pair.largest, own) * pair.unit;
   if ((pair.acceleration > 0.0 && pair.force == 0.0) || falls) {
     open(i, t, 0.0, change);
   } else {
