@@ -101,7 +101,7 @@ void EventHandler::locate(Integration& integration, Stop& stop) {
 
 void EventHandler::list(const EventRecord& one, Integration& integration) {
   const FlatSample at = read(integration, one.time);
-  if (auditor_ != nullptr) auditor_->instant(at);
+  if (auditor_ != nullptr) integration.as_read(one.time, [&] { auditor_->instant(at); });
   const EventList::Side there{at, integration.system().layout()};
   events_.add(std::span(&one, 1), there, there, std::vector<double>(at.lambda.size()));
 }
@@ -117,6 +117,22 @@ Change EventHandler::resolve(const Stop& stop, const FlatSample& at, const Integ
                                      : conditional_->resolve(at, due.source - asked_for_);
   require_progress(due, integration);
   return change;
+}
+
+/// A force that jumps may open what was closed, or let slide what stuck. No root shows it: behind the switch the
+/// functions are others.
+std::optional<Change> EventHandler::go_behind_switch(Integration& integration) {
+  const double t = integration.time();
+  FlatSample now = read(integration, t);
+  const bool goes_on = integration.go_behind_switch();
+  if (conditional_ == nullptr) return std::nullopt;
+  const Branches holding(nullptr, &integration.behind_switch());
+  if (!goes_on) return conditional_->resolve_jump({t, now.q, now.v});
+  now = read(integration, t);
+  const auto function = conditional_->fallen(now);
+  if (!function) return std::nullopt;
+  require_progress({asked_for_ + *function, t}, integration);
+  return conditional_->resolve(now, *function);
 }
 
 /// Throws StepFailure where changes of one kind accumulate within the run, as impacts do (see Accumulation):
@@ -185,15 +201,17 @@ void EventHandler::open_pulling(Change& change, double t, Integration& integrati
   conditional_->require_separation(now);
 }
 
-void EventHandler::audit(const Change& change, const FlatSample& after) {
+void EventHandler::audit(const Change& change, const FlatSample& after, Integration& integration) {
   if (auditor_ == nullptr) return;
-  auditor_->jump({after.time, after.q, change.v_before, after.v, change.impulses, change.events}, after);
+  integration.as_read(after.time, [&] {
+    auditor_->jump({after.time, after.q, change.v_before, after.v, change.impulses, change.events}, after);
+  });
 }
 
 void EventHandler::list(Change change, const EventList::Side& before, Integration& integration) {
   open_pulling(change, before.sample.time, integration);
   const FlatSample after = read(integration, before.sample.time);
-  audit(change, after);
+  audit(change, after, integration);
   events_.add(change.events, before, {after, integration.system().layout()}, change.impulses);
 }
 
@@ -205,7 +223,7 @@ void EventHandler::list_at_start(Change change, Integration& integration) {
   FlatSample before = after;
   before.v = change.v_before;
   before.energy += system.kinetic_energy(before.v) - system.kinetic_energy(after.v);
-  audit(change, after);
+  audit(change, after, integration);
   events_.add(change.events, {before, system.layout()}, {after, system.layout()}, change.impulses);
 }
 

@@ -41,6 +41,8 @@ class EventHandler {
   void locate(Integration& integration, Stop& stop);
   /// What the first change that is due at a stop makes of a state.
   [[nodiscard]] Change resolve(const Stop& stop, const FlatSample& at, const Integration& integration);
+  /// Leaves a switch of the equations; returns what that changes, if anything.
+  [[nodiscard]] std::optional<Change> go_behind_switch(Integration& integration);
   /// Lists a change from which the run goes on now. Contacts that would pull are opened before.
   void list(Change change, const EventList::Side& before, Integration& integration);
   /// The same at the start of a run.
@@ -60,7 +62,7 @@ class EventHandler {
   [[nodiscard]] Change change_scene(const EventRecord& due, const FlatSample& at,
                                     const Integration& integration);
   void open_pulling(Change& change, double t, Integration& integration);
-  void audit(const Change& change, const FlatSample& after);
+  void audit(const Change& change, const FlatSample& after, Integration& integration);
 
   std::size_t asked_for_;
   EventList events_;

@@ -61,7 +61,14 @@ Options Integration::options_from(double t, Stepper by) const {
 /// From `start` at time t.
 std::unique_ptr<Integration::Segment> Integration::make_segment(const Problem& problem, Start start, double t,
                                                                 Stepper by) const {
-  Comparisons comparisons(problem, start, t, tolerance_of_a_step(by, options_.tolerance));
+  const double tolerance = tolerance_of_a_step(by, options_.tolerance);
+  if (behind_ && behind_->t == t) {
+    // What slides may be other batches than before.
+    Comparisons::Behind behind = *behind_;
+    behind.sides.resize(std::min(behind.sides.size(), problem.system().stated_batches()));
+    return make_segment(problem, std::move(start), t, by, Comparisons(problem, start, tolerance, behind));
+  }
+  Comparisons comparisons(problem, start, t, tolerance);
   if (comparisons.chosen()) {
     const Branches holding(nullptr, comparisons.held());
     start = dalembert::restart_with_rows(problem, start, t, start.q, start.v);
@@ -126,7 +133,7 @@ void Integration::find_switch(double from) try {
 
 void Integration::step(double wanted) {
   // Before a step, so that all output within the last has been read from the stepper that took it.
-  if (switch_) restart_behind_switch();
+  if (switch_) go_behind_switch();
   exchange_rows();
   if (options_.stepper == Stepper::ida) watch_sine();
   if (steps_++ == 0) watch_sliding();
@@ -152,7 +159,7 @@ void Integration::step(double wanted) {
 void Integration::read(double t, OutputState& m) {
   m.t = t;
   stepper_at(t, m.q, m.v);
-  segment_->output.read(m, compliant_multipliers_at(t), steps_);
+  as_read(t, [&] { segment_->output.read(m, compliant_multipliers_at(t), steps_); });
   past_.residual_position = std::max(past_.residual_position, m.position.size);
   past_.residual_velocity = std::max(past_.residual_velocity, m.velocity.size);
   past_.correction = std::max(past_.correction, m.correction);
@@ -257,7 +264,7 @@ void Integration::project_onto_compliant(double t, State& now) {
 }
 
 /// A fresh stepper on the sides behind a switch.
-void Integration::restart_behind_switch() {
+bool Integration::go_behind_switch() {
   const Comparisons::Switch one = *switch_;
   const double t = one.at.t;
   Comparisons& comparisons = segment_->comparisons;
@@ -265,18 +272,24 @@ void Integration::restart_behind_switch() {
   const double brief = std::sqrt(epsilon) * start().scales.time;
   switches_at_once_ = t - std::exchange(last_switch_, t) <= brief ? switches_at_once_ + 1 : 0;
   if (switches_at_once_ > constants.most_at_one_time) comparisons.chatters(one);
-  comparisons.require_no_corner(one);
+  const Comparisons::Behind behind{t, t + one.ahead, one.behind};
+  if (const auto row = comparisons.corner(one)) {
+    if (!comparisons.holds_at_times(*row)) comparisons.refuse_corner(one, *row);
+    behind_ = behind;
+    return false;
+  }
   State now = interpolate(t);
   const Start before = start_of_rest(t);
   const Branches holding(nullptr, &one.behind);
   project_onto_compliant(t, now);
   Start next = dalembert::restart_with_rows(problem(), before, t, now.q, now.v);
   comparisons.require_leaving(one, next.a);
-  Comparisons behind(problem(), next, t, tolerance_of_a_step(segment_->by, options_.tolerance), t + one.ahead,
-                     one.behind);
-  auto made = make_segment(problem(), std::move(next), t, segment_->by, std::move(behind));
+  Comparisons there(problem(), next, tolerance_of_a_step(segment_->by, options_.tolerance), behind);
+  auto made = make_segment(problem(), std::move(next), t, segment_->by, std::move(there));
   made->stepper->starts_at_switch();
   enter_segment(std::move(made));
+  behind_ = behind;
+  return true;
 }
 
 Scales Integration::scales(double t) const {

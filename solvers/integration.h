@@ -38,6 +38,22 @@ class Integration {
   [[nodiscard]] double tolerance() const { return options_.tolerance; }
   /// Throws StepFailure, EquationFault.
   void step(double wanted);
+  /// Whether the last step ended at a switch of the equations. The next one goes on behind it.
+  [[nodiscard]] bool at_switch() const { return switch_.has_value(); }
+  /// What is read at this time from here on is behind the switch. Returns whether the motion goes on there as
+  /// it is: if not, a constraint that holds only at times has no velocity that satisfies it on both sides, and
+  /// others must take over. Throws StepFailure where that is one that always holds; EquationFault.
+  bool go_behind_switch();
+  /// The sides behind the switch that has been left last.
+  [[nodiscard]] const Branches::Sides& behind_switch() const { return behind_->sides; }
+  /// Calls f with the equations as they are read at this time: at a switch before it, and behind it once it has
+  /// been left.
+  template <class F>
+  decltype(auto) as_read(double t, const F& f) {
+    if (!(switch_ && switch_->at.t == t) && !(behind_ && behind_->t == t)) return f();
+    const Branches holding = segment_->hold();
+    return f();
+  }
   /// A new segment from a time inside the last step, with constraints that changed and velocities that may
   /// have. Throws StepFailure, EquationFault; then the last segment goes on.
   void restart_with_constraints(double t, std::shared_ptr<const System> system, std::span<const double> q,
@@ -102,7 +118,6 @@ class Integration {
   void restart_with_rows(Stepper by);
   void find_switch(double from);
   void project_onto_compliant(double t, State& now);
-  void restart_behind_switch();
   void stepper_at(double t, std::span<double> q, std::span<double> v);
 
   Options options_;
@@ -112,6 +127,7 @@ class Integration {
 
   AccumulatedError error_;
   std::optional<Comparisons::Switch> switch_;  // at which the last step ends
+  std::optional<Comparisons::Behind> behind_;  // the last one that was left
   double last_switch_ = 0.0;
   int switches_at_once_ = 0;  // in a row
   long steps_ = 0;

@@ -51,7 +51,7 @@ struct DALEMBERT_HIDDEN Integrator::Run {
   void step_once(double wanted) {
     count_turn();
     audit_to(stop.time);
-    if (!stop.changes.empty()) start_next_segment();
+    if (!stop.changes.empty() || (handler && integration.at_switch())) start_next_segment();
     if (!stop.changes.empty()) return;  // an impact has driven another contact to its surface
     integration.step(wanted);
     if (auditor && auditor->follows_steps()) auditor->step(integration.time(), integration.velocities());
@@ -62,15 +62,17 @@ struct DALEMBERT_HIDDEN Integrator::Run {
     }
   }
 
-  /// Resolves the first change that is due, and goes on from it.
+  /// Resolves the first change that is due, or what a switch of the equations changes, and goes on from it.
   void start_next_segment() {
     integration.read(stop.time, next);
     const OutputState before = next;
     const EventList::Side side{before.flat(), integration.system().layout()};
-    if (auditor) auditor->sample(side.sample);
-    Change change = handler->resolve(stop, side.sample, integration);
-    integration.restart_with_constraints(stop.time, change.system, change.q, change.v);
-    handler->list(std::move(change), side, integration);
+    audit(side.sample);
+    std::optional<Change> change = stop.changes.empty() ? handler->go_behind_switch(integration)
+                                                        : handler->resolve(stop, side.sample, integration);
+    if (!change) return;
+    integration.restart_with_constraints(stop.time, change->system, change->q, change->v);
+    handler->list(std::move(*change), side, integration);
     stop = handler->restart(stop, integration);
   }
 
@@ -85,9 +87,13 @@ struct DALEMBERT_HIDDEN Integrator::Run {
   void visit(double time) {
     audit_to(time);
     integration.read(time, next);
-    if (auditor) auditor->sample(next.flat());
+    audit(next.flat());
     std::swap(now, next);
     read_from = integration.shared_system();
+  }
+
+  void audit(const FlatSample& sample) {
+    if (auditor) integration.as_read(sample.time, [&] { auditor->sample(sample); });
   }
 
   /// With a ledger every step is gone over, up to where the run stands.

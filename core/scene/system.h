@@ -100,6 +100,8 @@ class System {
   [[nodiscard]] std::vector<std::size_t> contacts() const;
   [[nodiscard]] std::vector<std::size_t> frictional_constraints() const;
   [[nodiscard]] std::vector<std::size_t> conditional_constraints() const;
+  /// The rows of these that are in force.
+  [[nodiscard]] std::vector<std::size_t> conditional_rows() const;
   /// Those that their scene has released.
   [[nodiscard]] std::vector<std::size_t> released() const;
   /// The label of one that does not always hold; empty if all do.
@@ -174,6 +176,8 @@ class System {
   [[nodiscard]] std::string force_of_stiffness(std::size_t entry) const;
   /// The label of the force that an entry of dF_f/dlambda belongs to.
   [[nodiscard]] std::string name_of_multiplier_force(std::size_t entry) const;
+  /// The number of batches in Branches that the scene states; those of what slides come behind.
+  [[nodiscard]] std::size_t stated_batches() const { return parts_.constraints.size() + stated_forces_; }
   /// The label of what a batch holds, by its number in Branches.
   [[nodiscard]] std::string label_of_batch(std::size_t batch) const;
   /// Whether its equations depend on time explicitly.

@@ -27,6 +27,14 @@ std::vector<std::size_t> System::conditional_constraints() const {
   return constraints_that(*layout_, [](const Condition& c) { return c.contact || c.roughness; });
 }
 
+std::vector<std::size_t> System::conditional_rows() const {
+  std::vector<std::size_t> rows;
+  for (const std::size_t number : conditional_constraints())
+    for (const std::size_t r : layout_->constraints[number].own_rows())
+      if (in_force(r)) rows.push_back(r);
+  return rows;
+}
+
 std::vector<std::size_t> System::released() const {
   return constraints_that(*layout_, [](const Condition& c) { return c.released; });
 }

@@ -54,6 +54,18 @@ Change ConditionalConstraints::resolve(const FlatSample& at, std::size_t functio
   return resolve_friction(contacts_.resolve(now, {}), now, function - contacts_.size());
 }
 
+std::optional<std::size_t> ConditionalConstraints::fallen(const FlatSample& behind) {
+  contacts_.forget_instant();
+  for (std::size_t i = 0; i < functions(); ++i)
+    if (switching(i, behind) < 0.0) return i;
+  return std::nullopt;
+}
+
+Change ConditionalConstraints::resolve_jump(const Instant& at) {
+  const auto touching = contacts_.replace_system(contacts_.stated(), at);
+  return resolve_friction(contacts_.resolve(at, touching), at);
+}
+
 Change ConditionalConstraints::replace_system(const std::shared_ptr<const System>& stated, const Instant& at,
                                               std::span<const double> impulses) {
   friction_.replace_system(stated);

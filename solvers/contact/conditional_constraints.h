@@ -39,6 +39,11 @@ class ConditionalConstraints {
   [[nodiscard]] Change resolve_start(const Instant& at);
   /// Goes on from where a switching function has fallen to 0. Throws likewise.
   [[nodiscard]] Change resolve(const FlatSample& at, std::size_t function);
+  /// The first function that is negative where the equations have just jumped.
+  [[nodiscard]] std::optional<std::size_t> fallen(const FlatSample& behind);
+  /// Goes on where the velocities that hold what is closed and sticks jump, as those of a drive may. Throws
+  /// likewise.
+  [[nodiscard]] Change resolve_jump(const Instant& at);
   /// See Contacts.
   [[nodiscard]] std::optional<std::size_t> approaching() const { return contacts_.approaching(); }
   /// Goes on from a given state, reached by impulses, with equations whose parameters may differ. Throws

@@ -327,7 +327,7 @@ std::vector<std::size_t> Contacts::open() const {
 }
 
 void Contacts::rebuild_system() {
-  gaps_at_ = forces_at_ = never;  // the state watched goes on from another one
+  forget_instant();
   const auto as_stated = [this](const Contact& c) { return system_->in_force(c.row) == c.closed; };
   if (!system_ || !std::ranges::all_of(contacts_, as_stated))
     system_ = std::make_shared<const System>(stated_->without(open()));

@@ -46,6 +46,7 @@ class Contacts {
            bool friction);
   /// The system with the closed contacts in force, and the others not.
   [[nodiscard]] const std::shared_ptr<const System>& system() const { return system_; }
+  [[nodiscard]] const std::shared_ptr<const System>& stated() const { return stated_; }
   [[nodiscard]] std::size_t size() const { return contacts_.size(); }
   [[nodiscard]] std::string label(std::size_t contact) const {
     return stated_->row_label(contacts_[contact].row);
@@ -55,6 +56,8 @@ class Contacts {
   [[nodiscard]] std::vector<std::size_t> replace_system(std::shared_ptr<const System> stated,
                                                         const Instant& at);
   void adopt(const Scales& scales) { scales_ = scales; }
+  /// The state watched goes on from another one, which may be at the same time.
+  void forget_instant() { gaps_at_ = forces_at_ = never; }
 
   /// A switching function for each, which falls through 0 where the contact opens or closes: the force of a
   /// closed one; the gap of an open one over the time since it opened, which has no root there. (One that has

@@ -48,18 +48,19 @@ Comparisons::Comparisons(const Problem& problem, const Start& start, double t, d
   any_ = std::ranges::any_of(recorded_, [](const auto& batch) { return !batch.empty(); });
   if (!any_) return;
   make_manifold();
+  conditional_ = system_->conditional_rows();
   held_ = recorded_;
   choose_sides(start);
   list_margins();
 }
 
-Comparisons::Comparisons(const Problem& problem, const Start& start, double t, double tolerance,
-                         double checked, Branches::Sides held)
-    : Comparisons(problem, start, t, tolerance) {
+Comparisons::Comparisons(const Problem& problem, const Start& start, double tolerance, const Behind& behind)
+    : Comparisons(problem, start, behind.t, tolerance) {
   any_ = true;
   chosen_ = false;
-  held_ = std::move(held);
-  from_ = checked;
+  held_.resize(std::max(held_.size(), behind.sides.size()));
+  std::ranges::copy(behind.sides, held_.begin());
+  from_ = behind.checked;
   list_margins();
 }
 
@@ -291,18 +292,26 @@ Comparisons::Switch Comparisons::behind(const Root& root, double step) {
 }
 
 /// Whether a constraint has a corner, or the accelerations of both sides differ, at the switch or behind it,
-/// by more than the tolerance of speeds in the scene's own time.
+/// by more than the tolerance of speeds in the scene's own time; or the force of a constraint that holds only
+/// as its force lets it.
 bool Comparisons::matters(const Switch& one, double to) {
   if (corner(one)) return true;
   Motion end{to, one.at.q, one.at.v, {}};
   stepper_->interpolate(to, end.q, end.v);
+  std::vector<double> lambda(lambda_.size());
   for (const Motion& at : {one.at, end}) {
     Motion before = at, after = at;
-    if (!accelerate(before, held_) || !accelerate(after, one.behind)) return true;
+    if (!accelerate(before, held_)) return true;
+    manifold_->multipliers(lambda);
+    if (!accelerate(after, one.behind)) return true;
+    manifold_->multipliers(lambda_);
     for (std::size_t i = 0; i < at.v.size(); ++i) {
       const double effect = scales_.time * std::abs(after.a[i] - before.a[i]);
       if (!(effect <= scales_.velocity_error(i, at.v[i], tolerance_))) return true;
     }
+    const double least = tolerance_ * std::max(largest(lambda), largest(lambda_));
+    for (const std::size_t r : conditional_)
+      if (!(std::abs(lambda_[r] - lambda[r]) <= least)) return true;
   }
   return false;
 }
@@ -328,7 +337,6 @@ std::optional<Comparisons::Switch> Comparisons::leave(TimeStepper& stepper) {
   return std::nullopt;
 }
 
-/// The row of a rigid constraint that jumps at a switch, or whose velocity does, if one does.
 std::optional<std::size_t> Comparisons::corner(const Switch& one) {
   const auto lengths = scales_.lengths();
   auto before = system_->evaluation();
@@ -339,22 +347,24 @@ std::optional<std::size_t> Comparisons::corner(const Switch& one) {
   evaluate(held_, before);
   evaluate(one.behind, e_);
   const double most = constants.most_correction * tolerance_;
+  std::optional<std::size_t> conditional;
   for (std::size_t r = 0; r < system_->rows(); ++r) {
     if (!system_->in_force(r) || system_->law(r).compliant()) continue;
     const double gradient = gradient_length(*system_, e_.w, lengths, r);
     const bool holonomic = r < system_->holonomic_rows();
     const double jump = holonomic ? std::abs(e_.g[r] - before.g[r]) : 0.0;
     const double of_velocity = std::abs(e_.psi[r] - before.psi[r]);
-    if (of_velocity > most * scales_.speed() * gradient || jump > most * scales_.length * gradient) return r;
+    if (!(of_velocity > most * scales_.speed() * gradient || jump > most * scales_.length * gradient))
+      continue;
+    if (!holds_at_times(r)) return r;
+    if (!conditional) conditional = r;
   }
-  return std::nullopt;
+  return conditional;
 }
 
-void Comparisons::require_no_corner(const Switch& one) {
-  const auto row = corner(one);
-  if (!row) return;
+void Comparisons::refuse_corner(const Switch& one, std::size_t row) const {
   throw StepFailure{
-      system_->row_label(*row) +
+      system_->row_label(row) +
           " changes its gradient by a jump here: the velocity before does not satisfy it behind. "
           "That is an impact, which the equations do not describe; end the run here, or round it "
           "off",

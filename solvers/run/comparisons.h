@@ -7,6 +7,7 @@
 #include <dalembert/solvers/run/sticking.h>
 #include <dalembert/solvers/run/time_stepper.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <span>
@@ -28,9 +29,13 @@ class Comparisons {
   /// For steps that begin with `start` at time t; on the sides where it is, or where it moves to from those
   /// it is between.
   Comparisons(const Problem& problem, const Start& start, double t, double tolerance);
-  /// On these sides, which are known to hold up to `checked`.
-  Comparisons(const Problem& problem, const Start& start, double t, double tolerance, double checked,
-              Branches::Sides held);
+  /// Behind a switch: on the sides there, which are known to hold up to `checked`. Batches of which none is
+  /// known are on the sides where the start is.
+  struct Behind {
+    double t, checked;
+    Branches::Sides sides;
+  };
+  Comparisons(const Problem& problem, const Start& start, double tolerance, const Behind& behind);
 
   /// The sides that steps are taken on; null if nothing is compared.
   [[nodiscard]] const Branches::Sides* held() const { return any_ ? &held_ : nullptr; }
@@ -49,8 +54,14 @@ class Comparisons {
   /// The first one in the step that has just been taken.
   [[nodiscard]] std::optional<Switch> leave(TimeStepper& stepper);
 
-  /// Throws StepFailure where a rigid constraint or its velocity jumps at a switch.
-  void require_no_corner(const Switch& one);
+  /// The row of a rigid constraint that jumps at a switch, or whose velocity does, if one does: of those that
+  /// always hold before those that hold only at times.
+  [[nodiscard]] std::optional<std::size_t> corner(const Switch& one);
+  [[nodiscard]] bool holds_at_times(std::size_t row) const {
+    return std::ranges::find(conditional_, row) != conditional_.end();
+  }
+  /// Throws StepFailure for such a row.
+  [[noreturn]] void refuse_corner(const Switch& one, std::size_t row) const;
   /// Throws StepFailure where the motion on the other side, with the accelerations a, leads back at once
   /// (Filippov): then neither side goes on.
   void require_leaving(const Switch& one, std::span<const double> a);
@@ -92,7 +103,6 @@ class Comparisons {
   [[nodiscard]] std::optional<Bracket> first_root(std::size_t k, double until, double to);
   [[nodiscard]] std::optional<Root> first_switch(double to);
   [[nodiscard]] Switch behind(const Root& root, double step);
-  [[nodiscard]] std::optional<std::size_t> corner(const Switch& one);
   [[nodiscard]] bool matters(const Switch& one, double to);
   [[nodiscard]] bool turns_back(const Switch& one, double from);
   [[nodiscard]] std::optional<std::string> would_stick(const Switch& one);
@@ -103,6 +113,7 @@ class Comparisons {
   std::optional<Manifold> manifold_;  // if anything is compared, or read from it
   System::Evaluation e_;
   std::vector<double> lambda_, a_;
+  std::vector<std::size_t> conditional_;  // rows in force of constraints that hold only at times
   bool any_ = false, chosen_ = false;
   Branches::Sides held_, recorded_;
   std::vector<Margin> margins_;
