@@ -55,10 +55,15 @@ void Contacts::solve_impact(const Coupling& coupling, const std::vector<std::siz
     if (!p) refuse(its, t, "no impulses end their approach; the constraints drive them against each other");
     VectorXd after = before + S * *p;
     const VectorXd unit = units(S);
-    clear_round_off(after, unit, before.cwiseProduct(unit).cwiseAbs().maxCoeff());
+    const double largest = before.cwiseProduct(unit).cwiseAbs().maxCoeff();
+    clear_round_off(after, unit, largest);
     for (Index i = 0; i < after.size(); ++i) {
-      if (!((*p)[i] > 0.0)) continue;
-      after[i] = before[i] - q[i];  // -e U-
+      // Of contacts that share an impact each is struck that leaves with -e U-, whatever its share is.
+      const double rebound = before[i] - q[i];
+      const bool shares =
+          before[i] < 0.0 && std::abs(after[i] - rebound) * unit[i] <= round_off() * largest;
+      if (!((*p)[i] > 0.0) && !shares) continue;
+      after[i] = rebound;
       change.events.push_back({contacts_[its[static_cast<std::size_t>(i)]].number, t, EventKind::struck});
     }
     U(island) = after;
@@ -108,7 +113,7 @@ void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& to
     P(island) = dense::least_squares(coupling.S(island), -rates(island), rank_threshold);
     U(island).setZero();
     for (const std::size_t i : its)
-      change.events.push_back({contacts_[i].number, limit->time, EventKind::rested});
+      if (!contacts_[i].closed) change.events.push_back({contacts_[i].number, limit->time, EventKind::rested});
   }
   std::ranges::sort(change.events, {}, &EventRecord::source);
   coupling.apply_impulses(P, change.v, change.impulses);
