@@ -35,6 +35,11 @@ EventWatch::Rate rates_of_switching(std::size_t asked_for, const ConditionalCons
   return [=](std::size_t event, const FlatSample& now) { return conditional->rate(event - asked_for, now); };
 }
 
+EventWatch::Unit units_of_switching(std::size_t asked_for, const ConditionalConstraints* conditional) {
+  if (conditional == nullptr) return {};
+  return [=](std::size_t event) { return conditional->unit(event - asked_for); };
+}
+
 }  // namespace
 
 EventHandler::EventHandler(std::vector<FlatEvent> events, ConditionalConstraints* conditional,
@@ -45,7 +50,7 @@ EventHandler::EventHandler(std::vector<FlatEvent> events, ConditionalConstraints
       auditor_(auditor),
       seen_(integration.system(), integration.start(), any_changes_scene(events)),
       watch_(with_switching(std::move(events), conditional), rates_of_switching(asked_for_, conditional),
-             *integration.system().layout(), integration.tolerance()),
+             units_of_switching(asked_for_, conditional), *integration.system().layout(), integration.tolerance()),
       changes_(asked_for_) {}
 
 bool EventHandler::any_changes_scene(const std::vector<FlatEvent>& events) {

@@ -26,6 +26,11 @@ double ConditionalConstraints::rate(std::size_t function, const FlatSample& now)
                                      : std::numeric_limits<double>::quiet_NaN();
 }
 
+double ConditionalConstraints::unit(std::size_t function) const {
+  return function < contacts_.size() ? contacts_.unit(function)
+                                     : friction_.unit(function - contacts_.size());
+}
+
 /// Where contacts are as they are now.
 void ConditionalConstraints::find_modes(const Instant& at, std::optional<std::size_t> triggered,
                                         Change& change) {

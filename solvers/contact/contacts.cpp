@@ -149,6 +149,11 @@ double Contacts::rate(std::size_t contact, const FlatSample& now) const {
   return (rate - gap / since) / since;
 }
 
+double Contacts::unit(std::size_t contact) const {
+  const Contact& c = contacts_[contact];
+  return c.closed ? 0.0 : scales_.speed() * c.gradient;
+}
+
 /// Contacts that have fallen, that have no gap, that have just reached 0, and those that will within the
 /// resolution of times; and those closed in the islands of these.
 std::vector<std::size_t> Contacts::touching(const Instant& at,

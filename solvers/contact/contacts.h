@@ -66,6 +66,8 @@ class Contacts {
   [[nodiscard]] double switching(std::size_t contact, const FlatSample& now) const;
   /// Its derivative by time while the contact is open; NaN where it is not known.
   [[nodiscard]] double rate(std::size_t contact, const FlatSample& now) const;
+  /// The unit of its values: of an open one a speed; 0 for a force.
+  [[nodiscard]] double unit(std::size_t contact) const;
   /// Notes which open contacts have separated where a step ends, or a change. Throws StepFailure, naming it,
   /// if one has been penetrated unnoticed.
   void require_open(const FlatSample& now);

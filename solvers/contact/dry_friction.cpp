@@ -127,6 +127,11 @@ double DryFriction::switching(std::size_t function, const FlatSample& now) const
   return r.rows == 1 || slow ? u.dot(r.direction) + no_slip() : u.norm() - r.slow;
 }
 
+double DryFriction::unit(std::size_t function) const {
+  const bool slides = all_[function / kinds].mode == Mode::slides;
+  return slides && static_cast<Watched>(function % kinds) == mode ? scales_.speed() : 0.0;
+}
+
 /// Starts to slide from rest, whatever small slip is left.
 void DryFriction::start_sliding(Rough& rough, const VectorXd& direction) const {
   rough.mode = Mode::slides;

@@ -22,9 +22,11 @@ bool wanted(Crossing crossing, int before) {
 
 }  // namespace
 
-EventWatch::EventWatch(std::vector<FlatEvent> events, Rate rate, const Layout& layout, double tolerance)
+EventWatch::EventWatch(std::vector<FlatEvent> events, Rate rate, Unit unit, const Layout& layout,
+                       double tolerance)
     : events_(std::move(events)),
       rate_(std::move(rate)),
+      unit_(std::move(unit)),
       accuracy_(tolerance),
       largest_(events_.size()),
       largest_before_(events_.size()),
@@ -50,7 +52,11 @@ void EventWatch::restart(const Beginning& beginning) {
   side_.clear();
   leaves_.assign(events_.size(), from_);
   for (std::size_t e = 0; e < events_.size(); ++e) {
-    forget_behind(e, from_);
+    if (e < asked_for_) {
+      forget_behind(e, from_);
+    } else {
+      largest_[e] = unit_(e);
+    }
     at_from_.push_back(value(e, beginning.start));
     side_.push_back(e < asked_for_ ? first_side(e, at_from_.back()) : at_from_.back() < 0.0 ? -1 : 1);
     const auto next =

@@ -44,9 +44,13 @@ class EventWatch {
 
   /// The derivative by time of an event of contacts; NaN if it is not known.
   using Rate = std::function<double(std::size_t event, const FlatSample& at)>;
+  /// The unit of such an event's values, which changes with what is closed and sticks; 0 if that is the size of
+  /// the values themselves.
+  using Unit = std::function<double(std::size_t event)>;
 
-  /// Of a run at this tolerance; `rate` may be empty. Throws InvalidArgument for an event without function.
-  EventWatch(std::vector<FlatEvent> events, Rate rate, const Layout& layout, double tolerance);
+  /// Of a run at this tolerance; `rate` and `unit` may be empty if there are no contacts. Throws
+  /// InvalidArgument for an event without function.
+  EventWatch(std::vector<FlatEvent> events, Rate rate, Unit unit, const Layout& layout, double tolerance);
 
   /// Every crossing in a step, in the order of time; of contacts those that were asked for. Throws
   /// StepFailure if a function throws, gives no number or cannot be followed.
@@ -106,13 +110,14 @@ class EventWatch {
 
   std::vector<FlatEvent> events_;
   Rate rate_;
+  Unit unit_;
   Accuracy accuracy_;
   double from_ = 0.0;
   std::size_t asked_for_ = 0;             ///< the first of them; behind are those of contacts
   std::size_t resolved_ = 0;              ///< the first of them may be faster than the motion
   std::vector<double> at_from_;           ///< of each event its value where the last step ended,
   std::vector<int> side_;                 ///< its sign there or before, if it is 0; 0 if it never had one,
-  std::vector<double> largest_;           ///< and the largest value so far;
+  std::vector<double> largest_;           ///< and the largest value so far, or its unit;
   std::vector<double> largest_before_;    ///< before the last step,
   std::vector<std::vector<Place>> seen_;  ///< and the sizes of the values since;
   std::vector<double> at_root_;           ///< what it may still be where it was found to be 0,
