@@ -70,7 +70,7 @@ FlatSample EventHandler::read(Integration& integration, double t) {
 /// the motion.
 void EventHandler::locate(Integration& integration, Stop& stop) {
   if (conditional_ != nullptr && integration.start().scales.length_from_path)
-    conditional_->adopt(integration.scales(integration.time()));
+    conditional_->adopt(integration.scales_at_step());  // what a run claims of its results only grows
   const EventWatch::Read reader = [&](double t) { return read(integration, t); };
   const auto all = watch_.locate({reader, integration.time(), integration.degree(), integration.at_end()});
   std::vector<EventRecord> found;

@@ -70,6 +70,8 @@ class Integration {
   [[nodiscard]] const Start& start() const { return segment_->start; }
   /// Those of the scene at a time inside the last step: a length of its path grows.
   [[nodiscard]] Scales scales(double t) const;
+  /// The same where the last step began.
+  [[nodiscard]] const Scales& scales_at_step() const { return scales_at_step_; }
   /// The constraint whose force has grown without bound where the last step ended, in words; empty if there
   /// is none.
   [[nodiscard]] std::string unbounded_multiplier();

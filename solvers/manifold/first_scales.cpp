@@ -77,7 +77,9 @@ void set_length(const System& system, const Instant& at, const System::Evaluatio
   scales.length = reach > 0.0 ? std::min(radius, reach) : std::isfinite(radius) ? radius : 1.0;
   scales.length_from_path =
       !system.compliant() && scales.length < radius && std::ranges::count(scales.is_angle, 0) > 0;
-  if (std::isinf(radius) && v > 0.0 && a > 0.0) scales.length = v * v / a;
+  // What is slower than would show in the positions is at rest, as where a motion reverses.
+  const double shown = epsilon * largest_of_lengths(at.q, scales.is_angle);
+  if (std::isinf(radius) && v > 0.0 && a > 0.0 && v * v / a > shown) scales.length = v * v / a;
   if (scales.length_from_path) {
     const double rounding = epsilon * scales.length;
     scales.length = std::min(scales.length, std::max(nearest_contact, rounding));
