@@ -106,8 +106,9 @@ struct DALEMBERT_HIDDEN Integrator::Run {
   }
 
   [[nodiscard]] Claim claim(bool reached) const {
-    const Scales& scales = integration.start().scales;
-    if (!reached && !scales.length_from_path) return {scales.length, scales.time, options.tolerance};
+    const Scales& scales = steps > 0 ? integration.start().scales : opening.given;
+    if (steps == 0 || (!reached && !scales.length_from_path))
+      return {scales.length, scales.time, options.tolerance};
     const Statistics so_far = integration.statistics(stop.time);
     return {so_far.length, so_far.time, std::max(options.tolerance, so_far.accuracy)};
   }

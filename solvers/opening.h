@@ -19,6 +19,7 @@ struct Opening {
   Change change;                                        ///< their impacts at the start
   Problem problem;                                      ///< of the constraints in force
   Start start;
+  Scales given;  ///< in which it was told what touches, sticks and separates
 };
 
 /// Of what a scene states, from a guess of its state. A scene without a characteristic length gets that of a

@@ -190,12 +190,28 @@ SlipCoupling DryFriction::released(const std::vector<std::size_t>& which,
   return {*stated_, with_modes(out), rows, scales_.lengths(), at, tolerance_};
 }
 
-/// Directions are known to the rounding of the positions, over the scene's length.
+/// Directions are known to the rounding of the positions, over the scene's length: an impulse that is that of
+/// the others, or of the momenta, is none.
 void DryFriction::require_no_impulse(std::span<const double> impulses, const Instant& at) const {
+  if (std::ranges::all_of(all_, [&](const Rough& r) { return impulses[r.pressing_row] == 0.0; })) return;
   const double of_directions = scales_.rounding(at.q) / (epsilon * scales_.length);
-  const double none = round_off() * std::max(1.0, of_directions) * largest(impulses);
+  const double rounding = round_off() * std::max(1.0, of_directions);
+  const std::vector<double> lengths = scales_.lengths();
+  auto e = stated_->evaluation();
+  stated_->evaluate(at, e);
+  double momentum = 0.0;
+  for (std::size_t i = 0; i < at.v.size(); ++i)
+    momentum = std::max(momentum, stated_->masses()[i] * std::abs(at.v[i]) / lengths[i]);
+  const auto changes_momentum = [&](std::size_t row) {
+    double largest_change = 0.0;
+    for (const std::size_t k : stated_->row(row))
+      largest_change =
+          std::max(largest_change, std::abs(e.w[k] * impulses[row]) / lengths[stated_->w_columns()[k]]);
+    return largest_change > rounding * momentum;
+  };
+  const double none = rounding * largest(impulses);
   for (const Rough& r : all_) {
-    if (std::abs(impulses[r.pressing_row]) <= none) continue;
+    if (std::abs(impulses[r.pressing_row]) <= none || !changes_momentum(r.pressing_row)) continue;
     throw StepFailure{
         stated_->row_label(r.row) + " is loaded by an impact through " + stated_->row_label(r.pressing_row) +
             ", whose frictional impulse Coulomb's law does not determine; end the run before, or leave "
