@@ -229,9 +229,10 @@ double Contacts::no_gap(const Contact& contact, std::span<const double> q) const
   return contact.gradient * scales_.rounding(q);
 }
 
-/// Rates that count as 0: round-off of the scene's own speed, however slow it is just then.
+/// Rates that count as 0: round-off of the scene's own speed, however slow it is just then. What slides back is
+/// found to rest a round-off beyond, see DryFriction::switching.
 double Contacts::no_rate(const Contact& contact) const {
-  return round_off() * scales_.speed() * contact.gradient;
+  return 2.0 * round_off() * scales_.speed() * contact.gradient;
 }
 
 /// The error of a step in a gap.
