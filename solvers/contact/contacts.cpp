@@ -258,21 +258,22 @@ void Contacts::require_separation(const FlatSample& now) const {
   auto e = stated_->evaluation();
   std::vector<double> gamma;
   for (const Contact& c : contacts_) {
+    const double rate = c.sign * psi_[c.row];
     const bool rests =
-        !c.closed && c.sign * g_[c.row] <= no_gap(c, now.q) && std::abs(psi_[c.row]) <= still(c);
+        !c.closed && c.sign * g_[c.row] <= no_gap(c, now.q) && rate >= -still(c) && rate <= no_rate(c);
     if (!rests) continue;
     if (gamma.empty()) {
       gamma.resize(stated_->rows());
       stated_->evaluate_with_bias(at, e, gamma);
     }
-    double rate = gamma[c.row], terms = std::abs(rate);
+    double acceleration = gamma[c.row], terms = std::abs(acceleration);
     for (const std::size_t k : stated_->row(c.row)) {
       const std::size_t i = stated_->w_columns()[k];
-      rate += e.w[k] * now.a[i];
+      acceleration += e.w[k] * now.a[i];
       terms += std::abs(e.w[k] * now.a[i]) + std::abs(e.w[k] * e.force[i] / stated_->masses()[i]);
     }
     // Beside springs whose force is lost in round-off it is not known.
-    if (!(c.sign * rate < -accuracy_.of_accelerations() * terms)) continue;
+    if (!(c.sign * acceleration < -accuracy_.of_accelerations() * terms)) continue;
     throw StepFailure{
         stated_->row_label(c.row) +
             " touches and would be penetrated: no forces of contact and friction were found that "

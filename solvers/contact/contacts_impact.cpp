@@ -145,7 +145,7 @@ void Contacts::update_rates(const Instant& at) {
   for (Contact& c : contacts_) {
     if (c.closed || c.opened_at != at.t) continue;
     const double rate = c.sign * psi_[c.row];
-    c.rate_at_opening = std::abs(rate) <= still(c) ? 0.0 : rate;
+    c.rate_at_opening = rate >= -still(c) && rate <= no_rate(c) ? 0.0 : rate;
   }
 }
 
