@@ -98,8 +98,16 @@ void EventHandler::locate(Integration& integration, Stop& stop) {
   if (!stop.ends_run) stop.time = end;
   stop.changes = std::move(due);
   stop.not_reached.clear();
+  // What is 0 here as its root is here is not on its way to its next one.
+  const double here = stop.time + same_time(stop.time, integration);
+  const auto is_here = [&](const EventWatch::Found& one) {
+    return std::ranges::any_of(all, [&](const EventWatch::Found& other) {
+      return other.record.source == one.record.source && other.record.time >= stop.time &&
+             other.record.time <= here;
+    });
+  };
   std::ranges::copy_if(all, std::back_inserter(stop.not_reached),
-                       [&](const auto& one) { return one.record.time > until; });
+                       [&](const auto& one) { return one.record.time > until && !is_here(one); });
   if (conditional_ != nullptr)
     conditional_->require_open(read(integration, changes_there ? stop.time : integration.time()));
 }
