@@ -86,7 +86,7 @@ void EventHandler::locate(Integration& integration, Stop& stop) {
       if (was_asked_for(one)) due.push_back(one);
       continue;
     }
-    list(one, integration);
+    audit_and_list(one, integration);
     if (stop.ends_run) continue;
     stop.time = one.time;
     stop.ends_run = watch_.event(one.source).ends;
@@ -112,9 +112,13 @@ void EventHandler::locate(Integration& integration, Stop& stop) {
     conditional_->require_open(read(integration, changes_there ? stop.time : integration.time()));
 }
 
-void EventHandler::list(const EventRecord& one, Integration& integration) {
+void EventHandler::audit_and_list(const EventRecord& one, Integration& integration) {
   const FlatSample at = read(integration, one.time);
   if (auditor_ != nullptr) integration.as_read(one.time, [&] { auditor_->instant(at); });
+  list(one, at, integration);
+}
+
+void EventHandler::list(const EventRecord& one, const FlatSample& at, const Integration& integration) {
   const EventList::Side there{at, integration.system().layout()};
   events_.add(std::span(&one, 1), there, there, std::vector<double>(at.lambda.size()));
 }
@@ -165,9 +169,14 @@ void EventHandler::require_progress(const EventRecord& change, const Integration
   const double apart = same_time(t, integration);
   const bool repeats =
       last_change_ && last_change_->source == change.source && t - last_change_->time <= apart;
+  const bool here = last_change_ && t - last_change_->time <= apart;
   repeated_ = repeats ? repeated_ + 1 : 0;
+  if (!here) asked_here_ = 0;
+  if (was_asked_for(change)) ++asked_here_;
   last_change_ = change;
-  if (repeated_ >= constants.most_at_one_time) watch_.chatters(change.source, t);
+  const auto most = static_cast<std::size_t>(constants.most_at_one_time);
+  if (repeated_ >= constants.most_at_one_time || asked_here_ > most * asked_for_)
+    watch_.chatters(change.source, t);
 }
 
 Change EventHandler::change_scene(const EventRecord& due, const FlatSample& at,
@@ -240,7 +249,7 @@ void EventHandler::list_at_start(Change change, Integration& integration) {
   events_.add(change.events, {before, system.layout()}, {after, system.layout()}, change.impulses);
 }
 
-Stop EventHandler::restart(const Stop& stop, Integration& integration) {
+Stop EventHandler::restart(const Stop& stop, const FlatSample* before, Integration& integration) {
   const double t = stop.time;
   const System& system = integration.system();
   std::optional<std::size_t> changed;
@@ -251,12 +260,20 @@ Stop EventHandler::restart(const Stop& stop, Integration& integration) {
   };
   const OutputState start = (read(integration, t), seen_);
   const bool timed = system.rheonomic() || system.has_timed_forces();
-  watch_.restart(
-      {start.flat(), asked_for_, timed, stop.not_reached, changed, ahead, integration.scales(t).time});
+  const auto jumped = watch_.restart({start.flat(), before, asked_for_, timed, stop.not_reached, changed, ahead,
+                                      integration.scales(t).time});
   Stop next{t, stop.ends_run};
-  if (stop.changes.size() > 1) {
-    next.changes.assign(stop.changes.begin() + 1, stop.changes.end());
-  } else if (conditional_ != nullptr) {
+  if (!stop.changes.empty()) next.changes.assign(stop.changes.begin() + 1, stop.changes.end());
+  for (const EventWatch::Found& one : jumped) {
+    if (!one.wanted) continue;
+    if (changes(one.record)) {
+      next.changes.push_back(one.record);
+      continue;
+    }
+    list(one.record, start.flat(), integration);
+    next.ends_run = next.ends_run || watch_.event(one.record.source).ends;
+  }
+  if (next.changes.empty() && conditional_ != nullptr) {
     if (const auto function = conditional_->approaching()) {
       next.changes.push_back({asked_for_ + *function, t});
     } else if (const auto triggered = watch_.triggered_at_start(asked_for_, conditional_->contacts())) {

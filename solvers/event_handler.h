@@ -47,14 +47,16 @@ class EventHandler {
   void list(Change change, const EventList::Side& before, Integration& integration);
   /// The same at the start of a run.
   void list_at_start(Change change, Integration& integration);
-  /// Follows the functions from a stop whose first change has been made, or from the start of the run.
-  [[nodiscard]] Stop restart(const Stop& stop, Integration& integration);
+  /// Follows the functions from a stop whose first change has been made, of this sample, or from the start of
+  /// the run.
+  [[nodiscard]] Stop restart(const Stop& stop, const FlatSample* before, Integration& integration);
 
   [[nodiscard]] const EventList& events() const { return events_; }
 
  private:
   FlatSample read(Integration& integration, double t);
-  void list(const EventRecord& one, Integration& integration);
+  void audit_and_list(const EventRecord& one, Integration& integration);
+  void list(const EventRecord& one, const FlatSample& at, const Integration& integration);
   [[nodiscard]] bool changes(const EventRecord& one) const;
   [[nodiscard]] bool was_asked_for(const EventRecord& one) const { return one.source < asked_for_; }
   [[nodiscard]] static double same_time(double t, const Integration& integration);
@@ -72,7 +74,8 @@ class EventHandler {
   EventWatch watch_;
   std::vector<Accumulation> changes_;  // of each event that was asked for
   std::optional<EventRecord> last_change_;
-  int repeated_ = 0;  // times that the last change was due at one time
+  int repeated_ = 0;            // times that the last change was due at one time
+  std::size_t asked_here_ = 0;  // changes that were asked for, at the time of the last one
 };
 
 }  // namespace dalembert

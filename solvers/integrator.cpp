@@ -32,7 +32,7 @@ struct DALEMBERT_HIDDEN Integrator::Run {
       handler.emplace(std::move(asked_for), opening.conditional.get(), auditor ? &*auditor : nullptr,
                       integration);
       if (opening.conditional) handler->list_at_start(std::move(opening.change), integration);
-      stop = handler->restart(stop, integration);
+      stop = handler->restart(stop, nullptr, integration);
     }
     visit(o.t_start);                     // contacts that would pull are open by now
   } catch (const StepFailure& failure) {  // before the first step it is a fault of the start
@@ -52,7 +52,7 @@ struct DALEMBERT_HIDDEN Integrator::Run {
     count_turn();
     audit_to(stop.time);
     if (!stop.changes.empty() || (handler && integration.at_switch())) start_next_segment();
-    if (!stop.changes.empty()) return;  // an impact has driven another contact to its surface
+    if (!stop.changes.empty() || stop.ends_run) return;  // by what the change has made jump
     integration.step(wanted);
     if (auditor && auditor->follows_steps()) auditor->step(integration.time(), integration.velocities());
     if (handler) {
@@ -73,7 +73,7 @@ struct DALEMBERT_HIDDEN Integrator::Run {
     if (!change) return;
     integration.restart_with_constraints(stop.time, change->system, change->q, change->v);
     handler->list(std::move(*change), side, integration);
-    stop = handler->restart(stop, integration);
+    stop = handler->restart(stop, &side.sample, integration);
   }
 
   void count_turn() {

@@ -44,27 +44,33 @@ EventWatch::EventWatch(std::vector<FlatEvent> events, Rate rate, Unit unit, cons
   }
 }
 
-void EventWatch::restart(const Beginning& beginning) {
+std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
   from_ = beginning.start.time;
   asked_for_ = beginning.positive;
   resolved_ = beginning.timed ? events_.size() : asked_for_;
   at_from_.clear();
   side_.clear();
   leaves_.assign(events_.size(), from_);
+  std::vector<Found> jumped;
   for (std::size_t e = 0; e < events_.size(); ++e) {
+    int before = 0;
     if (e < asked_for_) {
       forget_behind(e, from_);
+      if (beginning.before != nullptr) before = first_side(e, value(e, *beginning.before));
     } else {
       largest_[e] = unit_(e);
     }
     at_from_.push_back(value(e, beginning.start));
     side_.push_back(e < asked_for_ ? first_side(e, at_from_.back()) : at_from_.back() < 0.0 ? -1 : 1);
+    if (before * side_[e] < 0)
+      jumped.push_back({{e, from_}, before, wanted(events_[e].crossing, before)});
     const auto next =
         std::ranges::find(beginning.left, e, [](const Found& one) { return one.record.source; });
     if (next != beginning.left.end() && side_[e] == 0) side_[e] = next->before;
     if (side_[e] == 0 && largest_[e] > 0.0) depart(e, beginning);
     at_root_[e] = 0.0;
   }
+  return jumped;
 }
 
 std::optional<std::size_t> EventWatch::triggered_at_start(std::size_t first, std::size_t count) const {

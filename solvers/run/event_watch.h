@@ -58,6 +58,7 @@ class EventWatch {
   /// Where a segment of a run starts.
   struct Beginning {
     const FlatSample& start;
+    const FlatSample* before;  ///< what has changed there; null if nothing has
     std::size_t positive;  ///< functions from this number on come from above 0 where they are 0
     bool timed;            ///< something depends on time
     /// Of the last step, but behind the start: it still has the sign that it had before.
@@ -66,11 +67,11 @@ class EventWatch {
     const Read& ahead;                   ///< the start, moved on by its own velocities and accelerations
     double time;                         ///< of the scene
   };
-  /// From here on steps are those of a run that begins there; the values of the functions there are no
-  /// crossing. One that is 0, to round-off of its largest value so far, has the sign to which it leaves 0; as
-  /// long as it does not leave it has none. Throws StepFailure where changes of an event accumulate: what one
-  /// turned back no longer shows how it leaves.
-  void restart(const Beginning& beginning);
+  /// From here on steps are those of a run that begins there. Returns the crossings of events that were asked
+  /// for by what jumps there, as a velocity does at an impact. One that is 0, to round-off of its largest value
+  /// so far, has the sign to which it leaves 0; as long as it does not leave it has none. Throws StepFailure
+  /// where changes of an event accumulate: what one turned back no longer shows how it leaves.
+  [[nodiscard]] std::vector<Found> restart(const Beginning& beginning);
   /// The first of `count` functions from this one on, of contacts, that is negative there: no crossing shows
   /// it.
   [[nodiscard]] std::optional<std::size_t> triggered_at_start(std::size_t first, std::size_t count) const;
