@@ -22,7 +22,8 @@ enum class Crossing { either, rising, falling };
 ///   Event<2>{"leaves the sphere", [=](const auto& now) { return now.multiplier(wall); }, Crossing::falling}
 ///
 /// The function reads time, positions, velocities, multipliers, forces of the instant; it is called at times
-/// of the run's own choice. What it gives at the start is no crossing, even if it is 0 there.
+/// of the run's own choice. What it gives at the start is no crossing, even if it is 0 there. Where it jumps
+/// from one side of 0 to the other, as a velocity does at an impact, it crosses 0.
 template <int D>
 struct Event {
   std::string name;                                  ///< for errors
@@ -61,6 +62,9 @@ struct EventRecord {
   std::size_t source;  ///< which of those that were asked for, from 0; of a constraint its index
   double time;         ///< when it happened
   EventKind kind = EventKind::event;  ///< what it is
+  /// Of the time of a rest, the limit of impacts that go on without end: how well those that a run has found
+  /// tell it, beside the errors of its steps. 0 of others.
+  double uncertain = 0.0;
 };
 
 }  // namespace dalembert

@@ -22,6 +22,8 @@ class Accumulation {
   /// The time left after the last impact; infinite if they do not accumulate.
   [[nodiscard]] double left() const { return left_; }
   [[nodiscard]] double limit() const { return limit_; }
+  /// By how much the last interval has changed it: of what converges that is more than what is left.
+  [[nodiscard]] double uncertainty() const { return change_; }
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();

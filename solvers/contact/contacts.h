@@ -126,7 +126,7 @@ class Contacts {
   /// Of the impacts that accumulate in an island, and the last interval between two.
   struct Limit {
     std::size_t island;
-    double time, interval;
+    double time, interval, uncertain;
   };
   [[nodiscard]] std::vector<Limit> limits_of_impacts(const Change& change, const Instant& at);
   void rest(const Coupling& coupling, const std::vector<std::size_t>& touching,

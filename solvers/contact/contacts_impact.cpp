@@ -89,8 +89,9 @@ std::vector<Contacts::Limit> Contacts::limits_of_impacts(const Change& change, c
     if (!ends) bouncing.insert(c.island);
     if (!std::isfinite(impacts.limit()) || !ends) continue;
     auto limit = std::ranges::find(limits, c.island, &Limit::island);
-    if (limit == limits.end()) limit = limits.insert(limit, {c.island, t, impacts.interval()});
+    if (limit == limits.end()) limit = limits.insert(limit, {c.island, t, impacts.interval(), 0.0});
     limit->time = std::max(limit->time, impacts.limit());
+    limit->uncertain = std::max(limit->uncertain, impacts.uncertainty());
   }
   std::erase_if(limits, [&](const Limit& one) { return bouncing.contains(one.island); });
   return limits;
@@ -113,7 +114,8 @@ void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& to
     P(island) = dense::least_squares(coupling.S(island), -rates(island), rank_threshold);
     U(island).setZero();
     for (const std::size_t i : its)
-      if (!contacts_[i].closed) change.events.push_back({contacts_[i].number, limit->time, EventKind::rested});
+      if (!contacts_[i].closed)
+        change.events.push_back({contacts_[i].number, limit->time, EventKind::rested, limit->uncertain});
   }
   std::ranges::sort(change.events, {}, &EventRecord::source);
   coupling.apply_impulses(P, change.v, change.impulses);
