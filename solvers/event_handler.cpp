@@ -50,7 +50,8 @@ EventHandler::EventHandler(std::vector<FlatEvent> events, ConditionalConstraints
       auditor_(auditor),
       seen_(integration.system(), integration.start(), any_changes_scene(events)),
       watch_(with_switching(std::move(events), conditional), rates_of_switching(asked_for_, conditional),
-             units_of_switching(asked_for_, conditional), *integration.system().layout(), integration.tolerance()),
+             units_of_switching(asked_for_, conditional), *integration.system().layout(),
+             integration.tolerance()),
       changes_(asked_for_) {}
 
 bool EventHandler::any_changes_scene(const std::vector<FlatEvent>& events) {
@@ -136,8 +137,8 @@ Change EventHandler::resolve(const Stop& stop, const FlatSample& at, const Integ
   return change;
 }
 
-/// A force that jumps may open what was closed, or let slide what stuck. No root shows it: behind the switch the
-/// functions are others.
+/// A force that jumps may open what was closed, or let slide what stuck. No root shows it: behind the switch
+/// the functions are others.
 std::optional<Change> EventHandler::go_behind_switch(Integration& integration) {
   const double t = integration.time();
   FlatSample now = read(integration, t);
@@ -260,8 +261,8 @@ Stop EventHandler::restart(const Stop& stop, const FlatSample* before, Integrati
   };
   const OutputState start = (read(integration, t), seen_);
   const bool timed = system.rheonomic() || system.has_timed_forces();
-  const auto jumped = watch_.restart({start.flat(), before, asked_for_, timed, stop.not_reached, changed, ahead,
-                                      integration.scales(t).time});
+  const auto jumped = watch_.restart({start.flat(), before, asked_for_, timed, stop.not_reached, changed,
+                                      ahead, integration.scales(t).time});
   Stop next{t, stop.ends_run};
   if (!stop.changes.empty()) next.changes.assign(stop.changes.begin() + 1, stop.changes.end());
   for (const EventWatch::Found& one : jumped) {

@@ -41,13 +41,13 @@ class Integration {
   /// Whether the last step ended at a switch of the equations. The next one goes on behind it.
   [[nodiscard]] bool at_switch() const { return switch_.has_value(); }
   /// What is read at this time from here on is behind the switch. Returns whether the motion goes on there as
-  /// it is: if not, a constraint that holds only at times has no velocity that satisfies it on both sides, and
-  /// others must take over. Throws StepFailure where that is one that always holds; EquationFault.
+  /// it is: if not, a constraint that holds only at times has no velocity that satisfies it on both sides,
+  /// and others must take over. Throws StepFailure where that is one that always holds; EquationFault.
   bool go_behind_switch();
   /// The sides behind the switch that has been left last.
   [[nodiscard]] const Branches::Sides& behind_switch() const { return behind_->sides; }
-  /// Calls f with the equations as they are read at this time: at a switch before it, and behind it once it has
-  /// been left.
+  /// Calls f with the equations as they are read at this time: at a switch before it, and behind it once it
+  /// has been left.
   template <class F>
   decltype(auto) as_read(double t, const F& f) {
     if (!(switch_ && switch_->at.t == t) && !(behind_ && behind_->t == t)) return f();

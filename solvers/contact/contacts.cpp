@@ -62,7 +62,8 @@ double nearest_contact(const System& stated, const Instant& at, double touching)
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const double gradient = lengths_of_gradients[i];
     const double gap = std::abs(g[stated.layout()->constraints[contacts[i]].own_rows().front()]);
-    if (gap > std::max(round_off() * farthest, touching) * gradient) nearest = std::min(nearest, gap / gradient);
+    if (gap > std::max(round_off() * farthest, touching) * gradient)
+      nearest = std::min(nearest, gap / gradient);
   }
   return nearest;
 }
@@ -229,8 +230,8 @@ double Contacts::no_gap(const Contact& contact, std::span<const double> q) const
   return contact.gradient * scales_.rounding(q);
 }
 
-/// Rates that count as 0: round-off of the scene's own speed, however slow it is just then. What slides back is
-/// found to rest a round-off beyond, see DryFriction::switching.
+/// Rates that count as 0: round-off of the scene's own speed, however slow it is just then. What slides back
+/// is found to rest a round-off beyond, see DryFriction::switching.
 double Contacts::no_rate(const Contact& contact) const {
   return 2.0 * round_off() * scales_.speed() * contact.gradient;
 }

@@ -60,8 +60,7 @@ void Contacts::solve_impact(const Coupling& coupling, const std::vector<std::siz
     for (Index i = 0; i < after.size(); ++i) {
       // Of contacts that share an impact each is struck that leaves with -e U-, whatever its share is.
       const double rebound = before[i] - q[i];
-      const bool shares =
-          before[i] < 0.0 && std::abs(after[i] - rebound) * unit[i] <= round_off() * largest;
+      const bool shares = before[i] < 0.0 && std::abs(after[i] - rebound) * unit[i] <= round_off() * largest;
       if (!((*p)[i] > 0.0) && !shares) continue;
       after[i] = rebound;
       change.events.push_back({contacts_[its[static_cast<std::size_t>(i)]].number, t, EventKind::struck});
@@ -284,8 +283,8 @@ void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& to
 /// By the acceleration and the force of (2).
 void Contacts::open_or_close(std::size_t i, const std::vector<std::size_t>& triggered, const Pair& pair,
                              double t, Change& change) {
-  // A force that has fallen to 0 goes on falling: the contact opens, though nothing separates it yet. So does one
-  // that has fallen at this very time, before another: it stays open.
+  // A force that has fallen to 0 goes on falling: the contact opens, though nothing separates it yet. So does
+  // one that has fallen at this very time, before another: it stays open.
   const Contact& c = contacts_[i];
   const double own = scales_.speed() / scales_.time * c.gradient * pair.unit;
   const bool fallen = c.closed ? among(triggered, i) : c.opened_at == t && c.rate_at_opening == 0.0;

@@ -62,8 +62,7 @@ std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
     }
     at_from_.push_back(value(e, beginning.start));
     side_.push_back(e < asked_for_ ? first_side(e, at_from_.back()) : at_from_.back() < 0.0 ? -1 : 1);
-    if (before * side_[e] < 0)
-      jumped.push_back({{e, from_}, before, wanted(events_[e].crossing, before)});
+    if (before * side_[e] < 0) jumped.push_back({{e, from_}, before, wanted(events_[e].crossing, before)});
     const auto next =
         std::ranges::find(beginning.left, e, [](const Found& one) { return one.record.source; });
     if (next != beginning.left.end() && side_[e] == 0) side_[e] = next->before;

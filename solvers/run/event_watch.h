@@ -44,8 +44,8 @@ class EventWatch {
 
   /// The derivative by time of an event of contacts; NaN if it is not known.
   using Rate = std::function<double(std::size_t event, const FlatSample& at)>;
-  /// The unit of such an event's values, which changes with what is closed and sticks; 0 if that is the size of
-  /// the values themselves.
+  /// The unit of such an event's values, which changes with what is closed and sticks; 0 if that is the size
+  /// of the values themselves.
   using Unit = std::function<double(std::size_t event)>;
 
   /// Of a run at this tolerance; `rate` and `unit` may be empty if there are no contacts. Throws
@@ -59,8 +59,8 @@ class EventWatch {
   struct Beginning {
     const FlatSample& start;
     const FlatSample* before;  ///< what has changed there; null if nothing has
-    std::size_t positive;  ///< functions from this number on come from above 0 where they are 0
-    bool timed;            ///< something depends on time
+    std::size_t positive;      ///< functions from this number on come from above 0 where they are 0
+    bool timed;                ///< something depends on time
     /// Of the last step, but behind the start: it still has the sign that it had before.
     const std::vector<Found>& left;
     std::optional<std::size_t> changed;  ///< the event whose change this is
@@ -68,9 +68,9 @@ class EventWatch {
     double time;                         ///< of the scene
   };
   /// From here on steps are those of a run that begins there. Returns the crossings of events that were asked
-  /// for by what jumps there, as a velocity does at an impact. One that is 0, to round-off of its largest value
-  /// so far, has the sign to which it leaves 0; as long as it does not leave it has none. Throws StepFailure
-  /// where changes of an event accumulate: what one turned back no longer shows how it leaves.
+  /// for by what jumps there, as a velocity does at an impact. One that is 0, to round-off of its largest
+  /// value so far, has the sign to which it leaves 0; as long as it does not leave it has none. Throws
+  /// StepFailure where changes of an event accumulate: what one turned back no longer shows how it leaves.
   [[nodiscard]] std::vector<Found> restart(const Beginning& beginning);
   /// The first of `count` functions from this one on, of contacts, that is negative there: no crossing shows
   /// it.

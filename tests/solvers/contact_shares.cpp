@@ -26,7 +26,8 @@ class ContactShares : public testing::TestWithParam<std::tuple<Stepper, double>>
   }
 };
 INSTANTIATE_TEST_SUITE_P(BothSteppers, ContactShares,
-                         testing::Combine(both_steppers, testing::Values(1e-6, 1e-9)), [](const auto& info) {
+                         testing::Combine(both_steppers, testing::Values(1e-6, 1e-9, 1e-12)),
+                         [](const auto& info) {
                            return std::string(name(std::get<0>(info.param))) + std::to_string(info.index);
                          });
 

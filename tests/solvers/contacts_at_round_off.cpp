@@ -74,5 +74,54 @@ TEST_P(ContactsAtRoundOff, SlotWithoutPlayStopsWhatIsThrownAcross) {
   }
 }
 
+// It leaves a circle where cos = (2 + v^2/(g R))/3, in units of any size and far from the origin.
+TEST(ContactsFarFromTheOrigin, OpenWhereTheForceVanishes) {
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    for (const double unit : {1.0, 1000.0}) {
+      for (const double mass : {0.5, 1e-6}) {
+        const double R = 2.0 * unit, v = 3.0 * unit;
+        const Vec<2> centre{100.0 * unit, -200.0 * unit};
+        Scene<2> scene;
+        scene.add(UniformGravity<2>{{0.0, -g * unit}});
+        const auto bead =
+            scene.add_particle({.mass = mass, .position = centre + vec(0.0, R), .velocity = {v, 0.0}});
+        scene.add(unilateral(OnCurve{bead, Sphere<2>{.centre = centre, .radius = R}}));
+        const auto run = simulate(scene, {.t_end = 0.6, .samples = 3, .tolerance = 1e-9, .stepper = stepper});
+        ASSERT_EQ(run.events().size(), 1U);
+        const Vec<2> d = run.event_sample(0).position(bead) - centre;
+        EXPECT_NEAR(d.y() / d.norm(), (2.0 + v * v / (g * unit * R)) / 3.0, 100.0 * 1e-9);
+      }
+    }
+  }
+}
+
+// A block that a force F presses along a rough floor against a wall: it slides back with F + mu g, to the
+// wall with F - mu g; each of its bounces is so much shorter than the last that three of them reach
+// round-off.
+TEST(ContactsBesideFriction, BounceDownToRoundOff) {
+  constexpr double mu = 0.3, F = 3.2, start = 2.0, distance = 0.4;
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    for (const double tolerance : {1e-6, 1e-8, 1e-9, 1e-10}) {
+      for (const double e : {0.01, 0.02, 0.05}) {
+        Scene<2> scene;
+        scene.add(UniformGravity<2>{{0.0, -g}});
+        const auto block = scene.add_particle({.mass = 1.0, .velocity = {start, 0.0}});
+        const auto other = scene.add_particle({.mass = 1.0, .position = {-3.0, 0.0}});
+        scene.add(OnCurve{other, Plane<2>{}});
+        const auto floor = scene.add(OnCurve{block, Plane<2>{}}, "floor");
+        scene.add(coulomb(floor, Slip{block, Plane<2>{}}, mu));
+        scene.add(unilateral(OnCurve{block, Plane<2>{{distance, 0.0}, {-1.0, 0.0}}}, {.restitution = e}));
+        scene.add(force_law(points(block), [](auto r, auto) { return vec(F + 0.0 * r.x(), 0.0 * r.x()); }));
+        const auto run =
+            simulate(scene, {.t_end = 1.0, .samples = 3, .tolerance = tolerance, .stepper = stepper});
+        EXPECT_NEAR(run.position(block, 2).x(), distance, 100.0 * tolerance);
+        EXPECT_NEAR(run.velocity(block, 2).x(), 0.0, 100.0 * tolerance);
+        const double a = F - mu * g, first = (std::sqrt(start * start + 2.0 * a * distance) - start) / a;
+        EXPECT_NEAR(run.events().front().time, first, 100.0 * tolerance);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::contacts_at_round_off_test

@@ -330,5 +330,30 @@ TEST_P(CoulombChanges, InSpaceBringsToRestInTimeWhereItsForceVaries) {
   }
 }
 
+// A change of what slides along a rough incline is no impact: its normal part is round-off.
+TEST_P(CoulombChanges, KickAlongAnInclineIsNoImpact) {
+  constexpr double mu = 0.2, kick = 0.7;
+  for (const double angle : {0.1, 0.3, 0.5, 0.7}) {
+    const double c = std::cos(angle), s = std::sin(angle), a = g * (s - mu * c);
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const Plane<2> incline{{0.0, 0.0}, {s, c}};
+    const auto block = scene.add_particle({.mass = 1.0, .velocity = {2.0 * c, -2.0 * s}}, "block");
+    const auto floor = scene.add(OnCurve{block, incline});
+    scene.add(coulomb(floor, Slip{block, incline}, mu));
+    const Event<2> kicked{.name = "kick",
+                          .function = [](const auto& now) { return now.time() - 0.2; },
+                          .change =
+                              [=](Scene<2>& changed) {
+                                auto state = changed.particle(block);
+                                state.velocity += kick * vec(c, -s);
+                                changed.replace(block, state);
+                              }};
+    const auto run = simulate(scene, options(0.5), {kicked});
+    const double v = 2.0 + 0.5 * a + kick;
+    EXPECT_NEAR(run.velocity(block, 10).norm(), v, bound()) << angle;
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::coulomb_changes_test

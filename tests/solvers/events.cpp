@@ -200,5 +200,54 @@ TEST_P(Events, BeforeAFailureAreKept) {
   }
 }
 
+// A stone on a slack string, of length 1, that is thrown along x = 0.6: it goes taut at (0.6, 0.8), which
+// takes its speed along the string, 4 * 0.8. The rest, 2.4, loads the string at once with 2.4^2.
+TEST_P(Events, CrossZeroWhereTheirFunctionJumps) {
+  Scene<2> scene;
+  const auto stone = scene.add_particle({.mass = 1.0, .position = {0.6, -0.5}, .velocity = {0.0, 4.0}});
+  const auto string =
+      scene.add(unilateral(Distance{Fixed<2>{}, stone, 1.0}, {.allowed = Allowed::negative}), "string");
+  const auto tension = [=](const Sample<2>& now) { return -now.multiplier(string) - 5.0; };
+  const auto noted = simulate(scene, options(0.5), {{.name = "load", .function = tension}});
+  ASSERT_EQ(noted.events().size(), 2U);
+  EXPECT_EQ(noted.events()[1].kind, EventKind::event);
+  EXPECT_NEAR(noted.events()[1].time, 1.3 / 4.0, bound);
+  const auto ended = simulate(scene, options(0.5), {{.name = "load", .function = tension, .ends = true}});
+  EXPECT_EQ(ended.times().back(), noted.events()[1].time);
+  EXPECT_NEAR(-ended.multiplier(string, ended.size() - 1), 2.4 * 2.4, 10.0 * bound);
+  const Event<2> breaks{
+      .name = "breaks", .function = tension, .change = [=](Scene<2>& changed) { changed.release(string); }};
+  const auto broken = simulate(scene, options(0.5), {breaks});
+  const Vec<2> at{0.6, 0.8}, v = 2.4 * vec(-0.8, 0.6);
+  const double left = 0.5 - 1.3 / 4.0;
+  EXPECT_LT((broken.position(stone, broken.size() - 1) - (at + left * v)).norm(), bound);
+}
+
+// Two blocks couple where they come as close as a rod is long: the event's function is 0 from there on.
+TEST_P(Events, ChangeThatHoldsTheFunctionAtZeroHappensOnce) {
+  for (const double angle : {0.0, 0.2, 0.6}) {
+    const double c = std::cos(angle), s = std::sin(angle), offset = 3.0;
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const Plane<2> plane{{offset, offset}, {s, c}};
+    const auto a =
+        scene.add_particle({.mass = 1.0, .position = {offset, offset}, .velocity = {3.0 * c, -3.0 * s}});
+    const auto b =
+        scene.add_particle({.mass = 2.0, .position = {offset + c, offset - s}, .velocity = {c, -s}});
+    scene.add(OnCurve{a, plane});
+    scene.add(OnCurve{b, plane});
+    const auto hook = scene.add(Distance{a, b, 0.25}, "hook");
+    scene.release(hook);
+    const Event<2> couple{
+        .name = "couple",
+        .function = [=](const Sample<2>& now) { return (now.position(b) - now.position(a)).norm() - 0.25; },
+        .change = [=](Scene<2>& changed) { changed.impose(hook); }};
+    const auto run = simulate(scene, options(1.0), {couple});
+    ASSERT_EQ(run.events().size(), 1U) << angle;
+    EXPECT_NEAR(run.events()[0].time, 0.75 / 2.0, bound);
+    EXPECT_NEAR((run.velocity(a, run.size() - 1) - run.velocity(b, run.size() - 1)).norm(), 0.0, bound);
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::events_test

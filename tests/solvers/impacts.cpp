@@ -229,5 +229,61 @@ TEST_P(Impacts, StateIsReadBetweenSamplesAndStepByStep) {
   EXPECT_NEAR(simulation.position(scene.ball).y(), run.position(scene.ball, 10).y(), bound);
 }
 
+// A table on four legs that drops flat: of the impacts, which its legs share, each leg is struck every time,
+// and all rest at sqrt(2 H/g) (1 + 2 e/(1 - e)).
+TEST(SharedImpacts, StrikeEveryLegAndEndTogether) {
+  constexpr double e = 0.5, H = 0.3;
+  const double rest = std::sqrt(2.0 * H / g) * (1.0 + 2.0 * e / (1.0 - e));
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    for (const double vx : {0.0, 0.1, 0.2}) {
+      Scene<3> scene;
+      scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
+      const auto table = add_body(scene, BodyState<3>{.mass = 4.0,
+                                                      .inertia = {0.3, 0.4, 0.6},
+                                                      .centre = {0.0, 0.0, 0.7 + H},
+                                                      .velocity = {vx, 0.1, 0.0}});
+      for (const double x : {-0.4, 0.4})
+        for (const double y : {-0.3, 0.3})
+          scene.add(unilateral(OnSurface{table.point({x, y, -0.7}), Plane<3>{}}, {.restitution = e}));
+      const auto run = simulate(scene, {.t_end = 1.0, .samples = 3, .tolerance = 1e-8, .stepper = stepper});
+      std::vector<double> rests;
+      for (const EventRecord& it : run.events())
+        if (it.kind == EventKind::rested) rests.push_back(it.time);
+      ASSERT_EQ(rests.size(), 4U) << vx;
+      // As exactly as some impacts, each known to the tolerance, tell the limit of all.
+      for (const double t : rests) EXPECT_NEAR(t, rest, 100.0 * 1e-8) << vx;
+      EXPECT_EQ(run.events()[0].time, run.events()[3].time);
+    }
+  }
+}
+
+// The wall's impacts end; the floor, on which the block lies all the while, does not come to rest.
+TEST(SharedImpacts, EndInTheRestOfWhatBounced) {
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{1.0, -g}});
+  const auto block = scene.add_particle({.mass = 1.0});
+  const auto floor = scene.add(unilateral(OnCurve{block, Plane<2>{}}), "floor");
+  const auto wall =
+      scene.add(unilateral(OnCurve{block, Plane<2>{{0.2, 0.0}, {-1.0, 0.0}}}, {.restitution = 0.5}));
+  const auto run = simulate(scene, {.t_end = 3.0, .samples = 3});
+  EXPECT_EQ(run.events().back().kind, EventKind::rested);
+  for (const EventRecord& it : run.events())
+    EXPECT_EQ(it.source, static_cast<std::size_t>(wall.index)) << name(it.kind);
+  EXPECT_NEAR(run.multiplier(floor, 2), g, bound);
+}
+
+// From either side of an impact of a lone ball, which has no length but that of its path.
+TEST(SharedImpacts, AreWhereAnotherRunMayBegin) {
+  const Ball ball(0.5);
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    const Options options{.t_end = 1.2, .samples = 3, .tolerance = 1e-8, .stepper = stepper};
+    const auto run = simulate(ball.scene, options);
+    for (const auto& from : {run.event_sample(0), run.sample_after(0)}) {
+      const auto rest = simulate(ball.scene, from, options);
+      EXPECT_NEAR(rest.position(ball.ball, 2).y(), run.position(ball.ball, 2).y(), 100.0 * 1e-8);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::impacts_test

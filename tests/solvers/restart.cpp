@@ -185,5 +185,29 @@ TEST(Restart, FailureAtAHandoverLeavesWhatWasComputed) {
   EXPECT_EQ(also.lambda, there.lambda);
 }
 
+/// A block that slides on a spring, of a scene without a length: where its sliding turns, and where it
+/// sticks.
+TEST(Restart, GoesOnWhereFrictionTurns) {
+  for (const Stepper stepper : both) {
+    for (const double tolerance : {1e-4, 1e-7, 1e-10}) {
+      Scene<2> scene;
+      scene.add(UniformGravity<2>{{0.0, -9.81}});
+      const auto block = scene.add_particle({.mass = 1.0, .position = {-0.8, 0.0}});
+      const auto floor = scene.add(OnCurve{block, Plane<2>{}});
+      scene.add(coulomb(floor, Slip{block, Plane<2>{}}, 0.6));
+      scene.add(force_law(points(block), [](auto r, auto) { return vec(-50.0 * r.x(), 0.0 * r.x()); }));
+      const Options options{.t_end = 2.0, .samples = 3, .tolerance = tolerance, .stepper = stepper};
+      const auto run = simulate(scene, options);
+      ASSERT_GT(run.events().size(), 2U);
+      for (std::size_t k = 0; k < run.events().size(); ++k) {
+        for (const auto& from : {run.event_sample(k), run.sample_after(k)}) {
+          const auto rest = simulate(scene, from, options);
+          EXPECT_NEAR(rest.position(block, 2).x(), run.position(block, 2).x(), 100.0 * tolerance) << k;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::restart_test
