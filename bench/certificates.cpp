@@ -1,7 +1,7 @@
 #include "dalembert/bench/certificates.h"
 
 #include <dalembert/bench/median.h>
-#include <dalembert/bench/outcome.h>
+#include <dalembert/bench/progress.h>
 #include <dalembert/models/bouncing_ball.h>
 #include <dalembert/models/catalogue.h>
 #include <dalembert/models/event_model.h>
@@ -158,7 +158,7 @@ void add_model(const models::Model<D>& model, const CertificatesTable& options, 
   for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
     for (const double tolerance : options.tolerances) {
       const How how{model.name, stepper, tolerance};
-      (void)outcome_of(model.name, [&] {
+      attempt(model.name, [&] {
         const auto certificate =
             certify(observed.scene, {.t_end = model.t_end, .tolerance = tolerance, .stepper = stepper});
         const ModelErrors<D> errors(model, observed, certificate, reference, all.single);
@@ -189,7 +189,7 @@ void add_events(const CertificatesTable& options, Certified& all) {
   for (const models::EventModel& model : models::models_with_events()) {
     for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
       for (const double tolerance : options.tolerances)
-        (void)outcome_of(model.name, [&] { add_events_of(model, stepper, tolerance, all); });
+        attempt(model.name, [&] { add_events_of(model, stepper, tolerance, all); });
     }
   }
 }
@@ -221,7 +221,7 @@ void add_impulses_by(Stepper stepper, double tolerance, Certified& all) {
 void add_impulses(const CertificatesTable& options, Certified& all) {
   for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
     for (const double tolerance : options.tolerances)
-      (void)outcome_of("bouncing-ball-0.8", [&] { add_impulses_by(stepper, tolerance, all); });
+      attempt("bouncing-ball-0.8", [&] { add_impulses_by(stepper, tolerance, all); });
   }
 }
 

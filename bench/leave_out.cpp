@@ -2,7 +2,6 @@
 
 #include <dalembert/bench/leave_out_pairs.h>
 #include <dalembert/bench/median.h>
-#include <dalembert/bench/outcome.h>
 #include <dalembert/bench/progress.h>
 
 #include <algorithm>
@@ -75,7 +74,7 @@ int leave_out(const LeaveOut& options) {
         progress.next(what);
         const double allowed = 2.0 * allowed_of_one_run * options.tolerance * pair.length;
         Comparison c;
-        Outcome outcome = outcome_of(what, [&] { c = compare(pair, stepper, options); });
+        Outcome outcome = attempt(what, [&] { c = compare(pair, stepper, options); });
         if (outcome.ok() && !(c.difference <= allowed)) {
           outcome = {"another-motion", "the two statements give another motion"};
           tell(what, outcome);

@@ -47,12 +47,12 @@ void add_steppers(CLI::App& command, std::vector<Stepper>& steppers) {
       ->transform(CLI::CheckedTransformer(known).description("{ida, erk}"));
 }
 
-void add_contenders(CLI::App& command, std::vector<bench::Contender>& steppers) {
-  std::map<std::string, bench::Contender> known;
+void add_methods(CLI::App& command, std::vector<bench::Method>& steppers) {
+  std::map<std::string, bench::Method> known;
   std::string names;
-  for (const bench::Contender contender : bench::contenders()) {
-    known.emplace(bench::name(contender), contender);
-    names += (names.empty() ? "" : ", ") + std::string(bench::name(contender));
+  for (const bench::Method method : bench::all_methods()) {
+    known.emplace(bench::name(method), method);
+    names += (names.empty() ? "" : ", ") + std::string(bench::name(method));
   }
   std::string chosen = steppers.size() == known.size() ? "all" : bench::name(steppers.front());
   command.add_option("--stepper", steppers, names + "; " + chosen + " unless given")
@@ -74,7 +74,7 @@ void add_work_precision(CLI::App& app) {
   command->add_option("--model", options->models, "all, or names as in `list`")
       ->delimiter(',')
       ->capture_default_str();
-  add_contenders(*command, options->steppers);
+  add_methods(*command, options->steppers);
   command->add_option("--tolerance", options->tolerances, "Between 1e-13 and 0.1")
       ->delimiter(',')
       ->capture_default_str();
@@ -100,7 +100,7 @@ void add_scaling(CLI::App& app) {
       ->delimiter(',')
       ->check(CLI::Range(1, 100'000'000))
       ->capture_default_str();
-  add_contenders(*command, options->steppers);
+  add_methods(*command, options->steppers);
   command->add_option("--tolerance", options->tolerance, "Between 1e-13 and 0.1")->capture_default_str();
   command->add_option("--t-end", options->t_end, "Length of the run [s]")->capture_default_str();
   add_report_options(*command, options->report);
@@ -143,7 +143,7 @@ void add_ratios(CLI::App& app) {
   command->add_option("--scene", options->scenes, "all, or some of " + bench::known_scenes())
       ->delimiter(',')
       ->capture_default_str();
-  add_contenders(*command, options->steppers);
+  add_methods(*command, options->steppers);
   command->add_option("--error", options->errors, "Of position, relative to the system's length")
       ->delimiter(',')
       ->check(CLI::Range(1e-10, 1e-2))

@@ -1,6 +1,6 @@
 #include "dalembert/bench/own_constraint.h"
 
-#include <dalembert/bench/outcome.h>
+#include <dalembert/bench/progress.h>
 #include <dalembert/dalembert.h>
 
 #include <algorithm>
@@ -94,8 +94,7 @@ void own_constraint(const OwnConstraint& options) {
   for (const Stepper stepper : options.steppers) {
     const std::string what = std::string("own-constraint, ") + name(stepper);
     OwnComparison c;
-    const Outcome outcome =
-        outcome_of(what, [&] { c = compare(distances, lambdas, stepper, options.repeats); });
+    const Outcome outcome = attempt(what, [&] { c = compare(distances, lambdas, stepper, options.repeats); });
     table.rows.push_back({name(stepper), std::to_string(options.beads), scientific(c.run_time_distance),
                           scientific(c.run_time_own), scientific(c.ratio, 3), scientific(c.difference),
                           outcome.name});

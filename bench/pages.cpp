@@ -1,7 +1,6 @@
 #include "dalembert/bench/pages.h"
 
 #include <dalembert/bench/events.h>
-#include <dalembert/bench/outcome.h>
 #include <dalembert/bench/progress.h>
 #include <dalembert/bench/table.h>
 #include <dalembert/bench/work_precision.h>
@@ -143,7 +142,7 @@ void pages(const Pages& options) {
     std::visit(
         [&](const auto& model) {
           progress.next(model.name);
-          const Outcome outcome = outcome_of(model.name, [&] { write_model(model, options); });
+          const Outcome outcome = attempt(model.name, [&] { write_model(model, options); });
           list.rows.push_back({model.name, model.notes, model.reference, shortest(model.t_end),
                                name(options.stepper), shortest_power(options.tolerance), outcome.name});
         },
@@ -152,12 +151,10 @@ void pages(const Pages& options) {
   write_table(path, list);
   if (std::ranges::find(options.models, "all") == options.models.end()) return;
   for (const models::EventModel& model : models_of_events())
-    (void)outcome_of(model.name, [&] { write_event_model(model, options); });
+    attempt(model.name, [&] { write_event_model(model, options); });
   for (const auto& [scene, t_end] : models::lecture_scenes())
     std::visit(
-        [&, end = t_end](const auto& own) {
-          (void)outcome_of(own.name(), [&] { write_scene(own, end, options); });
-        },
+        [&, end = t_end](const auto& own) { attempt(own.name(), [&] { write_scene(own, end, options); }); },
         scene);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/bench/contender.h>
+#include <dalembert/bench/method.h>
 #include <dalembert/bench/report.h>
 
 #include <string>
@@ -10,7 +10,7 @@ namespace dalembert::bench {
 
 struct Ratios {
   std::vector<std::string> scenes = {"all"};
-  std::vector<Contender> steppers = contenders();
+  std::vector<Method> steppers = all_methods();
   std::vector<double> errors = {1e-6, 1e-8};  ///< of position, relative to the model's length
   int repeats = 3;                            ///< rounds
   double limit = 2.0;  ///< a run that took longer is the last of its stepper's curve [s]

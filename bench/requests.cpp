@@ -1,7 +1,6 @@
 #include "dalembert/bench/requests.h"
 
 #include <dalembert/bench/median.h>
-#include <dalembert/bench/outcome.h>
 #include <dalembert/bench/work_precision.h>
 #include <dalembert/models/error.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/bench/contender.h>
+#include <dalembert/bench/method.h>
 #include <dalembert/bench/report.h>
 
 #include <string>
@@ -14,7 +14,7 @@ inline constexpr int largest_compared = 1000;
 struct Scaling {
   std::string model = "chain";
   std::vector<int> sizes = {10, 100, 1000};  ///< run in increasing order
-  std::vector<Contender> steppers = {Contender::ida};
+  std::vector<Method> steppers = {Method::ida};
   double tolerance = 1e-6;
   double t_end = 1.0;
   ReportOptions report;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dalembert/bench/contender.h>
+#include <dalembert/bench/method.h>
 #include <dalembert/bench/report.h>
 #include <dalembert/models/model.h>
 
@@ -10,8 +10,8 @@
 namespace dalembert::bench {
 
 struct WorkPrecision {
-  std::vector<std::string> models = {"all"};           ///< names of the catalogue, or "all"
-  std::vector<Contender> steppers = {Contender::ida};  ///< those that a model does not have give no row
+  std::vector<std::string> models = {"all"};     ///< names of the catalogue, or "all"
+  std::vector<Method> steppers = {Method::ida};  ///< those that a model does not have give no row
   std::vector<double> tolerances = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
   int samples = 101;  ///< equally spaced; 2, the ends of the run, times the integration alone
   int repeats = 3;    ///< the run time reported is the median of this many runs

@@ -10,10 +10,10 @@ void expect_right(const std::vector<Case>& cases) {
   for (const Case& extreme : cases) {
     for (const Stepper stepper : extreme.steppers) {
       for (const double parameter : extreme.brief) {
-        const Verdict v = judge(extreme, parameter, stepper);
-        EXPECT_TRUE(v.right) << extreme.name << ", " << extreme.parameter << " = " << parameter << ", "
-                             << name(stepper) << ": " << v.result.outcome << ", error " << v.result.error
-                             << ", limit " << v.limit << ' ' << v.result.said;
+        const Run run = judge(extreme, parameter, stepper);
+        EXPECT_TRUE(run.right()) << extreme.name << ", " << extreme.parameter << " = " << parameter << ", "
+                                 << name(stepper) << ": " << run.outcome.name << ", error " << run.error
+                                 << ", limit " << run.limit << ' ' << run.outcome.message;
       }
     }
   }
