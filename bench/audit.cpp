@@ -1,5 +1,4 @@
-#include "dalembert/bench/audit.h"
-
+#include <dalembert/bench/commands.h>
 #include <dalembert/bench/median.h>
 #include <dalembert/bench/progress.h>
 #include <dalembert/models/catalogue.h>
@@ -46,7 +45,7 @@ template <int D>
 }
 
 template <int D>
-void add_model(const models::Model<D>& model, const AuditTable& options, Rows& rows) {
+void add_model(const models::Model<D>& model, const AuditOptions& options, Rows& rows) {
   const Scene<D> scene = model.scene().scene;
   for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
     for (const double tolerance : options.tolerances) {
@@ -72,7 +71,7 @@ void add_extreme(const extremes::Case& extreme, double parameter, Stepper steppe
 
 }  // namespace
 
-int audit(const AuditTable& options) {
+int audit(const AuditOptions& options) {
   require_writable(options.report);
   Rows rows;
   for (const models::AnyModel& any : models::catalogue())

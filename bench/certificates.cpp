@@ -1,5 +1,4 @@
-#include "dalembert/bench/certificates.h"
-
+#include <dalembert/bench/commands.h>
 #include <dalembert/bench/median.h>
 #include <dalembert/bench/progress.h>
 #include <dalembert/models/bouncing_ball.h>
@@ -152,7 +151,7 @@ class ModelErrors {
 };
 
 template <int D>
-void add_model(const models::Model<D>& model, const CertificatesTable& options, Certified& all) {
+void add_model(const models::Model<D>& model, const CertificatesOptions& options, Certified& all) {
   const models::Observed<D> observed = model.scene();
   const auto reference = model.observations(sample_times({.t_end = model.t_end}));
   for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
@@ -185,7 +184,7 @@ void add_events_of(const models::EventModel& model, Stepper stepper, double tole
   all.add_run(how, "time of events", most);
 }
 
-void add_events(const CertificatesTable& options, Certified& all) {
+void add_events(const CertificatesOptions& options, Certified& all) {
   for (const models::EventModel& model : models::models_with_events()) {
     for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
       for (const double tolerance : options.tolerances)
@@ -218,7 +217,7 @@ void add_impulses_by(Stepper stepper, double tolerance, Certified& all) {
   all.add_run(how, "impulse", most);
 }
 
-void add_impulses(const CertificatesTable& options, Certified& all) {
+void add_impulses(const CertificatesOptions& options, Certified& all) {
   for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
     for (const double tolerance : options.tolerances)
       attempt("bouncing-ball-0.8", [&] { add_impulses_by(stepper, tolerance, all); });
@@ -260,9 +259,9 @@ int claim(bool holds, const std::string& what) {
 
 }  // namespace
 
-int certificates(const CertificatesTable& asked) {
+int certificates(const CertificatesOptions& asked) {
   require_writable(asked.report);
-  CertificatesTable options = asked;
+  CertificatesOptions options = asked;
   if (options.quick) options.tolerances = {1e-5, 1e-8};
   Certified all;
   for (const models::AnyModel& any : models::catalogue())

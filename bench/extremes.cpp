@@ -1,5 +1,4 @@
-#include "dalembert/bench/extremes.h"
-
+#include <dalembert/bench/commands.h>
 #include <dalembert/bench/progress.h>
 #include <dalembert/tests/extremes/cases/case.h>
 
@@ -52,7 +51,7 @@ void complain(const Case& extreme, const Run& run) {
 
 }  // namespace
 
-int extremes(const Extremes& options) {
+int extremes(const ExtremesOptions& options) {
   const std::vector<Case> cases = select(options.cases);
   require_writable(options.report);
   Table table{.columns = columns, .rows = {}};

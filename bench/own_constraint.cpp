@@ -1,5 +1,4 @@
-#include "dalembert/bench/own_constraint.h"
-
+#include <dalembert/bench/commands.h>
 #include <dalembert/bench/progress.h>
 #include <dalembert/dalembert.h>
 
@@ -84,7 +83,7 @@ OwnComparison compare(const Chain& distances, const Chain& lambdas, Stepper step
 
 }  // namespace
 
-void own_constraint(const OwnConstraint& options) {
+void own_constraint(const OwnConstraintOptions& options) {
   require_writable(options.report);
   Table table{.columns = {"stepper", "beads", "run_time_distance_s", "run_time_own_s", "ratio",
                           "difference_position", "outcome"},

@@ -1,5 +1,4 @@
-#include "dalembert/bench/ratios.h"
-
+#include <dalembert/bench/commands.h>
 #include <dalembert/bench/methods.h>
 #include <dalembert/bench/progress.h>
 #include <dalembert/bench/work_precision_curve.h>
@@ -59,7 +58,7 @@ double run_time(const std::vector<WorkPrecisionCurve<D>>& curves, Method method,
 template <int D>
 std::vector<WorkPrecisionCurve<D>> reaching(const Benchmark<D>& benchmark,
                                             std::span<const models::Observation<D>> reference,
-                                            const Ratios& options, Progress& progress) {
+                                            const RatiosOptions& options, Progress& progress) {
   std::vector<WorkPrecisionCurve<D>> curves;
   for (const Method method : options.steppers) {
     if (benchmark.has(method)) curves.emplace_back(benchmark, method, reference, options.limit);
@@ -82,7 +81,7 @@ std::string outcome(const auto& crossing, double error) {
 }
 
 template <int D>
-void race(const Benchmark<D>& benchmark, const Ratios& options, Progress& progress, Table& table) {
+void race(const Benchmark<D>& benchmark, const RatiosOptions& options, Progress& progress, Table& table) {
   const auto reference =
       benchmark.model.observations(sample_times({.t_end = benchmark.model.t_end, .samples = 2}));
   const auto curves = reaching<D>(benchmark, reference, options, progress);
@@ -115,7 +114,7 @@ std::string known_scenes() {
   return names;
 }
 
-void ratios(const Ratios& options) {
+void ratios(const RatiosOptions& options) {
   require_known(options.scenes);
   require_writable(options.report);
   const auto chosen = [&](const std::string& name) {

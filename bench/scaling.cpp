@@ -1,5 +1,4 @@
-#include "dalembert/bench/scaling.h"
-
+#include <dalembert/bench/commands.h>
 #include <dalembert/bench/methods.h>
 #include <dalembert/bench/progress.h>
 #include <dalembert/models/error.h>
@@ -31,7 +30,8 @@ struct Scaled {
 
 /// Error of the last positions. The reference needs to be good beside the run, not to round-off:
 /// its steps are 1000 times as accurate as those of the run.
-double last_error(const models::Chain& chain, const Scaling& options, const models::Observation<2>& last) {
+double last_error(const models::Chain& chain, const ScalingOptions& options,
+                  const models::Observation<2>& last) {
   if (chain.beads > largest_compared) return nan;
   const models::Real tolerance = std::max(1e-3L * options.tolerance, models::reference_tolerance);
   const auto reference = chain.reference(std::array{options.t_end}, tolerance);
@@ -54,7 +54,7 @@ models::Observation<2> run_other(const models::Chain& chain, Method method, cons
   return std::move(gave.seen.back());
 }
 
-Scaled run(const models::Chain& chain, Method method, const Scaling& options) {
+Scaled run(const models::Chain& chain, Method method, const ScalingOptions& options) {
   Scaled scaled;
   Options run{.t_end = options.t_end, .samples = 2, .tolerance = options.tolerance};
   const std::optional<Stepper> own = stepper(method);
@@ -65,7 +65,7 @@ Scaled run(const models::Chain& chain, Method method, const Scaling& options) {
   return scaled;
 }
 
-std::vector<std::string> row(const Scaling& options, Method stepper, int size, const Scaled& scaled,
+std::vector<std::string> row(const ScalingOptions& options, Method stepper, int size, const Scaled& scaled,
                              const Outcome& outcome) {
   const Statistics& s = scaled.statistics;
   return {options.model,
@@ -83,7 +83,7 @@ std::vector<std::string> row(const Scaling& options, Method stepper, int size, c
 
 }  // namespace
 
-void scaling(const Scaling& options) {
+void scaling(const ScalingOptions& options) {
   validate({.t_end = options.t_end, .tolerance = options.tolerance});
   if (options.model != "chain")
     throw Error("no model \"" + options.model + "\" of any size; there is: chain");

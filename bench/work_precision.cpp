@@ -1,11 +1,8 @@
-#include "dalembert/bench/work_precision.h"
-
 #include <dalembert/bench/benchmark.h>
+#include <dalembert/bench/commands.h>
 #include <dalembert/bench/methods.h>
+#include <dalembert/bench/models.h>
 #include <dalembert/bench/progress.h>
-#include <dalembert/models/catalogue.h>
-
-#include <algorithm>
 
 namespace dalembert::bench {
 
@@ -13,10 +10,6 @@ namespace {
 
 using models::AnyModel;
 using models::Model;
-
-const std::string& name_of(const AnyModel& model) {
-  return std::visit([](const auto& m) -> const std::string& { return m.name; }, model);
-}
 
 std::vector<std::string> row(const std::string& model, Method stepper, double tolerance,
                              const Result& result) {
@@ -39,7 +32,7 @@ std::vector<std::string> row(const std::string& model, Method stepper, double to
 /// The curves of one model, added to the table; the reference is computed once.
 class Curves {
  public:
-  Curves(const WorkPrecision& options, Table& table, Progress& progress)
+  Curves(const WorkPrecisionOptions& options, Table& table, Progress& progress)
       : options_(options), table_(table), progress_(progress) {}
 
   template <int D>
@@ -79,13 +72,13 @@ class Curves {
     table_.rows.push_back(row(model, stepper, point.tolerance, result));
   }
 
-  const WorkPrecision& options_;
+  const WorkPrecisionOptions& options_;
   Table& table_;
   Progress& progress_;
 };
 
 /// How many curves there will be.
-std::size_t number_of_curves(const std::vector<AnyModel>& models, const WorkPrecision& options) {
+std::size_t number_of_curves(const std::vector<AnyModel>& models, const WorkPrecisionOptions& options) {
   std::size_t count = 0;
   for (const Method stepper : options.steppers) {
     for (const AnyModel& any : models)
@@ -100,22 +93,7 @@ std::size_t number_of_curves(const std::vector<AnyModel>& models, const WorkPrec
 
 }  // namespace
 
-std::vector<AnyModel> select_models(const std::vector<std::string>& names) {
-  std::vector<AnyModel> all = models::catalogue();
-  if (std::find(names.begin(), names.end(), "all") != names.end()) return all;
-  for (const std::string& name : names) {
-    if (std::any_of(all.begin(), all.end(), [&](const AnyModel& m) { return name_of(m) == name; })) continue;
-    std::string known;
-    for (const AnyModel& m : all) known += ' ' + name_of(m);
-    throw Error("no model \"" + name + "\"; there are: all" + known);
-  }
-  std::erase_if(all, [&](const AnyModel& m) {
-    return std::find(names.begin(), names.end(), name_of(m)) == names.end();
-  });
-  return all;
-}
-
-void work_precision(const WorkPrecision& options) {
+void work_precision(const WorkPrecisionOptions& options) {
   const std::vector<AnyModel> selected = select_models(options.models);
   for (const double tolerance : options.tolerances) validate({.t_end = 1.0, .tolerance = tolerance});
   (void)sample_times({.t_end = 1.0, .samples = options.samples});
