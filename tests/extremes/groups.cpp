@@ -29,10 +29,10 @@ TEST(Extremes, FreeParticlesHaveTheLengthOfTheirPath) { expect_right(paths()); }
 TEST(Extremes, ResultIsIndependentOfUnitsAndTimeOrigin) { expect_right(units()); }
 TEST(Extremes, StartsAreAssembledOrRefusedByName) { expect_right(starts()); }
 TEST(Extremes, RedundantConstraintsAreAsAccurateAsIndependentOnes) { expect_right(redundancy()); }
-TEST(Extremes, AtRoundOffAndAtSingularPositionsForcesAreRightOrNotRead) { expect_right(at_round_off()); }
-TEST(Extremes, KinksJumpsAndSticking) { expect_right(discontinuities()); }
+TEST(Extremes, ForcesAtRoundOffAndAtSingularPositionsAreRightOrNotRead) { expect_right(at_round_off()); }
+TEST(Extremes, KinksJumpsAndStickingAreFollowedOrNamed) { expect_right(discontinuities()); }
 TEST(Extremes, FrictionHoldsUpToTheEdgeOfItsCone) { expect_right(sticking()); }
-TEST(Extremes, ContactsThatAreGrazedStruckAtOnceOrWithoutEnd) { expect_right(contacts()); }
+TEST(Extremes, ContactsAreRightGrazedStruckAtOnceOrWithoutEnd) { expect_right(contacts()); }
 TEST(Extremes, FailuresInMidRunSayWhenAndWhat) { expect_right(failures()); }
 
 }  // namespace
