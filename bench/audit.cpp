@@ -1,7 +1,5 @@
-#include "dalembert/bench/audit.h"
-
+#include <dalembert/bench/commands.h>
 #include <dalembert/bench/median.h>
-#include <dalembert/bench/outcome.h>
 #include <dalembert/bench/progress.h>
 #include <dalembert/models/catalogue.h>
 #include <dalembert/tests/extremes/cases/case.h>
@@ -47,44 +45,41 @@ template <int D>
 }
 
 template <int D>
-void add_model(const models::Model<D>& model, const AuditTable& options, Rows& rows) {
+void add_model(const models::Model<D>& model, const AuditOptions& options, Rows& rows) {
   const Scene<D> scene = model.scene().scene;
   for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
     for (const double tolerance : options.tolerances) {
       const Options run{
           .t_end = model.t_end, .tolerance = tolerance, .stepper = stepper, .audit = Audited::report};
-      const Outcome outcome = outcome_of(model.name, [&] {
+      attempt(model.name, [&] {
         const Audit found = simulate(scene, run).statistics().audit;
         rows.add(model.name, stepper, shortest_power(tolerance), found, cost(scene, run, options.repeats));
       });
-      if (!outcome.ok()) tell(model.name, outcome);
     }
   }
 }
 
 /// A case runs its scenes itself: the last one's audit is in its statistics, and any violation an error.
 void add_extreme(const extremes::Case& extreme, double parameter, Stepper stepper, Rows& rows) {
-  const extremes::Verdict verdict = extremes::judge(extreme, parameter, stepper);
+  const extremes::Run run = extremes::judge(extreme, parameter, stepper);
   const std::string scene = extreme.name + ' ' + shortest(parameter);
-  rows.add(scene, stepper, "", verdict.result.statistics.audit, std::numeric_limits<double>::quiet_NaN());
-  if (verdict.right || verdict.result.said.find("breaks a law") == std::string::npos) return;
+  rows.add(scene, stepper, "", run.statistics.audit, std::numeric_limits<double>::quiet_NaN());
+  if (run.right() || run.outcome.message.find("breaks a law") == std::string::npos) return;
   ++rows.beyond;
-  std::cerr << scene << ", " << name(stepper) << ": " << verdict.result.said << '\n';
+  std::cerr << scene << ", " << name(stepper) << ": " << run.outcome.message << '\n';
 }
 
 }  // namespace
 
-int audit(const AuditTable& options) {
+int audit(const AuditOptions& options) {
   require_writable(options.report);
   Rows rows;
   for (const models::AnyModel& any : models::catalogue())
     std::visit([&](const auto& model) { add_model(model, options, rows); }, any);
-  for (const extremes::Group& group : extremes::groups()) {
-    for (const extremes::Case& extreme : group.cases) {
-      for (const Stepper stepper : extreme.steppers)
-        for (const double parameter : options.quick ? extreme.brief : extreme.sweep)
-          add_extreme(extreme, parameter, stepper, rows);
-    }
+  for (const extremes::Case& extreme : extremes::all_cases()) {
+    for (const Stepper stepper : extreme.steppers)
+      for (const double parameter : options.quick ? extreme.brief : extreme.sweep)
+        add_extreme(extreme, parameter, stepper, rows);
   }
   report(
       "Audit: every law's worst violation against its limit; " + std::to_string(rows.beyond) + " beyond it",

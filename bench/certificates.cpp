@@ -1,7 +1,6 @@
-#include "dalembert/bench/certificates.h"
-
+#include <dalembert/bench/commands.h>
 #include <dalembert/bench/median.h>
-#include <dalembert/bench/outcome.h>
+#include <dalembert/bench/progress.h>
 #include <dalembert/models/bouncing_ball.h>
 #include <dalembert/models/catalogue.h>
 #include <dalembert/models/event_model.h>
@@ -152,13 +151,13 @@ class ModelErrors {
 };
 
 template <int D>
-void add_model(const models::Model<D>& model, const CertificatesTable& options, Certified& all) {
+void add_model(const models::Model<D>& model, const CertificatesOptions& options, Certified& all) {
   const models::Observed<D> observed = model.scene();
   const auto reference = model.observations(sample_times({.t_end = model.t_end}));
   for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
     for (const double tolerance : options.tolerances) {
       const How how{model.name, stepper, tolerance};
-      (void)outcome_of(model.name, [&] {
+      attempt(model.name, [&] {
         const auto certificate =
             certify(observed.scene, {.t_end = model.t_end, .tolerance = tolerance, .stepper = stepper});
         const ModelErrors<D> errors(model, observed, certificate, reference, all.single);
@@ -185,11 +184,11 @@ void add_events_of(const models::EventModel& model, Stepper stepper, double tole
   all.add_run(how, "time of events", most);
 }
 
-void add_events(const CertificatesTable& options, Certified& all) {
+void add_events(const CertificatesOptions& options, Certified& all) {
   for (const models::EventModel& model : models::models_with_events()) {
     for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
       for (const double tolerance : options.tolerances)
-        (void)outcome_of(model.name, [&] { add_events_of(model, stepper, tolerance, all); });
+        attempt(model.name, [&] { add_events_of(model, stepper, tolerance, all); });
     }
   }
 }
@@ -218,10 +217,10 @@ void add_impulses_by(Stepper stepper, double tolerance, Certified& all) {
   all.add_run(how, "impulse", most);
 }
 
-void add_impulses(const CertificatesTable& options, Certified& all) {
+void add_impulses(const CertificatesOptions& options, Certified& all) {
   for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
     for (const double tolerance : options.tolerances)
-      (void)outcome_of("bouncing-ball-0.8", [&] { add_impulses_by(stepper, tolerance, all); });
+      attempt("bouncing-ball-0.8", [&] { add_impulses_by(stepper, tolerance, all); });
   }
 }
 
@@ -260,9 +259,9 @@ int claim(bool holds, const std::string& what) {
 
 }  // namespace
 
-int certificates(const CertificatesTable& asked) {
+int certificates(const CertificatesOptions& asked) {
   require_writable(asked.report);
-  CertificatesTable options = asked;
+  CertificatesOptions options = asked;
   if (options.quick) options.tolerances = {1e-5, 1e-8};
   Certified all;
   for (const models::AnyModel& any : models::catalogue())

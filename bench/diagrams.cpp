@@ -1,5 +1,4 @@
-#include "dalembert/bench/diagrams.h"
-
+#include <dalembert/bench/commands.h>
 #include <dalembert/bench/table.h>
 #include <dalembert/models/driven_pivot.h>
 #include <dalembert/models/governor.h>
@@ -16,7 +15,7 @@ namespace dalembert::bench {
 
 namespace {
 
-void write(const Diagrams& options, const std::string& name, const Table& table) {
+void write(const DiagramsOptions& options, const std::string& name, const Table& table) {
   const std::string path = options.directory + '/' + name;
   std::ofstream file(path);
   table.write_csv(file);
@@ -96,7 +95,7 @@ Table boundary() {
 
 }  // namespace
 
-void diagrams(const Diagrams& options) {
+void diagrams(const DiagramsOptions& options) {
   Particle<3> bob;
   const auto hoop = [&bob](double spin) {
     auto built = models::HoopAboutDiameter{.spin = spin, .angle = 0.0}.scene();

@@ -1,20 +1,13 @@
-#include "dalembert/bench/events.h"
-
-#include <dalembert/models/chain_over_edge.h>
+#include <dalembert/bench/commands.h>
+#include <dalembert/bench/models.h>
+#include <dalembert/bench/table.h>
 
 #include <cmath>
 #include <iostream>
 
 namespace dalembert::bench {
 
-std::vector<models::EventModel> models_of_events() {
-  auto all = models::models_with_events();
-  all.push_back(models::chain_over_edge_model());
-  all.push_back(models::chain_over_edge_friction_model());
-  return all;
-}
-
-int events(const EventsTable& options) {
+int events(const EventsOptions& options) {
   require_writable(options.report);
   Table table{
       .columns = {"model", "event", "stepper", "tolerance", "time", "reference_time", "error", "limit"},

@@ -1,5 +1,4 @@
-#include "dalembert/bench/extremes.h"
-
+#include <dalembert/bench/commands.h>
 #include <dalembert/bench/progress.h>
 #include <dalembert/tests/extremes/cases/case.h>
 
@@ -11,14 +10,13 @@ namespace dalembert::bench {
 namespace {
 
 using extremes::Case;
-using extremes::Verdict;
+using extremes::Run;
 
 const std::vector<std::string> columns = {"case",  "parameter",  "stepper", "outcome", "error",
                                           "steps", "run_time_s", "limit",   "varied"};
 
 std::vector<Case> select(const std::vector<std::string>& names) {
-  std::vector<Case> all;
-  for (extremes::Group& group : extremes::groups()) std::ranges::move(group.cases, std::back_inserter(all));
+  std::vector<Case> all = extremes::all_cases();
   if (std::ranges::find(names, "all") != names.end()) return all;
   for (const std::string& name : names) {
     if (std::ranges::find(all, name, &Case::name) != all.end()) continue;
@@ -30,24 +28,30 @@ std::vector<Case> select(const std::vector<std::string>& names) {
   return all;
 }
 
-std::vector<std::string> row(const Case& extreme, double parameter, Stepper stepper, const Verdict& v) {
-  const Statistics& s = v.result.statistics;
-  return {extreme.name,           shortest_power(parameter),  name(stepper),
-          v.result.outcome,       scientific(v.result.error), std::to_string(s.steps),
-          scientific(s.run_time), scientific(v.limit),        extreme.parameter};
+std::vector<std::string> row(const Case& extreme, const Run& run) {
+  return {extreme.name,
+          shortest_power(run.parameter),
+          name(run.stepper),
+          run.outcome.name,
+          scientific(run.error),
+          std::to_string(run.statistics.steps),
+          scientific(run.statistics.run_time),
+          scientific(run.limit),
+          extreme.parameter};
 }
 
 /// What went wrong, for a reader at the terminal.
-void complain(const Case& extreme, double parameter, Stepper stepper, const Verdict& v) {
-  std::cerr << extreme.name << ", " << extreme.parameter << " = " << shortest(parameter) << ", "
-            << name(stepper) << ": error " << scientific(v.result.error) << ", limit " << scientific(v.limit);
-  if (!v.result.said.empty()) std::cerr << ": " << v.result.said;
+void complain(const Case& extreme, const Run& run) {
+  std::cerr << extreme.name << ", " << extreme.parameter << " = " << shortest(run.parameter) << ", "
+            << name(run.stepper) << ": error " << scientific(run.error) << ", limit "
+            << scientific(run.limit);
+  if (!run.outcome.message.empty()) std::cerr << ": " << run.outcome.message;
   std::cerr << '\n';
 }
 
 }  // namespace
 
-int extremes(const Extremes& options) {
+int extremes(const ExtremesOptions& options) {
   const std::vector<Case> cases = select(options.cases);
   require_writable(options.report);
   Table table{.columns = columns, .rows = {}};
@@ -58,10 +62,10 @@ int extremes(const Extremes& options) {
       progress.next(extreme.name);
       for (const Stepper stepper : extreme.steppers) {
         for (const double parameter : options.quick ? extreme.brief : extreme.sweep) {
-          const Verdict verdict = extremes::judge(extreme, parameter, stepper);
-          table.rows.push_back(row(extreme, parameter, stepper, verdict));
-          if (verdict.right) continue;
-          complain(extreme, parameter, stepper, verdict);
+          const Run run = extremes::judge(extreme, parameter, stepper);
+          table.rows.push_back(row(extreme, run));
+          if (run.right()) continue;
+          complain(extreme, run);
           ++failures;
         }
       }

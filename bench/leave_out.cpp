@@ -1,8 +1,6 @@
-#include "dalembert/bench/leave_out.h"
-
+#include <dalembert/bench/commands.h>
 #include <dalembert/bench/leave_out_pairs.h>
 #include <dalembert/bench/median.h>
-#include <dalembert/bench/outcome.h>
 #include <dalembert/bench/progress.h>
 
 #include <algorithm>
@@ -34,7 +32,7 @@ struct Comparison {
 };
 
 /// In turn, so that what disturbs the machine for a while hits both.
-Comparison compare(const Pair& pair, Stepper stepper, const LeaveOut& options) {
+Comparison compare(const Pair& pair, Stepper stepper, const LeaveOutOptions& options) {
   Options run{.t_end = pair.t_end, .tolerance = options.tolerance, .stepper = stepper};
   std::vector<double> times_full, times;
   Comparison c{.difference = 0.0};
@@ -58,7 +56,7 @@ Comparison compare(const Pair& pair, Stepper stepper, const LeaveOut& options) {
 
 }  // namespace
 
-int leave_out(const LeaveOut& options) {
+int leave_out(const LeaveOutOptions& options) {
   validate({.t_end = 1.0, .tolerance = options.tolerance});
   require_writable(options.report);
   const std::vector<Pair> pairs = leave_out_pairs(options.size);
@@ -75,7 +73,7 @@ int leave_out(const LeaveOut& options) {
         progress.next(what);
         const double allowed = 2.0 * allowed_of_one_run * options.tolerance * pair.length;
         Comparison c;
-        Outcome outcome = outcome_of(what, [&] { c = compare(pair, stepper, options); });
+        Outcome outcome = attempt(what, [&] { c = compare(pair, stepper, options); });
         if (outcome.ok() && !(c.difference <= allowed)) {
           outcome = {"another-motion", "the two statements give another motion"};
           tell(what, outcome);

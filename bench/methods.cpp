@@ -16,15 +16,15 @@ namespace {
 using models::RodAndBead;
 
 template <int D, class Equations>
-Method<D> by_hand(Equations equations) {
+auto by_hand(Equations equations) {
   return [equations = std::move(equations)](std::span<const double> times, double tolerance) {
     return integrate_by_hand<D>(equations, times, tolerance);
   };
 }
 
-Methods<2> with_peers(Method<2> hand, double gravity, const std::vector<RodAndBead>& rods) {
+Methods<2> with_peers(Methods<2>::mapped_type hand, double gravity, const std::vector<RodAndBead>& rods) {
   Methods<2> all = peers(gravity, rods);
-  all[Contender::hand] = std::move(hand);
+  all[Method::hand] = std::move(hand);
   return all;
 }
 
@@ -46,7 +46,7 @@ Methods<2> methods(const models::Chain& c) {
 }
 
 Methods<3> methods(const models::ConeSlide& cone) {
-  return {{Contender::hand, by_hand<3>(models::ConeEquations<double>(cone))}};
+  return {{Method::hand, by_hand<3>(models::ConeEquations<double>(cone))}};
 }
 
 Methods<2> methods(const models::Model<2>& model) {

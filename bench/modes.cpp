@@ -1,6 +1,5 @@
-#include "dalembert/bench/modes.h"
-
 #include <dalembert/bench/bicycle_in_time.h>
+#include <dalembert/bench/commands.h>
 #include <dalembert/bench/stability_limits.h>
 #include <dalembert/dalembert.h>
 #include <dalembert/models/hanging_rods.h>
@@ -97,7 +96,7 @@ void two_formulations(const std::vector<models::TwoFormulations>& systems,
 
 }  // namespace
 
-int modes(const ModesTable& options) {
+int modes(const ModesOptions& options) {
   require_writable(options.report);
   auto all = models::small_motions();
   long_chain(options.beads, all);

@@ -1,6 +1,5 @@
-#include "dalembert/bench/own_constraint.h"
-
-#include <dalembert/bench/outcome.h>
+#include <dalembert/bench/commands.h>
+#include <dalembert/bench/progress.h>
 #include <dalembert/dalembert.h>
 
 #include <algorithm>
@@ -84,7 +83,7 @@ OwnComparison compare(const Chain& distances, const Chain& lambdas, Stepper step
 
 }  // namespace
 
-void own_constraint(const OwnConstraint& options) {
+void own_constraint(const OwnConstraintOptions& options) {
   require_writable(options.report);
   Table table{.columns = {"stepper", "beads", "run_time_distance_s", "run_time_own_s", "ratio",
                           "difference_position", "outcome"},
@@ -94,8 +93,7 @@ void own_constraint(const OwnConstraint& options) {
   for (const Stepper stepper : options.steppers) {
     const std::string what = std::string("own-constraint, ") + name(stepper);
     OwnComparison c;
-    const Outcome outcome =
-        outcome_of(what, [&] { c = compare(distances, lambdas, stepper, options.repeats); });
+    const Outcome outcome = attempt(what, [&] { c = compare(distances, lambdas, stepper, options.repeats); });
     table.rows.push_back({name(stepper), std::to_string(options.beads), scientific(c.run_time_distance),
                           scientific(c.run_time_own), scientific(c.ratio, 3), scientific(c.difference),
                           outcome.name});

@@ -1,10 +1,7 @@
-#include "dalembert/bench/pages.h"
-
-#include <dalembert/bench/events.h>
-#include <dalembert/bench/outcome.h>
+#include <dalembert/bench/commands.h>
+#include <dalembert/bench/models.h>
 #include <dalembert/bench/progress.h>
 #include <dalembert/bench/table.h>
-#include <dalembert/bench/work_precision.h>
 #include <dalembert/models/lecture_scenes.h>
 #include <dalembert/view/write_html.h>
 
@@ -94,7 +91,7 @@ class Motion {
 };
 
 template <int D>
-void write_model(const models::Model<D>& model, const Pages& options) {
+void write_model(const models::Model<D>& model, const PagesOptions& options) {
   const models::Observed<D> observed = model.scene();
   const auto certificate = certify(observed.scene, {.t_end = model.t_end,
                                                     .samples = options.samples,
@@ -106,7 +103,7 @@ void write_model(const models::Model<D>& model, const Pages& options) {
 }
 
 /// A run whose events have times in closed form.
-void write_event_model(const models::EventModel& model, const Pages& options) {
+void write_event_model(const models::EventModel& model, const PagesOptions& options) {
   std::optional<TwoRuns> runs;
   (void)model.events({.stepper = options.stepper,
                       .tolerance = options.tolerance,
@@ -121,7 +118,7 @@ void write_event_model(const models::EventModel& model, const Pages& options) {
 }
 
 template <int D>
-void write_scene(const Scene<D>& scene, double t_end, const Pages& options) {
+void write_scene(const Scene<D>& scene, double t_end, const PagesOptions& options) {
   const auto certificate = certify(scene, {.t_end = t_end,
                                            .samples = options.samples,
                                            .tolerance = options.tolerance,
@@ -132,7 +129,7 @@ void write_scene(const Scene<D>& scene, double t_end, const Pages& options) {
 
 }  // namespace
 
-void pages(const Pages& options) {
+void pages(const PagesOptions& options) {
   const auto selected = select_models(options.models);
   Table list{.columns = {"model", "notes", "reference", "t_end", "stepper", "tolerance", "outcome"},
              .rows = {}};
@@ -143,7 +140,7 @@ void pages(const Pages& options) {
     std::visit(
         [&](const auto& model) {
           progress.next(model.name);
-          const Outcome outcome = outcome_of(model.name, [&] { write_model(model, options); });
+          const Outcome outcome = attempt(model.name, [&] { write_model(model, options); });
           list.rows.push_back({model.name, model.notes, model.reference, shortest(model.t_end),
                                name(options.stepper), shortest_power(options.tolerance), outcome.name});
         },
@@ -152,12 +149,10 @@ void pages(const Pages& options) {
   write_table(path, list);
   if (std::ranges::find(options.models, "all") == options.models.end()) return;
   for (const models::EventModel& model : models_of_events())
-    (void)outcome_of(model.name, [&] { write_event_model(model, options); });
+    attempt(model.name, [&] { write_event_model(model, options); });
   for (const auto& [scene, t_end] : models::lecture_scenes())
     std::visit(
-        [&, end = t_end](const auto& own) {
-          (void)outcome_of(own.name(), [&] { write_scene(own, end, options); });
-        },
+        [&, end = t_end](const auto& own) { attempt(own.name(), [&] { write_scene(own, end, options); }); },
         scene);
 }
 

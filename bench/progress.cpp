@@ -21,4 +21,17 @@ void Progress::next(const std::string& what) {
   if (terminal_) std::cerr << clear_line << '[' << done_ << '/' << count_ << "] " << what << std::flush;
 }
 
+Outcome attempt(const std::string& what, const std::function<void()>& run) try {
+  run();
+  return {};
+} catch (const Error& error) {
+  const Outcome refused = outcome_of(error);
+  tell(what, refused);
+  return refused;
+}
+
+void tell(const std::string& what, const Outcome& outcome) {
+  std::cerr << what << ": " << outcome.message << '\n';
+}
+
 }  // namespace dalembert::bench

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <dalembert/tests/outcome.h>
+
+#include <functional>
 #include <string>
 
 namespace dalembert::bench {
@@ -19,5 +22,10 @@ class Progress {
   std::size_t count_, done_ = 0;
   bool terminal_;
 };
+
+/// Runs it. Why `what` was refused is told at the terminal: a row of its table like any other, no failure of
+/// the benchmark.
+Outcome attempt(const std::string& what, const std::function<void()>& run);
+void tell(const std::string& what, const Outcome& outcome);
 
 }  // namespace dalembert::bench

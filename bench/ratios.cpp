@@ -1,5 +1,4 @@
-#include "dalembert/bench/ratios.h"
-
+#include <dalembert/bench/commands.h>
 #include <dalembert/bench/methods.h>
 #include <dalembert/bench/progress.h>
 #include <dalembert/bench/work_precision_curve.h>
@@ -14,61 +13,61 @@ namespace dalembert::bench {
 
 namespace {
 
-using AnyContest = std::variant<Contest<2>, Contest<3>>;
+using AnyBenchmark = std::variant<Benchmark<2>, Benchmark<3>>;
 
-Contest<2> chain(int beads, double t_end) {
+Benchmark<2> chain(int beads, double t_end) {
   const models::Chain system{.beads = beads};
-  Contest<2> contest{system.model(), methods(system)};
-  contest.model.name = "chain-" + std::to_string(beads);
-  contest.model.t_end = t_end;
+  Benchmark<2> benchmark{system.model(), methods(system)};
+  benchmark.model.name = "chain-" + std::to_string(beads);
+  benchmark.model.t_end = t_end;
   // To round-off this would take minutes; so it is a hundredth of the least error asked for.
-  contest.model.observations = [system](std::span<const double> times) {
+  benchmark.model.observations = [system](std::span<const double> times) {
     return system.reference(times, models::Real(1e-12));
   };
-  return contest;
+  return benchmark;
 }
 
 /// A peer would take many minutes.
-Contest<2> without_peers(Contest<2> contest) {
-  std::erase_if(contest.methods, [](const auto& method) { return method.first != Contender::hand; });
-  return contest;
+Benchmark<2> without_peers(Benchmark<2> benchmark) {
+  std::erase_if(benchmark.methods, [](const auto& method) { return method.first != Method::hand; });
+  return benchmark;
 }
 
 template <class System>
-AnyContest of(const System& system) {
-  return Contest{system.model(), methods(system)};
+AnyBenchmark of(const System& system) {
+  return Benchmark{system.model(), methods(system)};
 }
 
-std::vector<std::pair<std::string, std::function<AnyContest()>>> scenes() {
+std::vector<std::pair<std::string, std::function<AnyBenchmark()>>> scenes() {
   return {{"plane-pendulum", [] { return of(models::PlanePendulum{}); }},
           {"cone", [] { return of(models::ConeSlide{}); }},
           {"double-pendulum", [] { return of(models::DoublePendulum{}); }},
-          {"chain-10", [] { return AnyContest(chain(10, 1.0)); }},
-          {"chain-100", [] { return AnyContest(chain(100, 1.0)); }},
-          {"chain-1000", [] { return AnyContest(without_peers(chain(1000, 0.3))); }}};
+          {"chain-10", [] { return AnyBenchmark(chain(10, 1.0)); }},
+          {"chain-100", [] { return AnyBenchmark(chain(100, 1.0)); }},
+          {"chain-1000", [] { return AnyBenchmark(without_peers(chain(1000, 0.3))); }}};
 }
 
 template <int D>
-double run_time(const std::vector<WorkPrecisionCurve<D>>& curves, Contender contender, double error) {
+double run_time(const std::vector<WorkPrecisionCurve<D>>& curves, Method method, double error) {
   for (const WorkPrecisionCurve<D>& curve : curves) {
-    if (curve.contender() == contender) return curve.crossing(error).run_time;
+    if (curve.method() == method) return curve.crossing(error).run_time;
   }
   return std::numeric_limits<double>::quiet_NaN();
 }
 
 template <int D>
-std::vector<WorkPrecisionCurve<D>> reaching(const Contest<D>& contest,
+std::vector<WorkPrecisionCurve<D>> reaching(const Benchmark<D>& benchmark,
                                             std::span<const models::Observation<D>> reference,
-                                            const Ratios& options, Progress& progress) {
+                                            const RatiosOptions& options, Progress& progress) {
   std::vector<WorkPrecisionCurve<D>> curves;
-  for (const Contender contender : options.steppers) {
-    if (contest.admits(contender)) curves.emplace_back(contest, contender, reference, options.limit);
+  for (const Method method : options.steppers) {
+    if (benchmark.has(method)) curves.emplace_back(benchmark, method, reference, options.limit);
   }
   for (WorkPrecisionCurve<D>& curve : curves) {
-    progress.next(contest.model.name + ", " + name(curve.contender()));
+    progress.next(benchmark.model.name + ", " + name(curve.method()));
     for (const double error : options.errors) curve.reach(error);
   }
-  progress.next(contest.model.name + ", all in turn");
+  progress.next(benchmark.model.name + ", all in turn");
   for (int i = 0; i < options.repeats; ++i) {
     for (WorkPrecisionCurve<D>& curve : curves) curve.repeat();
   }
@@ -82,17 +81,17 @@ std::string outcome(const auto& crossing, double error) {
 }
 
 template <int D>
-void race(const Contest<D>& contest, const Ratios& options, Progress& progress, Table& table) {
+void race(const Benchmark<D>& benchmark, const RatiosOptions& options, Progress& progress, Table& table) {
   const auto reference =
-      contest.model.observations(sample_times({.t_end = contest.model.t_end, .samples = 2}));
-  const auto curves = reaching<D>(contest, reference, options, progress);
+      benchmark.model.observations(sample_times({.t_end = benchmark.model.t_end, .samples = 2}));
+  const auto curves = reaching<D>(benchmark, reference, options, progress);
   for (const double error : options.errors) {
     for (const WorkPrecisionCurve<D>& curve : curves) {
       const auto at = curve.crossing(error);
-      table.rows.push_back({contest.model.name, shortest_power(error), name(curve.contender()),
+      table.rows.push_back({benchmark.model.name, shortest_power(error), name(curve.method()),
                             scientific(at.tolerance, 2), scientific(at.error, 2), scientific(at.run_time),
-                            scientific(at.run_time / run_time(curves, Contender::hand, error), 3),
-                            scientific(at.run_time / run_time(curves, Contender::simbody_rod, error), 3),
+                            scientific(at.run_time / run_time(curves, Method::hand, error), 3),
+                            scientific(at.run_time / run_time(curves, Method::simbody_rod, error), 3),
                             outcome(at, error)});
     }
   }
@@ -115,7 +114,7 @@ std::string known_scenes() {
   return names;
 }
 
-void ratios(const Ratios& options) {
+void ratios(const RatiosOptions& options) {
   require_known(options.scenes);
   require_writable(options.report);
   const auto chosen = [&](const std::string& name) {
@@ -129,7 +128,7 @@ void ratios(const Ratios& options) {
     Progress progress(scenes().size() * (options.steppers.size() + 1));
     for (const auto& [name, make] : scenes()) {
       if (!chosen(name)) continue;
-      std::visit([&](const auto& contest) { race(contest, options, progress, table); }, make());
+      std::visit([&](const auto& benchmark) { race(benchmark, options, progress, table); }, make());
     }
   }
   report("Time to reach an error of position at the end of a run, medians of " +

@@ -1,8 +1,6 @@
-#include "dalembert/bench/requests.h"
-
+#include <dalembert/bench/commands.h>
 #include <dalembert/bench/median.h>
-#include <dalembert/bench/outcome.h>
-#include <dalembert/bench/work_precision.h>
+#include <dalembert/bench/models.h>
 #include <dalembert/models/error.h>
 
 #include <algorithm>
@@ -73,7 +71,7 @@ struct Counts {
 };
 
 template <int D>
-void add_model(const models::Model<D>& model, const RequestsTable& options, Table& table, Counts& counts) {
+void add_model(const models::Model<D>& model, const RequestsOptions& options, Table& table, Counts& counts) {
   const auto reference = model.observations(sample_times({.t_end = model.t_end}));
   const auto runs = single_runs<D>(model, reference, options.repeats);
   const models::Observed<D> observed = model.scene();
@@ -104,7 +102,7 @@ void add_model(const models::Model<D>& model, const RequestsTable& options, Tabl
 
 }  // namespace
 
-int requests(const RequestsTable& options) {
+int requests(const RequestsOptions& options) {
   const auto selected = select_models(options.models);
   require_writable(options.report);
   Table table{.columns = {"model", "request", "stepper", "tolerance", "runs", "met", "true_error",

@@ -1,7 +1,5 @@
-#include "dalembert/bench/scaling.h"
-
+#include <dalembert/bench/commands.h>
 #include <dalembert/bench/methods.h>
-#include <dalembert/bench/outcome.h>
 #include <dalembert/bench/progress.h>
 #include <dalembert/models/error.h>
 
@@ -28,12 +26,12 @@ struct Scaled {
   Statistics statistics;
   double error = nan;
   double memory = nan;
-  Outcome outcome = {};
 };
 
 /// Error of the last positions. The reference needs to be good beside the run, not to round-off:
 /// its steps are 1000 times as accurate as those of the run.
-double last_error(const models::Chain& chain, const Scaling& options, const models::Observation<2>& last) {
+double last_error(const models::Chain& chain, const ScalingOptions& options,
+                  const models::Observation<2>& last) {
   if (chain.beads > largest_compared) return nan;
   const models::Real tolerance = std::max(1e-3L * options.tolerance, models::reference_tolerance);
   const auto reference = chain.reference(std::array{options.t_end}, tolerance);
@@ -48,26 +46,27 @@ models::Observation<2> run_library(const models::Chain& chain, const Options& op
   return observed.observe(trajectory.sample(trajectory.size() - 1));
 }
 
-models::Observation<2> run_rival(const models::Chain& chain, Contender contender, const Options& options,
+models::Observation<2> run_other(const models::Chain& chain, Method method, const Options& options,
                                  Scaled& scaled) {
-  MethodRun<2> gave = bench::run(methods(chain), contender, options);
+  MethodRun<2> gave = bench::run(methods(chain), method, options);
   scaled.statistics = gave.statistics;
   scaled.memory = peak_memory_mib();
   return std::move(gave.seen.back());
 }
 
-Scaled run(const models::Chain& chain, Contender contender, const Scaling& options) {
+Scaled run(const models::Chain& chain, Method method, const ScalingOptions& options) {
   Scaled scaled;
   Options run{.t_end = options.t_end, .samples = 2, .tolerance = options.tolerance};
-  const std::optional<Stepper> own = stepper(contender);
+  const std::optional<Stepper> own = stepper(method);
   if (own) run.stepper = *own;
   const models::Observation<2> last =
-      own ? run_library(chain, run, scaled) : run_rival(chain, contender, run, scaled);
+      own ? run_library(chain, run, scaled) : run_other(chain, method, run, scaled);
   scaled.error = last_error(chain, options, last);
   return scaled;
 }
 
-std::vector<std::string> row(const Scaling& options, Contender stepper, int size, const Scaled& scaled) {
+std::vector<std::string> row(const ScalingOptions& options, Method stepper, int size, const Scaled& scaled,
+                             const Outcome& outcome) {
   const Statistics& s = scaled.statistics;
   return {options.model,
           name(stepper),
@@ -79,12 +78,12 @@ std::vector<std::string> row(const Scaling& options, Contender stepper, int size
           scientific(scaled.error),
           scientific(s.run_time),
           scientific(scaled.memory),
-          scaled.outcome.name};
+          outcome.name};
 }
 
 }  // namespace
 
-void scaling(const Scaling& options) {
+void scaling(const ScalingOptions& options) {
   validate({.t_end = options.t_end, .tolerance = options.tolerance});
   if (options.model != "chain")
     throw Error("no model \"" + options.model + "\" of any size; there is: chain");
@@ -97,15 +96,14 @@ void scaling(const Scaling& options) {
               .rows = {}};
   {
     Progress progress(sizes.size() * options.steppers.size());
-    for (const Contender stepper : options.steppers) {
+    for (const Method stepper : options.steppers) {
       for (const int size : sizes) {
         const std::string what = options.model + ", " + name(stepper) + ", size " + std::to_string(size);
         progress.next(what);
         Scaled scaled;
         const Outcome outcome =
-            outcome_of(what, [&] { scaled = run(models::Chain{.beads = size}, stepper, options); });
-        scaled.outcome = outcome;
-        table.rows.push_back(row(options, stepper, size, scaled));
+            attempt(what, [&] { scaled = run(models::Chain{.beads = size}, stepper, options); });
+        table.rows.push_back(row(options, stepper, size, scaled, outcome));
       }
     }
   }

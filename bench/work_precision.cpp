@@ -1,105 +1,90 @@
-#include "dalembert/bench/work_precision.h"
-
-#include <dalembert/bench/contest.h>
+#include <dalembert/bench/benchmark.h>
+#include <dalembert/bench/commands.h>
 #include <dalembert/bench/methods.h>
+#include <dalembert/bench/models.h>
 #include <dalembert/bench/progress.h>
-#include <dalembert/models/catalogue.h>
-
-#include <algorithm>
 
 namespace dalembert::bench {
 
 namespace {
 
 using models::AnyModel;
-using models::Measurement;
 using models::Model;
 
-const std::string& name_of(const AnyModel& model) {
-  return std::visit([](const auto& m) -> const std::string& { return m.name; }, model);
-}
-
-std::vector<std::string> row(const std::string& model, Contender stepper, double tolerance,
-                             const Entry& entry) {
-  const Measurement& m = entry.measured;
-  const Statistics& s = m.statistics;
+std::vector<std::string> row(const std::string& model, Method stepper, double tolerance,
+                             const Result& result) {
+  const Statistics& s = result.statistics;
   return {model,
           name(stepper),
           shortest_power(tolerance),
           std::to_string(s.steps),
           std::to_string(s.evaluations),
           std::to_string(s.factorisations),
-          scientific(m.error_position),
-          scientific(m.error_force),
+          scientific(result.error_position),
+          scientific(result.error_force),
           scientific(s.residual_position),
           scientific(s.residual_velocity),
-          scientific(m.energy_drift),
+          scientific(result.energy_drift),
           scientific(s.run_time),
-          entry.outcome.name};
+          result.outcome.name};
 }
 
 /// The curves of one model, added to the table; the reference is computed once.
 class Curves {
  public:
-  Curves(const WorkPrecision& options, Table& table, Progress& progress)
+  Curves(const WorkPrecisionOptions& options, Table& table, Progress& progress)
       : options_(options), table_(table), progress_(progress) {}
 
   template <int D>
   void operator()(const Model<D>& model) {
-    const Contest<D> contest{model, methods(model)};
+    const Benchmark<D> benchmark{model, methods(model)};
     const Options run{.t_end = model.t_end, .samples = options_.samples};
     const auto reference = model.observations(sample_times(run));
-    for (const Contender stepper : options_.steppers) {
-      if (contest.admits(stepper)) add<D>(contest, stepper, run, reference);
+    for (const Method stepper : options_.steppers) {
+      if (benchmark.has(stepper)) add<D>(benchmark, stepper, run, reference);
     }
   }
 
  private:
   template <int D>
-  void add(const Contest<D>& contest, Contender stepper, Options run,
+  void add(const Benchmark<D>& benchmark, Method stepper, Options run,
            std::span<const models::Observation<D>> reference) {
-    const std::string& model = contest.model.name;
-    std::vector<Entry> entries;
+    const std::string& model = benchmark.model.name;
+    std::vector<Result> results;
     int round = 0;
     const auto points =
         detail::work_precision_curve(options_.tolerances, options_.repeats, [&](double tolerance) {
           if (tolerance == options_.tolerances.front())
             progress_.next(model + ", " + name(stepper) + ", run " + std::to_string(++round));
           run.tolerance = tolerance;
-          entries.push_back(contest.measure(stepper, run, reference));
-          const models::Measurement& m = entries.back().measured;
-          return WorkPrecisionPoint{name(stepper),
-                                    tolerance,
-                                    m.error_position,
-                                    m.error_force,
-                                    {},
-                                    m.statistics,
-                                    entries.back().outcome.said};
+          const Result& r = results.emplace_back(benchmark.measure(stepper, run, reference));
+          return WorkPrecisionPoint{name(stepper), tolerance,        r.error_position, r.error_force, {},
+                                    r.statistics,  r.outcome.message};
         });
-    for (std::size_t k = 0; k < points.size(); ++k) add_row(model, stepper, points[k], entries[k]);
+    for (std::size_t k = 0; k < points.size(); ++k) add_row(model, stepper, points[k], results[k]);
   }
-  void add_row(const std::string& model, Contender stepper, const WorkPrecisionPoint& point, Entry entry) {
-    if (entry.outcome.ok()) {
-      entry.measured.statistics.run_time = point.statistics.run_time;
+  void add_row(const std::string& model, Method stepper, const WorkPrecisionPoint& point, Result result) {
+    if (result.outcome.ok()) {
+      result.statistics.run_time = point.statistics.run_time;
     } else {
-      tell(model + ", " + name(stepper) + " at tolerance " + shortest_power(point.tolerance), entry.outcome);
+      tell(model + ", " + name(stepper) + " at tolerance " + shortest_power(point.tolerance), result.outcome);
     }
-    table_.rows.push_back(row(model, stepper, point.tolerance, entry));
+    table_.rows.push_back(row(model, stepper, point.tolerance, result));
   }
 
-  const WorkPrecision& options_;
+  const WorkPrecisionOptions& options_;
   Table& table_;
   Progress& progress_;
 };
 
 /// How many curves there will be.
-std::size_t number_of_curves(const std::vector<AnyModel>& models, const WorkPrecision& options) {
+std::size_t number_of_curves(const std::vector<AnyModel>& models, const WorkPrecisionOptions& options) {
   std::size_t count = 0;
-  for (const Contender stepper : options.steppers) {
+  for (const Method stepper : options.steppers) {
     for (const AnyModel& any : models)
       count += std::visit(
           [&](const auto& m) {
-            return Contest{m, methods(m)}.admits(stepper) ? 1U : 0U;
+            return Benchmark{m, methods(m)}.has(stepper) ? 1U : 0U;
           },
           any);
   }
@@ -108,22 +93,7 @@ std::size_t number_of_curves(const std::vector<AnyModel>& models, const WorkPrec
 
 }  // namespace
 
-std::vector<AnyModel> select_models(const std::vector<std::string>& names) {
-  std::vector<AnyModel> all = models::catalogue();
-  if (std::find(names.begin(), names.end(), "all") != names.end()) return all;
-  for (const std::string& name : names) {
-    if (std::any_of(all.begin(), all.end(), [&](const AnyModel& m) { return name_of(m) == name; })) continue;
-    std::string known;
-    for (const AnyModel& m : all) known += ' ' + name_of(m);
-    throw Error("no model \"" + name + "\"; there are: all" + known);
-  }
-  std::erase_if(all, [&](const AnyModel& m) {
-    return std::find(names.begin(), names.end(), name_of(m)) == names.end();
-  });
-  return all;
-}
-
-void work_precision(const WorkPrecision& options) {
+void work_precision(const WorkPrecisionOptions& options) {
   const std::vector<AnyModel> selected = select_models(options.models);
   for (const double tolerance : options.tolerances) validate({.t_end = 1.0, .tolerance = tolerance});
   (void)sample_times({.t_end = 1.0, .samples = options.samples});

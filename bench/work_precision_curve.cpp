@@ -20,11 +20,11 @@ long runs_per_round(double run_time) { return std::lround(std::clamp(5e-3 / run_
 
 template <int D>
 typename WorkPrecisionCurve<D>::Tried WorkPrecisionCurve<D>::run(double tolerance) const {
-  const Options options{.t_end = contest_->model.t_end, .samples = 2, .tolerance = tolerance};
-  const Entry entry = contest_->measure(contender_, options, reference_);
-  if (!entry.outcome.ok() || std::isnan(entry.measured.error_position))
+  const Options options{.t_end = benchmark_->model.t_end, .samples = 2, .tolerance = tolerance};
+  const Result result = benchmark_->measure(method_, options, reference_);
+  if (!result.outcome.ok() || std::isnan(result.error_position))
     return {tolerance, std::numeric_limits<double>::infinity(), {}};
-  return {tolerance, entry.measured.error_position, {entry.measured.statistics.run_time}};
+  return {tolerance, result.error_position, {result.statistics.run_time}};
 }
 
 template <int D>

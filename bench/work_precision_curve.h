@@ -1,13 +1,13 @@
 #pragma once
 
-#include <dalembert/bench/contest.h>
+#include <dalembert/bench/benchmark.h>
 
 #include <set>
 #include <vector>
 
 namespace dalembert::bench {
 
-/// The runs of one contender at falling tolerances, half a decade apart, compared at the end of the run.
+/// The runs of one method at falling tolerances, half a decade apart, compared at the end of the run.
 template <int D>
 class WorkPrecisionCurve {
  public:
@@ -20,16 +20,16 @@ class WorkPrecisionCurve {
 
   /// `reference`: the observations of the model at the two ends of the run. No run is added after a run
   /// longer than `limit` [s], and none as long is repeated.
-  WorkPrecisionCurve(const Contest<D>& contest, Contender contender,
+  WorkPrecisionCurve(const Benchmark<D>& benchmark, Method method,
                      std::span<const models::Observation<D>> reference, double limit)
-      : contest_(&contest), contender_(contender), reference_(reference), limit_(limit) {}
+      : benchmark_(&benchmark), method_(method), reference_(reference), limit_(limit) {}
 
   /// Adds runs until two in turn meet the error: one may do so by a lucky sign.
   void reach(double error);
   /// Runs the runs about each error reached once more, short ones several times.
   void repeat();
   [[nodiscard]] Crossing crossing(double error) const;
-  [[nodiscard]] Contender contender() const { return contender_; }
+  [[nodiscard]] Method method() const { return method_; }
 
  private:
   struct Tried {
@@ -43,8 +43,8 @@ class WorkPrecisionCurve {
   /// The run to which this error is ascribed.
   [[nodiscard]] std::size_t first_below(double error) const;
 
-  const Contest<D>* contest_;
-  Contender contender_;
+  const Benchmark<D>* benchmark_;
+  Method method_;
   std::span<const models::Observation<D>> reference_;
   double limit_;
   std::vector<Tried> runs_;

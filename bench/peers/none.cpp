@@ -2,7 +2,7 @@
 
 namespace dalembert::bench {
 
-std::vector<Contender> peers() { return {}; }
+std::vector<Method> peers() { return {}; }
 Methods<2> peers(double, const std::vector<models::RodAndBead>&) { return {}; }
 
 }  // namespace dalembert::bench

@@ -8,7 +8,7 @@
 namespace dalembert::bench {
 
 /// The peers that were found when this was built.
-[[nodiscard]] std::vector<Contender> peers();
+[[nodiscard]] std::vector<Method> peers();
 
 /// Rods hung one below the other, in plane gravity along -y, as each peer integrates them.
 [[nodiscard]] Methods<2> peers(double gravity, const std::vector<models::RodAndBead>& rods);

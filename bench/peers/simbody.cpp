@@ -24,7 +24,7 @@ MethodRun<2> converted(const simbody::Run& run) {
 
 }  // namespace
 
-std::vector<Contender> peers() { return {Contender::simbody_pin, Contender::simbody_rod}; }
+std::vector<Method> peers() { return {Method::simbody_pin, Method::simbody_rod}; }
 
 Methods<2> peers(double gravity, const std::vector<models::RodAndBead>& given) {
   std::vector<simbody::Rod> rods;
@@ -34,8 +34,8 @@ Methods<2> peers(double gravity, const std::vector<models::RodAndBead>& given) {
       return converted(simbody::run(rods, gravity, coordinates, {times.begin(), times.end()}, tolerance));
     };
   };
-  return {{Contender::simbody_pin, method(simbody::Coordinates::minimal)},
-          {Contender::simbody_rod, method(simbody::Coordinates::cartesian)}};
+  return {{Method::simbody_pin, method(simbody::Coordinates::minimal)},
+          {Method::simbody_rod, method(simbody::Coordinates::cartesian)}};
 }
 
 }  // namespace dalembert::bench

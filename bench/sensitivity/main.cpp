@@ -29,10 +29,10 @@ constexpr std::chrono::milliseconds longest_run{20};
 
 Seen look(const SensitivityRun& run) {
   const auto begin = std::chrono::steady_clock::now();
-  const extremes::Verdict verdict = run.run();
-  const Statistics& s = verdict.result.statistics;
-  const double error = verdict.result.error == 0.0 ? 0.0 : verdict.result.error / verdict.limit;
-  return {error, static_cast<double>(s.evaluations + s.factorisations), verdict.right, s.steps,
+  const extremes::Run gave = run.run();
+  const Statistics& s = gave.statistics;
+  const double error = gave.error == 0.0 ? 0.0 : gave.error / gave.limit;
+  return {error, static_cast<double>(s.evaluations + s.factorisations), gave.right(), s.steps,
           std::chrono::steady_clock::now() - begin};
 }
 

@@ -28,23 +28,23 @@ Case as_case(const models::Model<D>& model) {
               [model, reference](double tolerance, Stepper stepper) {
                 const models::Measurement m = models::measure<D>(
                     model, {.t_end = model.t_end, .tolerance = tolerance, .stepper = stepper}, *reference);
-                return extremes::Result{.error = std::max(m.error_position, m.error_force),
-                                        .statistics = m.statistics};
+                return Run{.error = std::max(m.error_position, m.error_force), .statistics = m.statistics};
               },
           .limit = [](const Run& run) { return 1000.0 * run.parameter; }};
 }
 
 /// The worst row of a system's equilibria and small motions, of its limit.
-extremes::Verdict judge(const models::SmallMotions& system) {
-  extremes::Verdict verdict{{.error = 0.0}, 1.0, true};
+Run judge(const models::SmallMotions& system) {
+  double worst = 0.0;
+  Run run;
   try {
-    for (const models::Compared& row : system.rows())
-      verdict.result.error = std::max(verdict.result.error, row.error() / row.limit);
+    for (const models::Compared& row : system.rows()) worst = std::max(worst, row.error() / row.limit);
+    run.error = worst;
   } catch (const Error& error) {
-    verdict.result = {.outcome = "refused", .said = error.what()};
+    run = extremes::ended_by(error);
   }
-  verdict.right = verdict.result.error <= verdict.limit;
-  return verdict;
+  run.limit = 1.0;
+  return run;
 }
 
 }  // namespace
@@ -53,8 +53,7 @@ std::vector<SensitivityRun> sensitivity_runs() {
   std::vector<Case> cases;
   for (const models::AnyModel& any : models::catalogue())
     std::visit([&cases](const auto& model) { cases.push_back(as_case(model)); }, any);
-  for (const extremes::Group& group : extremes::groups())
-    std::ranges::copy(group.cases, std::back_inserter(cases));
+  std::ranges::move(extremes::all_cases(), std::back_inserter(cases));
 
   std::vector<SensitivityRun> runs;
   for (const Case& c : cases) {

@@ -11,7 +11,7 @@ namespace dalembert::bench {
 /// One scene with one stepper.
 struct SensitivityRun {
   std::string name;
-  std::function<extremes::Verdict()> run;
+  std::function<extremes::Run()> run;
 };
 
 /// All models at two tolerances, their errors measured by 1000 times the tolerance, and the short part of all

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double round_off = 16.0 * std::numeric_limits<double>::epsilon();
 
-TEST(Coincident, ResidualsGradientAndBiasByHand) {
+TEST(Coincident, ResidualsGradientAndBiasAreThoseByHand) {
   Scene<2> scene;
   const auto a = scene.add_particle({.mass = 1.0});
   const auto b = scene.add_particle({.mass = 1.0});

@@ -89,7 +89,7 @@ TEST(Compliant, AForceThatPositionsDoNotTellCannotBeRead) {
   }
 }
 
-TEST(Compliant, WithoutComplianceItIsTheRigidConstraint) {
+TEST(Compliant, ZeroComplianceIsTheRigidConstraint) {
   SpringPendulum s(std::numeric_limits<double>::infinity(), {1.0, 0.0});
   Scene<2> plain;
   plain.add(UniformGravity<2>{{0.0, -g}});

@@ -17,7 +17,7 @@ constexpr double round_off = 16.0 * std::numeric_limits<double>::epsilon();
 
 // a = (1, 1), b = (4, 5): |b - a| = 5, g = 5 - 3, e = (3, 4)/5. With v_b - v_a = (1, 2):
 // psi = (3 + 8)/5, gamma = (|v|^2 - psi^2)/5 = (5 - 4.84)/5.
-TEST(Distance, ResidualsGradientAndBiasByHand) {
+TEST(Distance, ResidualsGradientAndBiasAreThoseByHand) {
   Scene<2> scene;
   const auto a = scene.add_particle({.mass = 1.0});
   const auto b = scene.add_particle({.mass = 1.0});

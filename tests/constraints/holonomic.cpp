@@ -17,7 +17,7 @@ using testing::ThrowsMessage;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 // g = x y - t at (2, 3), t = 1, v = (4, 5): g = 5, psi = 3*4 + 2*5 - 1, gamma = 2*4*5, W = (3, 2).
-TEST(Holonomic, ResidualsGradientAndBiasByHand) {
+TEST(Holonomic, ResidualsGradientAndBiasAreThoseByHand) {
   Scene<2> scene;
   const auto p = scene.add_particle({.mass = 1.0});
   scene.add(holonomic(points(p), [](auto t, auto r) { return r.x() * r.y() - t; }));
@@ -107,7 +107,7 @@ TEST(Holonomic, ReversingTheOrderOfPointsChangesNoForce) {
 }
 
 // Two equations in one: a particle held at (1, 2) in the plane.
-TEST(Holonomic, OfSeveralEquationsHasAMultiplierForEach) {
+TEST(Holonomic, HasAMultiplierForEachOfItsEquations) {
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -10.0}});
   const auto p = scene.add_particle({.mass = 2.0, .position = {1.0, 2.0}});

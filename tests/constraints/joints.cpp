@@ -62,7 +62,7 @@ TEST(Revolute, HasMultipliersThatAreForceAndTorque) {
 }
 
 // Two hinges hold a door twice: their forces across add to what is needed, one of them alone is not unique.
-TEST(Revolute, ThatIsStatedTwiceIsToldFromOneThatIsNot) {
+TEST(Revolute, TwoOnOneAxisShareAForceThatIsNotUnique) {
   Scene<3> scene;
   const auto door = add_door(scene, {0, 0, 3});
   const auto upper = add_joint(scene, Revolute{Ground<3>{}, door, {0, 0, 1.8}, {0, 0, 1}}, "upper");
@@ -76,7 +76,7 @@ TEST(Revolute, ThatIsStatedTwiceIsToldFromOneThatIsNot) {
 
 // The plane: a rod of length 2 and mass 3 from its end, moment of inertia 4; V = 5 phi^2/2 and a damper 0.5
 // make 4 phi'' + 0.5 phi' + 5 phi = 0.
-TEST(TorsionSpring, WithADamperSwingsAsADampedOscillator) {
+TEST(TorsionSpring, SwingsWithADamperAsADampedOscillator) {
   Scene<2> scene;
   const double rest = -0.6, decay = 0.5 / 8.0, w = std::sqrt(5.0 / 4.0 - decay * decay);
   const auto rod = add_body<2>(scene, {.mass = 3.0, .inertia = 1.0, .centre = {1.0, 0.0}}, "rod");

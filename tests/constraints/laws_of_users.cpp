@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 
 /// A bead on y = x^2, as a user states it.
-TEST(BrokenLaws, NoneOfASmoothEquation) {
+TEST(BrokenLaws, SmoothEquationBreaksNone) {
   Scene<2> scene;
   const auto bead = scene.add_particle({.mass = 1.0, .position = {0.5, 0.25}});
   scene.add(holonomic(points(bead), [](const auto& r) { return r.y() - r.x() * r.x(); }));
@@ -30,7 +30,7 @@ TEST(BrokenLaws, AKinkIsNamed) {
 }
 
 /// An equation that counts its calls.
-TEST(BrokenLaws, AMemoryIsFound) {
+TEST(BrokenLaws, EquationWithAMemoryIsFound) {
   Scene<2> scene;
   const auto bead = scene.add_particle({.mass = 1.0, .position = {0.5, 1.0}});
   scene.add(holonomic(points(bead),

@@ -114,7 +114,7 @@ TEST(MotionOfAThinRod, IsWhatWasStated) {
 
 // Let go with the centre level with a hinge at distance d: alpha = -m g d/(I + m d^2), of a rod -3 g/(2 l).
 // Round-off is that of numbers of size 10.
-TEST(AngularAcceleration, OfWhatBeginsToFallIsTheMomentOfItsWeightOverItsInertia) {
+TEST(AngularAcceleration, BeginsAsTheMomentOfTheWeightOverTheInertia) {
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -9.81}});
   const auto body = add_body<2>(scene, {.mass = 3.0, .inertia = 0.7, .centre = {0.4, 0.0}}, "body");
@@ -126,7 +126,7 @@ TEST(AngularAcceleration, OfWhatBeginsToFallIsTheMomentOfItsWeightOverItsInertia
               10 * round_off);
   EXPECT_NEAR(angular_acceleration(at.sample(), rod), -1.5 * 9.81 / 2.0, 10 * round_off);
 }
-TEST(AngularAcceleration, OfARodInSpaceIsAcrossIt) {
+TEST(AngularAcceleration, IsPerpendicularToARodInSpace) {
   Scene<3> scene;
   scene.add(UniformGravity<3>{{0.0, 0.0, -9.81}});
   const auto rod = add_thin_rod<3>(scene, {.mass = 6.0, .start = {0, 0, 0}, .end = {0, 2, 0}}, "rod");
@@ -136,7 +136,7 @@ TEST(AngularAcceleration, OfARodInSpaceIsAcrossIt) {
   EXPECT_LT((alpha - Vec<3>(-1.5 * 9.81 / 2.0, 0.0, 0.0)).norm(), 10 * round_off);
 }
 
-TEST(Motion, OfABodyOfAnotherSceneCannotBeRead) {
+TEST(Motion, RefusesABodyOfAnotherScene) {
   Scene<3> mine, other;
   const BodyState<3> s{.mass = 2.0, .inertia = {0.5, 0.6, 0.7}};
   add_body(other, s, "first");

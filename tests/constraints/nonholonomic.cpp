@@ -18,7 +18,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 // a = v_y - x v_x + t at r = (2, 3), v = (4, 5), t = 1: a = 5 - 8 + 1, W = (-2, 1),
 // gamma = a_x v_x + a_t = -16 + 1.
-TEST(Nonholonomic, ResidualGradientAndBiasByHand) {
+TEST(Nonholonomic, ResidualGradientAndBiasAreThoseByHand) {
   Scene<2> scene;
   const auto p = scene.add_particle({.mass = 1.0});
   scene.add(nonholonomic(points(p), [](auto t, auto r, auto v) { return v.y() - r.x() * v.x() + t; }));

@@ -35,7 +35,7 @@ TEST(OnCurve, SpeedLightensABeadOnTopOfACircle) {
 }
 
 // y = x^2 through its vertex with speed v: curvature 2, so N = m (g + 2 v^2) = 1 (10 + 8); |grad g| = 1.
-TEST(OnCurve, ForceAtTheVertexOfAParabola) {
+TEST(OnCurve, ParabolaCarriesWeightAndCentripetalForceAtItsVertex) {
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -10.0}});
   const auto bead = scene.add_particle({.mass = 1.0, .velocity = {2.0, 0.0}});

@@ -35,7 +35,7 @@ TEST(ThinRod, HasItsEndsItsMassAndTheEnergyOfAUniformRod) {
 
 // Released from horizontal, pinned at one end: alpha = m g (l/2)/(m l^2/3) = 3 g/(2 l), so the centre falls
 // with 3/4 g and the pin carries a quarter of the weight.
-TEST(ThinRod, ReleasedFromHorizontalItsPinCarriesAQuarterOfItsWeight) {
+TEST(ThinRod, PinCarriesAQuarterOfTheWeightReleasedFromHorizontal) {
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -9.81}});
   const auto rod = add_thin_rod<2>(scene, {.mass = 2.0, .start = {1.0, 0.5}, .end = {2.5, 0.5}}, "rod");

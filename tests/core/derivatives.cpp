@@ -186,7 +186,7 @@ TEST(Derivatives, EveryFunctionOfTwoArgumentsHasItsDerivatives) {
   for (const auto& f : functions) expect_derivatives(f);
 }
 
-TEST(Derivatives, OfVectorAlgebraAreThoseOfItsFormulas) {
+TEST(Derivatives, VectorAlgebraHasThoseOfItsFormulas) {
   using Six = VecOf<double, 6>;
   const Six at{0.3, -0.7, 1.1, 0.9, 0.2, -0.5};
   const std::vector<Function<6>> functions{
@@ -225,7 +225,7 @@ TEST(Derivatives, AutoTypedPartsOfAFormulaOutliveTheirExpression) {
   EXPECT_EQ(r.zs[0][1], 2.0 * 13.0 + 2.0 * 3.0 * 4.0);
 }
 
-TEST(Derivatives, OfPowersAtZeroHaveTheirLimits) {
+TEST(Derivatives, PowersAtZeroHaveTheirLimits) {
   using S = Jet<1>;
   const S zero = S::input(0.0, 0, 1.0);
   const auto is = [](const S& f, double value, double slope, double curvature) {
@@ -284,7 +284,7 @@ TEST(Derivatives, ReportEveryKinkAndJump) {
             recorded(1.1, [](const S& x) { return exp(x); }));
 }
 
-TEST(Derivatives, ThatAreSingularAreNotFinite) {
+TEST(Derivatives, SingularOnesAreNotFinite) {
   using S = Jet<1>;
   EXPECT_FALSE(isfinite(sqrt(S::input(0.0, 0))));
   EXPECT_FALSE(isfinite(log(S::input(0.0, 0))));
@@ -306,7 +306,7 @@ TEST(Derivatives, DoNotEnterComparisons) {
   EXPECT_EQ(std::max(S(1.0), two).z[0], 1.0);
 }
 
-TEST(Derivatives, AreMixedWithNumbersInAVector) {
+TEST(Derivatives, MixWithNumbersInAVector) {
   using S = Jet<1>;
   const auto r = vec(S::input(2.0, 0), 3.0, 4);
   static_assert(std::is_same_v<decltype(r), const VecOf<S, 3>>);

@@ -27,7 +27,7 @@ struct Fragile {
   ~Fragile() = default;
 };
 
-TEST(FailedCopies, OfAnElementLeaveNoTrace) {
+TEST(FailedCopies, ElementThatCannotBeCopiedLeavesNoTrace) {
   const auto broken = std::make_shared<bool>(false);
   Scene<2> scene;
   const auto a = scene.add_particle({.mass = 1.0}, "a"), b = scene.add_particle({.mass = 1.0}, "b");
@@ -60,7 +60,7 @@ struct Late {
   ~Late() = default;
 };
 
-TEST(FailedCopies, WhicheverItIsLeavesNoTrace) {
+TEST(FailedCopies, NoTraceIsLeftWhicheverCopyFails) {
   for (int good = 1;; ++good) {
     const auto copies = std::make_shared<int>(0);
     Scene<2> scene;
@@ -110,7 +110,7 @@ struct alignas(64) Aligned {
   }
 };
 
-TEST(FailedCopies, OfWhatIsOverAlignedLeaveNoTrace) {
+TEST(FailedCopies, OverAlignedElementLeavesNoTrace) {
   bool failed = true;
   for (int good = 1; failed; ++good) {
     const auto count = std::make_shared<Aligned::Count>();

@@ -81,7 +81,7 @@ TEST_F(Friction, DerivativesAreConsistent) {
 }
 
 // On a point of a body, F and its derivatives go through that point's map.
-TEST_F(Friction, OnAPointOfABodyHasConsistentDerivatives) {
+TEST_F(Friction, HasConsistentDerivativesOnAPointOfABody) {
   const auto body = add_body(scene, BodyState<2>{.mass = 2.0, .inertia = 0.5}, "body");
   const auto corner = body.point({0.4, -0.2});
   const auto floor = scene.add(OnCurve{corner, Plane<2>{{0.0, 0.0}, {0.0, 1.0}}}, "floor");

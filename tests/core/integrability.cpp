@@ -13,7 +13,7 @@ std::vector<Integrability> judged(const Scene<2>& scene, double t = 0.3) {
 }
 
 // mln76: a disk on a line. y' = 0 and x' + r phi' = 0 are both exact.
-TEST(Integrability, OfTheDiskOnALineIsThatOfAHolonomicPair) {
+TEST(Integrability, DiskOnALineHasTwoHolonomicConstraints) {
   Scene<2> scene;
   const auto disk = scene.add_particle({.mass = 1.0, .position = {0.2, 0.5}});
   const auto spin = scene.add_rotor({.inertia = 0.1, .angle = 0.4});
@@ -26,7 +26,7 @@ TEST(Integrability, OfTheDiskOnALineIsThatOfAHolonomicPair) {
 }
 
 // mln37: the upright disk reaches every place in every attitude (growth vector 2, 3, 4).
-TEST(Integrability, OfTheUprightDiskIsNone) {
+TEST(Integrability, UprightDiskHasNone) {
   Scene<2> scene;
   const auto disk = scene.add_particle({.mass = 1.0, .position = {0.2, 0.5}});
   const auto heading = scene.add_rotor({.inertia = 0.1, .angle = 0.4});
@@ -63,7 +63,7 @@ TEST(Integrability, DoesNotReturnByASpring) {
 
 // mex235: (f(t) - x) y' + y x' = 0 has no integrating factor unless f' = 0; if the prey stands
 // still, the pursuer runs straight at it: y/x' = const.
-TEST(Integrability, OfAPursuitDependsOnWhetherThePreyMoves) {
+TEST(Integrability, PursuitIsIntegrableUnlessThePreyMoves) {
   Scene<2> moving;
   const auto hunter = moving.add_particle({.mass = 1.0, .position = {0.2, 1.5}});
   moving.add(Pursuit{hunter, driven([](auto t) { return vec(0.7 * t, 0.0); })});
@@ -86,7 +86,7 @@ TEST(Integrability, IsFoundBehindAnIntegratingFactor) {
 }
 
 // In space z' = y x' is the standard contact form (Darboux): not integrable. With y held it is.
-TEST(Integrability, OfTheContactFormIsNoneUnlessAnotherConstraintHelps) {
+TEST(Integrability, ContactFormHasNoneUnlessAnotherConstraintHelps) {
   Scene<3> scene;
   const auto p = scene.add_particle({.mass = 1.0, .position = {0.7, 1.5, 0.2}});
   scene.add(nonholonomic(points(p), [](auto r, auto v) { return v.z() - r.y() * v.x(); }));

@@ -7,7 +7,7 @@
 namespace dalembert::islands_test {
 namespace {
 
-TEST(Islands, AreWhatNoRodAndNoForceConnects) {
+TEST(Islands, NeitherRodNorForceConnectsThem) {
   Scene<2> scene;
   std::vector<Particle<2>> p;
   for (int i = 0; i < 5; ++i) p.push_back(scene.add_particle({.mass = 1.0, .position = {1.0 * i, 0.0}}));

@@ -66,7 +66,7 @@ TEST(OwnElements, CallAbsAndMaxOfPlainNumbersToo) {
 }
 
 /// On a unit circle at (1, 0) with v = (0, 2): F = -2 r - v/2 + lambda v/4, and lambda = -v^2 + 2.
-TEST(OwnElements, OfAnotherNamespaceAreElementsLikeAnyOther) {
+TEST(OwnElements, MayBeOfAnotherNamespace) {
   Scene<2> scene;
   const auto p = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}, .velocity = {0.0, 2.0}});
   const auto rod = scene.add(someone::Rod{p});

@@ -34,7 +34,7 @@ class RodsAndVelocities : public testing::Test {
 
 // Between the two fixed points the rods' gradients are parallel; which rows are in force does not change in
 // number there, whatever rows of velocities take their place.
-TEST_F(RodsAndVelocities, AreAsManyAsBeforeWhereRodsAreInLine) {
+TEST_F(RodsAndVelocities, KeepTheirNumberWhereRodsAreInLine) {
   const System system = scene.system();
   const ActiveRows before = independent_rows(system, gradients(system, 1.0, 0.5));
   ASSERT_EQ(before.size(), 3U);

@@ -251,7 +251,7 @@ TEST(SceneValues, AReplacedElementMayActOnOtherPoints) {
   EXPECT_TRUE(std::ranges::equal(by_replacing.w_columns(), by_stating.w_columns()));
 }
 
-TEST(SceneValues, AreFoundByName) {
+TEST(SceneValues, CanBeFoundByName) {
   const All all{Parameters{}};
   const Scene<2> copy = all.scene;
   EXPECT_EQ(copy.particle("bob"), all.bob);

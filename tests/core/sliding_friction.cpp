@@ -31,7 +31,7 @@ class Slides : public testing::Test {
   }
 };
 
-TEST_F(Slides, AgainstTheSlipVelocityAsStrongAsItIsPressed) {
+TEST_F(Slides, FrictionOpposesTheSlipInProportionToTheNormalForce) {
   const System system = sliding(0.0);
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(system.rows()));
   const auto& layout = *system.layout();
@@ -48,7 +48,7 @@ TEST_F(Slides, AgainstTheSlipVelocityAsStrongAsItIsPressed) {
       static_cast<std::size_t>(layout.constraints[static_cast<std::size_t>(slides.index)].first_row)));
 }
 
-TEST_F(Slides, WithTheirDerivatives) {
+TEST_F(Slides, DerivativesAreConsistent) {
   for (const double slow : {0.0, 0.3}) {
     const System system = sliding(slow);
     Eigen::VectorXd lambda(static_cast<Eigen::Index>(system.rows()));
@@ -58,7 +58,7 @@ TEST_F(Slides, WithTheirDerivatives) {
   }
 }
 
-TEST_F(Slides, OfTheSurfacesAreAtRightAnglesToTheirGradients) {
+TEST_F(Slides, SlipIsOrthogonalToTheGradientOfEachSurface) {
   // Slip by Slip, against the gradient that the constraint itself has.
   const auto check = [](const auto& surface, const Vec<3>& r) {
     Scene<3> s;

@@ -49,7 +49,7 @@ class TwoSamples : public testing::Test {
   Trajectory<2> run{std::make_shared<const Record>(record())};
 };
 
-TEST_F(TwoSamples, AreReadByHandleAndSample) {
+TEST_F(TwoSamples, CanBeReadByHandleAndSample) {
   EXPECT_EQ(run.size(), 2U);
   EXPECT_THAT(run.times(), testing::ElementsAre(0.0, 0.5));
   EXPECT_EQ(run.position(a, 0), Vec<2>(0.1, 0.2));
@@ -90,7 +90,7 @@ TEST_F(TwoSamples, WhatIsNotDeterminedCannotBeRead) {
   EXPECT_TRUE(std::isnan(marked.multipliers(rod)[0]));
 }
 
-TEST_F(TwoSamples, AreIteratedOver) {
+TEST_F(TwoSamples, CanBeIteratedOver) {
   std::vector<double> times;
   for (const auto& now : run) times.push_back(now.time());
   EXPECT_THAT(times, testing::ElementsAre(0.0, 0.5));
@@ -98,7 +98,7 @@ TEST_F(TwoSamples, AreIteratedOver) {
   EXPECT_EQ((*std::next(run.begin())).position(a), run.position(a, 1));
 }
 
-TEST_F(TwoSamples, AreMatricesToo) {
+TEST_F(TwoSamples, CanBeReadAsMatrices) {
   EXPECT_EQ(Eigen::Matrix2Xd(run.positions(b)), (Eigen::Matrix2d() << 1.1, 1.1, 1.2, 1.2).finished());
   EXPECT_EQ(Eigen::Matrix2Xd(run.velocities(a)), (Eigen::Matrix2d() << 0.3, 0.3, 0.4, 0.4).finished());
   EXPECT_EQ(Eigen::Matrix2Xd(run.accelerations(b)), (Eigen::Matrix2d() << 1.5, 1.5, 1.6, 1.6).finished());
@@ -168,7 +168,7 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-TEST_F(TwoSamples, AsCsvSayWhatTheyAre) {
+TEST_F(TwoSamples, SayInCsvWhatTheyAre) {
   std::ostringstream out;
   run.write_csv(out);
   const auto lines = lines_of(out.str());
@@ -183,7 +183,7 @@ TEST_F(TwoSamples, AsCsvSayWhatTheyAre) {
       "pin.lambda1,pin.lambda2,pin.on.a.Zx,pin.on.a.Zy,energy");
 }
 
-TEST_F(TwoSamples, AsCsvKeepEveryDigit) {
+TEST_F(TwoSamples, KeepEveryDigitInCsv) {
   std::ostringstream out;
   run.write_csv(out);
   const auto lines = lines_of(out.str());
@@ -205,7 +205,7 @@ TEST_F(TwoSamples, LeaveTheFormatOfTheUsersStreamAlone) {
   EXPECT_EQ(out.str(), "0.333333");
 }
 
-TEST_F(TwoSamples, AreWrittenToAFile) {
+TEST_F(TwoSamples, CanBeWrittenToAFile) {
   const auto path = std::filesystem::temp_directory_path() / "dalembert-two-samples.csv";
   run.write_csv(path.string());
   EXPECT_GT(std::filesystem::file_size(path), 100U);

@@ -10,10 +10,10 @@ void expect_right(const std::vector<Case>& cases) {
   for (const Case& extreme : cases) {
     for (const Stepper stepper : extreme.steppers) {
       for (const double parameter : extreme.brief) {
-        const Verdict v = judge(extreme, parameter, stepper);
-        EXPECT_TRUE(v.right) << extreme.name << ", " << extreme.parameter << " = " << parameter << ", "
-                             << name(stepper) << ": " << v.result.outcome << ", error " << v.result.error
-                             << ", limit " << v.limit << ' ' << v.result.said;
+        const Run run = judge(extreme, parameter, stepper);
+        EXPECT_TRUE(run.right()) << extreme.name << ", " << extreme.parameter << " = " << parameter << ", "
+                                 << name(stepper) << ": " << run.outcome.name << ", error " << run.error
+                                 << ", limit " << run.limit << ' ' << run.outcome.message;
       }
     }
   }
@@ -29,10 +29,10 @@ TEST(Extremes, FreeParticlesHaveTheLengthOfTheirPath) { expect_right(paths()); }
 TEST(Extremes, ResultIsIndependentOfUnitsAndTimeOrigin) { expect_right(units()); }
 TEST(Extremes, StartsAreAssembledOrRefusedByName) { expect_right(starts()); }
 TEST(Extremes, RedundantConstraintsAreAsAccurateAsIndependentOnes) { expect_right(redundancy()); }
-TEST(Extremes, AtRoundOffAndAtSingularPositionsForcesAreRightOrNotRead) { expect_right(at_round_off()); }
-TEST(Extremes, KinksJumpsAndSticking) { expect_right(discontinuities()); }
+TEST(Extremes, ForcesAtRoundOffAndAtSingularPositionsAreRightOrNotRead) { expect_right(at_round_off()); }
+TEST(Extremes, KinksJumpsAndStickingAreFollowedOrNamed) { expect_right(discontinuities()); }
 TEST(Extremes, FrictionHoldsUpToTheEdgeOfItsCone) { expect_right(sticking()); }
-TEST(Extremes, ContactsThatAreGrazedStruckAtOnceOrWithoutEnd) { expect_right(contacts()); }
+TEST(Extremes, ContactsAreRightGrazedStruckAtOnceOrWithoutEnd) { expect_right(contacts()); }
 TEST(Extremes, FailuresInMidRunSayWhenAndWhat) { expect_right(failures()); }
 
 }  // namespace

@@ -30,8 +30,8 @@ std::vector<Task> corpus(const std::string& path) {
 
 void print(const Task& task) {
   const Verdict v = judge(task);
-  std::cout << name(task.family) << " seed " << task.seed << ", " << name(task.stepper) << ": " << v.outcome
-            << ' ' << v.message << '\n'
+  std::cout << name(task.family) << " seed " << task.seed << ", " << name(task.stepper) << ": "
+            << v.outcome.name << ' ' << v.outcome.message << '\n'
             << v.log << v.detail << (v.fault.empty() ? "" : "FAULT: " + v.fault + '\n');
 }
 

@@ -19,24 +19,23 @@ std::string kind_of(const std::string& message) {
   return std::regex_replace(kind, number, "#").substr(0, 100);
 }
 
-void Pairs::add(const std::string& has, const std::string& outcome, const std::string& message,
-                const std::string& fault) {
+void Pairs::add(const Verdict& scene) {
   std::vector<std::size_t> present;
-  std::istringstream words(has);
+  std::istringstream words(scene.features);
   for (std::string word; words >> word;) {
     const auto found = std::ranges::find_if(features, [&](Feature f) { return word == name(f); });
     present.push_back(static_cast<std::size_t>(found - features.begin()));
   }
-  const bool right = fault.empty() && outcome == "ran";
-  const std::string kind = kind_of(message);
-  if (!right && fault.empty()) ++refusals_[kind];
+  const bool fault = !scene.fault.empty(), right = !fault && scene.outcome.ok();
+  const std::string kind = kind_of(scene.outcome.message);
+  if (!right && !fault) ++refusals_[kind];
   for (const std::size_t i : present) {
     for (const std::size_t j : present) {
       Cell& cell = cells_[i][j];
       ++cell.scenes;
       if (right) ++cell.right;
-      if (!fault.empty()) ++cell.faults;
-      if (!right && fault.empty()) ++cell.refusals[kind];
+      if (fault) ++cell.faults;
+      if (!right && !fault) ++cell.refusals[kind];
     }
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "features.h"
+#include "verdict.h"
 
 #include <array>
 #include <map>
@@ -11,9 +11,7 @@ namespace dalembert::fuzz {
 /// What became of the scenes that have two features in common, of every pair.
 class Pairs {
  public:
-  /// A scene's features, by name with spaces between; what became of it, and the error's message.
-  void add(const std::string& has, const std::string& outcome, const std::string& message,
-           const std::string& fault);
+  void add(const Verdict& scene);
   /// Columns `feature,with,scenes,right,refused,faults,most refused by`, one line for each pair.
   void write(const std::string& path) const;
   /// How often each refusal was given, by message.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <typeinfo>
 
 namespace dalembert::fuzz {
 
@@ -72,9 +71,24 @@ std::string run(Draft<D>& draft, std::string& detail) {
   return {};
 }
 
-/// A sensible scene must be accepted: it was made to hold at its start.
-std::string unless_sensible(const Plan& plan, const char* what) {
-  return plan.kind == Plan::Kind::sensible ? std::string("a sensible scene is refused: ") + what : "";
+/// What is wrong with an error: empty if the scene may give it.
+template <int D>
+std::string fault_of_error(const Draft<D>& draft, const std::exception& error, std::string& detail) {
+  const auto [name, message] = outcome_of(error);
+  if (const auto* failure = dynamic_cast<const IntegrationFailure*>(&error)) {
+    if (!std::isfinite(failure->time())) return "the time of failure is not finite";
+    if (draft.plan.family == Family::products) return {};  // there the library judges its own
+    return fault_of_run(draft, failure->template trajectory<D>(), failure->time(), detail);
+  }
+  if (dynamic_cast<const Error*>(&error) == nullptr) return "a foreign exception, " + name + ": " + message;
+  if (name == "InconsistentStart") return {};
+  // Only what lies between samples may be refused like this.
+  if (name == "EquationFault" && draft.plan.has(Feature::dense)) return {};
+  // A sensible scene must be accepted: it was made to hold at its start.
+  const bool invalid = name == "InvalidScene" || name == "InvalidArgument";
+  if (invalid && draft.plan.kind != Plan::Kind::sensible) return {};
+  return (invalid ? "a sensible scene is refused: " : "an error that no run may give, " + name + ": ") +
+         message;
 }
 
 template <int D>
@@ -84,48 +98,22 @@ Verdict judge_draft(Draft<D>& draft) {
     fill(draft);
     v.fault = draft.refused();
     if (v.fault.empty()) v.fault = run(draft, v.detail);
-    v.outcome = "ran";
-  } catch (const IntegrationFailure& error) {
-    v.outcome = "IntegrationFailure";
-    v.message = error.what();
-    if (draft.plan.family != Family::products)  // there the library judges its own
-      v.fault = fault_of_run(draft, error.template trajectory<D>(), error.time(), v.detail);
-    if (!std::isfinite(error.time())) v.fault = "the time of failure is not finite";
-  } catch (const InconsistentStart& error) {
-    v.outcome = "InconsistentStart";
-    v.message = error.what();
-  } catch (const InvalidScene& error) {
-    v.outcome = "InvalidScene";
-    v.message = error.what();
-    v.fault = unless_sensible(draft.plan, error.what());
-  } catch (const InvalidArgument& error) {
-    v.outcome = "InvalidArgument";
-    v.message = error.what();
-    v.fault = unless_sensible(draft.plan, error.what());
-  } catch (const EquationFault& error) {
-    v.outcome = "EquationFault";
-    v.message = error.what();
-    if (!draft.plan.has(Feature::dense))  // only what lies between samples may be refused like this
-      v.fault = std::string("an EquationFault outside of a result: ") + error.what();
-  } catch (const Error& error) {
-    v.outcome = "Error";
-    v.message = error.what();
-    v.fault = std::string("an Error that is none of the four: ") + error.what();
   } catch (const std::exception& error) {
-    v.outcome = "foreign";
-    v.fault = std::string("a foreign exception, ") + typeid(error).name() + ": " + error.what();
+    v.outcome = outcome_of(error);
+    v.fault = fault_of_error(draft, error, v.detail);
+    if (v.fault.empty() && v.outcome.message.empty()) v.fault = "an error without a message";
   } catch (...) {
-    v.outcome = "foreign";
+    v.outcome.name = "foreign";
     v.fault = "a foreign exception that is no std::exception";
   }
-  if (v.outcome != "ran" && v.fault.empty() && v.message.empty()) v.fault = "an error without a message";
   const Options& o = draft.plan.options;
   std::ostringstream options;
   options.precision(17);
-  options << name(draft.plan.kind) << " scene in " << D << " dimensions; t_start " << o.t_start << ", t_end "
-          << o.t_end << ", samples " << o.samples << ", interval " << o.sample_interval << ", "
-          << o.times.size() << " times, tolerance " << o.tolerance << ", max_steps " << o.max_steps
-          << ", assemble " << o.assemble << '\n';
+  v.kind = name(draft.plan.kind);
+  options << v.kind << " scene in " << D << " dimensions; t_start " << o.t_start << ", t_end " << o.t_end
+          << ", samples " << o.samples << ", interval " << o.sample_interval << ", " << o.times.size()
+          << " times, tolerance " << o.tolerance << ", max_steps " << o.max_steps << ", assemble "
+          << o.assemble << '\n';
   v.log = options.str() + draft.log();
   for (const Feature feature : draft.plan.features) v.features += std::string(name(feature)) + ' ';
   return v;

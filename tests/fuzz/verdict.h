@@ -1,6 +1,7 @@
 #pragma once
 
 #include "draft.h"
+#include <dalembert/tests/outcome.h>
 
 #include <cstdint>
 #include <limits>
@@ -21,12 +22,12 @@ struct Task {
 
 /// What became of a scene. `fault` is empty unless the library did what it must not: then it describes that.
 struct Verdict {
-  std::string outcome;  ///< "ran", or the type of the error
-  std::string message;  ///< of the error
-  std::string fault;
-  std::string log;         ///< how to write the scene down by hand
+  Outcome outcome{};
+  std::string fault{};
+  std::string kind{};      ///< of the scene's plan, by name
   std::string features{};  ///< of products, by name
-  std::string detail;      ///< size of what was measured, for whoever looks into limits
+  std::string log{};       ///< how to write the scene down by hand
+  std::string detail{};    ///< size of what was measured, for whoever looks into limits
 };
 
 /// Makes the scene and runs it.

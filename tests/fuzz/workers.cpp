@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
@@ -21,16 +22,30 @@ namespace {
 /// Scenes per process: starting one costs as much as a scene.
 constexpr std::size_t batch = 100;
 
-/// What a child tells its parent of one task, as lines.
+/// What a child tells its parent of one task, a line each.
+auto told(auto& v) { return std::array{&v.outcome.name, &v.outcome.message, &v.fault, &v.kind, &v.features}; }
+
 void tell(std::FILE* out, const Verdict& v) {
-  const auto line = [](std::string text) {
-    std::ranges::replace(text, '\n', ' ');
-    return text;
-  };
-  for (const std::string& text :
-       {v.outcome, v.log.substr(0, v.log.find(' ')), v.message, v.fault, v.features})
-    std::fprintf(out, "%s\n", line(text).c_str());
+  for (const std::string* text : told(v)) {
+    std::string line = *text;
+    std::ranges::replace(line, '\n', ' ');
+    std::fprintf(out, "%s\n", line.c_str());
+  }
   std::fflush(out);
+}
+
+/// False at the end.
+bool hear(std::FILE* in, Verdict& v) {
+  char* text = nullptr;
+  std::size_t room = 0;
+  bool all = true;
+  for (std::string* line : told(v)) {
+    const ssize_t length = getline(&text, &room, in);
+    all = all && length > 0;
+    if (all) line->assign(text, static_cast<std::size_t>(length) - 1);
+  }
+  std::free(text);
+  return all;
 }
 
 [[noreturn]] void work(const std::vector<Task>& tasks, std::size_t first, int longest, std::FILE* out) {
@@ -57,16 +72,15 @@ class Tally {
  public:
   explicit Tally(bool list) : list_(list) {}
 
-  void add(const Task& task, const std::string& outcome, const std::string& kind, const std::string& message,
-           const std::string& fault, const std::string& has) {
-    if (task.family == Family::products) pairs_.add(has, outcome, message, fault);
+  void add(const Task& task, const Verdict& v) {
+    if (task.family == Family::products) pairs_.add(v);
     const std::string family = dalembert::fuzz::name(task.family);
-    ++outcomes_[(task.family == Family::any ? kind : family) + ' ' + outcome];
-    if (!fault.empty()) ++faults_;
-    if (!list_ && fault.empty()) return;
-    std::cout << (fault.empty() ? "" : "FAULT ") << family << " seed " << task.seed << ' '
-              << dalembert::name(task.stepper) << ' ' << kind << ' ' << outcome << ": "
-              << (fault.empty() ? message : fault + " | " + message) << std::endl;
+    ++outcomes_[(task.family == Family::any ? v.kind : family) + ' ' + v.outcome.name];
+    if (!v.fault.empty()) ++faults_;
+    if (!list_ && v.fault.empty()) return;
+    std::cout << (v.fault.empty() ? "" : "FAULT ") << family << " seed " << task.seed << ' '
+              << dalembert::name(task.stepper) << ' ' << v.kind << ' ' << v.outcome.name << ": "
+              << (v.fault.empty() ? "" : v.fault + " | ") << v.outcome.message << std::endl;
   }
   int report(const std::string& pairs) const {
     pairs_.report();
@@ -96,26 +110,15 @@ std::size_t run_some(const std::vector<Task>& tasks, std::size_t first, int long
   }
   close(ends[1]);
   std::FILE* in = fdopen(ends[0], "r");
-  char* text = nullptr;
-  std::size_t room = 0;
-  const auto next_line = [&](std::string& line) {
-    const ssize_t length = getline(&text, &room, in);
-    if (length <= 0) return false;
-    line.assign(text, static_cast<std::size_t>(length) - 1);
-    return true;
-  };
   std::size_t i = first;
-  std::string outcome, kind, message, fault, has;
-  while (next_line(outcome) && next_line(kind) && next_line(message) && next_line(fault) && next_line(has))
-    tally.add(tasks[i++], outcome, kind, message, fault, has);
-  std::free(text);
+  for (Verdict v; hear(in, v);) tally.add(tasks[i++], v);
   std::fclose(in);
   int status = 0;
   waitpid(child, &status, 0);
   const std::size_t end = std::min(first + batch, tasks.size());
   if (status == 0 && i == end) return end;
   const Task& at_fault = tasks[std::min(i, end - 1)];  // all told: what was found at the end, a leak
-  tally.add(at_fault, "died", "", "", ending(status, longest), "");
+  tally.add(at_fault, {.outcome = {"died"}, .fault = ending(status, longest)});
   return std::min(i + 1, end);
 }
 

@@ -20,12 +20,12 @@ void expect_last(const Observation<2>& end, const Vec<2>& last_bead, double firs
   EXPECT_NEAR(end.forces.front(), first_rod, bound * 9.81);
 }
 
-TEST(Chain, Of10BeadsEndsWhereAnIndependentComputationSays) {
+TEST(Chain, TenBeadsEndWhereAnIndependentComputationSays) {
   expect_last(Chain{.beads = 10}.reference(1.0), {-0.9133122294063770, -0.1496551414188306},
               1.553412331851652, round_off);
 }
 
-TEST(Chain, Of100BeadsEndsWhereAnIndependentComputationSays) {
+TEST(Chain, HundredBeadsEndWhereAnIndependentComputationSays) {
   // At a tolerance of 1e-13 per step, for speed, over 10^4 steps. (At full precision, 3 s, it agrees to
   // 1e-15; so does the chain of 1,000 beads of the same table, in minutes.)
   const auto end = Chain{.beads = 100}.reference(std::array{1.0}, 1e-13L);
@@ -38,7 +38,7 @@ TEST(Chain, KeepsItsEnergyAndItsTensionsAreWhatNewtonDemands) {
                            1e-5);
 }
 
-TEST(Chain, OfOneBeadIsAPendulumAndOfTwoADoublePendulum) {
+TEST(Chain, OneBeadIsAPendulumAndTwoAreADoublePendulum) {
   const double t = 0.9;
   const Observation<2> one = Chain{.beads = 1, .length = 1.3, .mass = 0.7}.reference(t);
   const Observation<2> pendulum = PlanePendulum{.mass = 0.7, .length = 1.3}.reference(t);

@@ -96,7 +96,7 @@ TEST_P(ChainsOfManyLinks, LeavesARoughTableAtTheOneWithFrictionAsWell) {
   }
 }
 
-TEST_P(ChainsOfManyLinks, Of400IsWithinHalfAPercentOfTheContinuum) {
+TEST_P(ChainsOfManyLinks, FourHundredAreWithinHalfAPercentOfTheContinuum) {
   for (const double mu : {0.0, 0.2})
     EXPECT_LT(std::abs(late({.links = 400, .friction = mu}, GetParam(), 1e-6)), 0.005) << mu;
 }

@@ -39,7 +39,7 @@ TEST(DrivenPivot, PivotsMoveAsInTheNotes) {
   EXPECT_LT((DrivenPivot::circular(A).pivot(t) - Vec<2>(c, s)).norm(), bound);
 }
 
-TEST(DrivenPivot, AtRestIsThePlanePendulum) {
+TEST(DrivenPivot, IsThePlanePendulumAtRest) {
   const DrivenPivot still{.angle = 2.0};
   const PlanePendulum pendulum{.amplitude = 2.0};
   for (const double t : times) {

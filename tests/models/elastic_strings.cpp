@@ -71,7 +71,7 @@ TEST(ElasticStringCircle, KeepsItsEnergyAndItsForceIsWhatNewtonDemandsWithPOutsi
 
 // mex251, k = 30, l0 = 1: at rest the line or circle holds k l0/2 = 15, by reference and by library.
 
-TEST(ElasticStringLine, AtRestTheLineHoldsHalfOfStiffnessTimesRelaxedLength) {
+TEST(ElasticStringLine, HoldsHalfOfStiffnessTimesRelaxedLengthAtRest) {
   const ElasticStringLine string{.stiffness = 30.0, .relaxed_length = 1.0, .amplitude = 0.0};
   EXPECT_NEAR(string.reference(1.0).forces[0], 15.0, 4 * epsilon * 30);
   const BeadOnCurve built = string.scene();
@@ -80,7 +80,7 @@ TEST(ElasticStringLine, AtRestTheLineHoldsHalfOfStiffnessTimesRelaxedLength) {
     EXPECT_NEAR(run.multiplier(built.curve, i), 15.0, 4 * epsilon * 30);
 }
 
-TEST(ElasticStringCircle, AtRestTheCircleHoldsInwardsIfPIsOutsideAndOutwardsIfInside) {
+TEST(ElasticStringCircle, HoldsInwardsAtRestIfPIsOutsideAndOutwardsIfInside) {
   for (const auto& [tied, force] : {std::pair{Tied::outside, -15.0}, std::pair{Tied::inside, 15.0}}) {
     const ElasticStringCircle string{.stiffness = 30.0, .relaxed_length = 1.0, .tied = tied, .angle = 0.0};
     EXPECT_NEAR(string.reference(1.0).forces[0], force, 10 * epsilon * 30);

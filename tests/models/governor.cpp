@@ -49,7 +49,7 @@ TEST(Governor, KeepsItsJacobiIntegral) {
       model.energy);
 }
 
-TEST(Governor, AtItsWorkingAngleTheRodsCarryWhatTheNotesSay) {
+TEST(Governor, RodsCarryWhatTheNotesSayAtItsWorkingAngle) {
   // cos theta0 = (m1 + m2) g/(m1 L Omega^2); lower rods m2 g/(2 cos theta0), upper (m1 + m2/2) g/cos theta0,
   // and the drives nothing. Steps of tolerance 1e-10 add up; the forces change with the angle by at most ten
   // weights.

@@ -41,7 +41,7 @@ TEST(HoopAboutExternalAxis, StartsWhereItsSceneDoesAndIsThereAgainAfterAPeriodAs
             10 * epsilon * (1 - back));
 }
 
-TEST(HoopAboutExternalAxis, FarthestFromTheAxisTheHoopHoldsTheBeadOnItsCircle) {
+TEST(HoopAboutExternalAxis, HoldsTheBeadOnItsCircleFarthestFromTheAxis) {
   // theta = 0 at rest relative to the hoop: m Omega^2 (R + l) (mex25).
   const BeadOnCurve built = HoopAboutExternalAxis{.amplitude = 0.0}.scene();
   const Trajectory<2> run = simulate(built.scene, {.t_end = 2.0, .samples = 9, .tolerance = 1e-10});

@@ -29,7 +29,7 @@ TEST(PendulumRotation, IsOverTheTopAfterHalfATurnWithTheTensionThatItsEnergyLeav
   EXPECT_NEAR(top.forces[0], (4 * pendulum.energy_ratio - 5) * weight, 12 * epsilon * weight);
 }
 
-TEST(PendulumRotation, AtHighEnergyATurnTakesAsLongAsTheNotesExpansionSays) {
+TEST(PendulumRotation, TurnAtHighEnergyTakesAsLongAsTheNotesExpansionSays) {
   // T = (2 pi/w)(1 + kappa^2/4), w^2 = 2 E/(m l^2) (mex147); the next term of K is (9/64) kappa^4.
   for (const double ratio : {1e2, 1e3, 1e4}) {
     const PendulumRotation pendulum{.energy_ratio = ratio};

@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, RigidBodyOfAtoms,
                                            std::pair{8, 1e-10}, std::pair{20, 1e-6}, std::pair{20, 1e-10}));
 
 // In the plane a body of N atoms moves with its centre and turns at a constant rate.
-TEST(RigidBodyOfAtoms, InThePlaneHasThreeDegreesOfFreedom) {
+TEST(RigidBodyOfAtoms, HasThreeDegreesOfFreedomInThePlane) {
   const double rate = 2.0, tolerance = 1e-8;
   const Vec<2> drift(0.3, -0.1);
   for (const int atoms : {3, 4, 8}) {

@@ -34,7 +34,7 @@ TEST(RollingDiskReference, ForceIsMassTimesAcceleration) {
   expect_newton(disk.model(), disk.mass, disk.turn_rate, Vec<2>::Zero());
 }
 
-TEST(RollingDiskReference, OnASlopeForceIsMassTimesAccelerationLessGravity) {
+TEST(RollingDiskReference, ForceIsMassTimesAccelerationLessGravityOnASlope) {
   const RollingDiskOnSlope disk;
   expect_newton(disk.model(), disk.mass, disk.turn_rate,
                 {disk.mass * disk.gravity * std::sin(disk.slope), 0.0});

@@ -5,7 +5,7 @@
 namespace dalembert::models::small_motions_test {
 namespace {
 
-TEST(SmallMotions, AreThoseOfTheClosedForms) {
+TEST(SmallMotions, MatchTheClosedForms) {
   const auto all = small_motions();
   EXPECT_GT(all.size(), 60U);
   for (const Compared& row : all)
@@ -13,7 +13,7 @@ TEST(SmallMotions, AreThoseOfTheClosedForms) {
         << row.model << ", " << row.quantity << ": " << row.value << " instead of " << row.reference;
 }
 
-TEST(LaguerreZeros, AreThePublishedOnes) {
+TEST(LaguerreZeros, MatchThePublishedOnes) {
   // 2 -+ sqrt 2, and the lowest and highest of five, to the digits given there.
   const auto two = laguerre_zeros(2), five = laguerre_zeros(5);
   ASSERT_EQ(two.size(), 2U);

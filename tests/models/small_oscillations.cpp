@@ -98,7 +98,7 @@ void expect_quadratic_deviation(double small, double amplitude, double scale,
   }
 }
 
-TEST(SmallOscillations, OfThePendulumOnASlidingBlockAreFasterByItsMassOverTheBlocks) {
+TEST(SmallOscillations, PendulumOnASlidingBlockIsFasterByItsMassOverTheBlocks) {
   // mex24: omega^2 = (g/L)(1 + m/M); c = (1 + 4 m/M)/16 from the quadrature of the period.
   const double omega = std::sqrt(9.81 * 1.5);
   const auto period_from = [&](double a) {
@@ -113,7 +113,7 @@ TEST(SmallOscillations, OfThePendulumOnASlidingBlockAreFasterByItsMassOverTheBlo
   EXPECT_NEAR(period_from(0.2), (SlidingPivot{.angle = 0.2}.period()), noise(0.2) * two_pi / omega);
 }
 
-TEST(SmallOscillations, OnTheParabolaGoAsTheRootOfTwiceGravityTimesCurvature) {
+TEST(SmallOscillations, ParabolaGivesTheRootOfTwiceGravityTimesCurvature) {
   // mex131: omega^2 = 2 g A; c = A^2 from the elliptic integral.
   const double omega = std::sqrt(2 * 9.81 * 0.5);
   const auto period_from = [&](double a) {
@@ -128,7 +128,7 @@ TEST(SmallOscillations, OnTheParabolaGoAsTheRootOfTwiceGravityTimesCurvature) {
               noise(0.2) * two_pi / omega);
 }
 
-TEST(SmallOscillations, InASlowlyTurningHoopGoAboutTheBottom) {
+TEST(SmallOscillations, SlowlyTurningHoopHoldsTheBeadAtTheBottom) {
   // mex39, Omega^2 < g/R: omega^2 = g/R - Omega^2. phi'' = -omega^2 phi - (2 Omega^2/3 - g/(6 R)) phi^3.
   const double Omega2 = 4.0, omega2 = 9.81 - Omega2;
   const auto period_from = [&](double a) {
@@ -146,7 +146,7 @@ TEST(SmallOscillations, InASlowlyTurningHoopGoAboutTheBottom) {
                              -3 * (2 * Omega2 / 3 - 9.81 / 6) / (8 * omega2));
 }
 
-TEST(SmallOscillations, InAFastTurningHoopGoAboutWhereTheBeadIsThrown) {
+TEST(SmallOscillations, FastTurningHoopHoldsTheBeadWhereItIsThrown) {
   // mex39, Omega^2 > g/R: cos phi0 = g/(R Omega^2), omega^2 = Omega^2 sin^2 phi0. From the potential
   // V = -(g/R) cos phi - (Omega^2/2) sin^2 phi: 2 A = V''' and 6 B = V'''' at phi0.
   const HoopAboutDiameter hoop{.spin = 5.0};
@@ -167,7 +167,7 @@ TEST(SmallOscillations, InAFastTurningHoopGoAboutWhereTheBeadIsThrown) {
                              period_from, 5 * A * A / (12 * omega2 * omega2) - 3 * B / (8 * omega2));
 }
 
-TEST(SmallOscillations, OfTheGovernorGoAboutItsWorkingAngle) {
+TEST(SmallOscillations, GovernorOscillatesAboutItsWorkingAngle) {
   // mex23: omega^2 = m1 Omega^2 sin^2 theta0/(m1 + 2 m2 sin^2 theta0).
   const Governor governor{.mass = 1.0, .sleeve_mass = 2.0, .spin = 7.0};
   const double cosine = 3 * 9.81 / 49.0, sine2 = 1 - cosine * cosine;
@@ -185,7 +185,7 @@ TEST(SmallOscillations, OfTheGovernorGoAboutItsWorkingAngle) {
                              period_from, NAN);
 }
 
-TEST(SmallOscillations, OfTheBlockOnALineAcrossTheStringGoByAThirdOfItsStiffness) {
+TEST(SmallOscillations, BlockOnALineFeelsAThirdOfTheStringsStiffness) {
   // mex251a: omega^2 = k/(3 m) for d = 3 l0/2; c = -(3/16)(l0/d)/(1 - l0/d)/d^2 = -(3/8)/(9/4) = -1/6.
   const double small = two_pi / std::sqrt(30.0 / 3);
   const auto period_from = [&](double a) {
@@ -198,7 +198,7 @@ TEST(SmallOscillations, OfTheBlockOnALineAcrossTheStringGoByAThirdOfItsStiffness
   expect_quadratic_deviation(mode_period(built.scene, two_pi / small), 0.2, 1.5, period_from, -1.0 / 6);
 }
 
-TEST(SmallOscillations, OfTheBlockOnACircleGoByWhereTheStringIsTied) {
+TEST(SmallOscillations, BlockOnACircleOscillatesAsItsStringIsTied) {
   // mex251b: omega^2 = (k/3m)(d/r), d = r + 3 l0/2 outside and r - 3 l0/2 inside, r = 2, l0 = 1;
   // c = [1 - 3 (l0/b) r d/(s b^2)]/16 with b = 3/2, s = 1/3: [1 - (16/3) d]/16.
   for (const auto tied : {ElasticStringCircle::Tied::outside, ElasticStringCircle::Tied::inside}) {
@@ -216,7 +216,7 @@ TEST(SmallOscillations, OfTheBlockOnACircleGoByWhereTheStringIsTied) {
   }
 }
 
-TEST(SmallOscillations, InTheConeGoByTheTurningOfTheCircularOrbit) {
+TEST(SmallOscillations, ConeGivesThoseOfTheCircularOrbit) {
   // mex133: phi'^2 = g cot(a)/r and omega^2 = 3 phi'^2 sin^2 a. At the angular momentum of the circular orbit
   // of radius 1, released at r = 1 + x: x'' = (omega^2/3)((1 + x)^-3 - 1), so A = -2 omega^2, B = 10
   // omega^2/3, c = 5/12.

@@ -126,7 +126,7 @@ void expect_tilt(const StraightOn& s, double push, const Solution& x, double t_e
   }
 }
 
-TEST(SpinningDisk, AboveTheCriticalSpeedItSwaysAndRunsStraight) {
+TEST(SpinningDisk, SwaysAndRunsStraightAboveTheCriticalSpeed) {
   const double push = 1e-3;
   const StraightOn s(1.2, push);
   const double w = std::sqrt(s.k);
@@ -134,7 +134,7 @@ TEST(SpinningDisk, AboveTheCriticalSpeedItSwaysAndRunsStraight) {
       s, push, [w](double t) { return std::sin(w * t) / w; }, 10.0, push / w);
 }
 
-TEST(SpinningDisk, BelowTheCriticalSpeedItFallsOver) {
+TEST(SpinningDisk, FallsOverBelowTheCriticalSpeed) {
   const double push = 1e-5;
   const StraightOn s(0.8, push);
   const double w = std::sqrt(-s.k);

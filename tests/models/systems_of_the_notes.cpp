@@ -36,7 +36,7 @@ void expect_accurate(const Model<D>& model) {
   }
 }
 
-TEST(SystemsOfTheNotes, AreAllInTheCatalogueAndAsAccurateAsRequired) {
+TEST(SystemsOfTheNotes, StandInTheCatalogueAndMeetItsAccuracy) {
   std::set<std::string> missing{"parabolic-slide",
                                 "sliding-pivot",
                                 "sliding-rod",
@@ -60,7 +60,7 @@ TEST(SystemsOfTheNotes, AreAllInTheCatalogueAndAsAccurateAsRequired) {
   EXPECT_TRUE(missing.empty()) << "without " << *missing.begin();
 }
 
-TEST(SystemsOfTheNotes, AreAsAccurateWithTheOtherParametersThatTheNotesTreat) {
+TEST(SystemsOfTheNotes, MeetItsAccuracyWithTheOtherParametersOfTheNotes) {
   expect_accurate(ElasticStringCircle{.tied = ElasticStringCircle::Tied::inside}.model());
   expect_accurate(HoopAboutDiameter{.spin = 2.0}.model());  // Omega^2 < g/R: about the bottom
   expect_accurate(DiskOnRotatingTrack{.inertia_ratio = 1.0}.model());
@@ -120,7 +120,7 @@ double cross(const Vec<2>& a, const Vec<2>& b) { return a.x() * b.y() - a.y() * 
 
 // What turns at Omega about an axis delivers Omega times the torque of its forces about it.
 
-TEST(PowerOfTheDrive, OfTheHoopAboutAnExternalAxisIsTheChangeOfEnergy) {
+TEST(PowerOfTheDrive, IsWhatChangesTheEnergyOfTheHoopAboutAnExternalAxis) {
   const HoopAboutExternalAxis hoop;
   const BeadOnCurve built = hoop.scene();
   expect_work_is_change_of_energy<2>(built.scene, 5.0, hoop.model().energy, [&](const Sample<2>& sample) {
@@ -128,7 +128,7 @@ TEST(PowerOfTheDrive, OfTheHoopAboutAnExternalAxisIsTheChangeOfEnergy) {
   });
 }
 
-TEST(PowerOfTheDrive, OfTheHoopAboutItsDiameterIsTheChangeOfEnergy) {
+TEST(PowerOfTheDrive, IsWhatChangesTheEnergyOfTheHoopAboutItsDiameter) {
   const HoopAboutDiameter hoop;
   const BeadOnHoop built = hoop.scene();
   expect_work_is_change_of_energy<3>(built.scene, 5.0, hoop.model().energy, [&](const Sample<3>& sample) {
@@ -136,7 +136,7 @@ TEST(PowerOfTheDrive, OfTheHoopAboutItsDiameterIsTheChangeOfEnergy) {
   });
 }
 
-TEST(PowerOfTheDrive, OfTheGovernorIsTheChangeOfEnergy) {
+TEST(PowerOfTheDrive, IsWhatChangesTheEnergyOfTheGovernor) {
   const Governor governor;
   const auto [scene, parts] = governor.scene();
   expect_work_is_change_of_energy<3>(
@@ -148,7 +148,7 @@ TEST(PowerOfTheDrive, OfTheGovernorIsTheChangeOfEnergy) {
       });
 }
 
-TEST(PowerOfTheDrive, OfTheRotatingTrackIsTheChangeOfEnergy) {
+TEST(PowerOfTheDrive, IsWhatChangesTheEnergyOfTheRotatingTrack) {
   // The torque on a disk about the origin: of the force at its centre, and about its centre. By the notes it
   // all comes from the normal force: N q.
   const DiskOnRotatingTrack disk;
@@ -160,7 +160,7 @@ TEST(PowerOfTheDrive, OfTheRotatingTrackIsTheChangeOfEnergy) {
   });
 }
 
-TEST(PowerOfTheDrive, OfADrivenPivotIsTheForceOnItTimesItsVelocity) {
+TEST(PowerOfTheDrive, EqualsTheForceOnADrivenPivotTimesItsVelocity) {
   for (const DrivenPivot& pivot :
        {DrivenPivot::horizontal(), DrivenPivot::vertical(), DrivenPivot::circular()}) {
     SCOPED_TRACE(pivot.model().name);

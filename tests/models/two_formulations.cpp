@@ -18,7 +18,7 @@ void expect_agreement(const std::vector<TwoFormulations>& all) {
   }
 }
 
-TEST(CrossCheck, OfEverySystemWhoseLagrangianTheNotesGiveAgrees) { expect_agreement(cross_checks()); }
+TEST(CrossCheck, AgreesForEverySystemWhoseLagrangianTheNotesGive) { expect_agreement(cross_checks()); }
 
 TEST(EquivalentLagrangians, HaveTheSameMotion) { expect_agreement(equivalent_lagrangians()); }
 

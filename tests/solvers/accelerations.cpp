@@ -7,7 +7,7 @@ namespace dalembert::accelerations_test {
 namespace {
 
 /// On a circle of radius L the acceleration is -v^2 r/L^2 along the rod and the part of g across it.
-TEST(Accelerations, OfAPendulumAreThoseOfTheCircle) {
+TEST(Accelerations, PendulumHasThoseOfTheCircle) {
   for (const Stepper stepper : both) {
     const Pendulum pendulum;
     const auto run = simulate(pendulum.scene, {.t_end = 3.0, .stepper = stepper});
@@ -19,7 +19,7 @@ TEST(Accelerations, OfAPendulumAreThoseOfTheCircle) {
   }
 }
 
-TEST(Accelerations, OfABodysPointAreThoseOfTheRotation) {
+TEST(Accelerations, PointOfABodyHasThoseOfTheRotation) {
   for (const Stepper stepper : both) {
     const CompoundPendulum pendulum;
     const auto run = simulate(pendulum.scene, {.t_end = 2.0, .tolerance = 1e-10, .stepper = stepper});
@@ -33,7 +33,7 @@ TEST(Accelerations, OfABodysPointAreThoseOfTheRotation) {
 }
 
 /// phi'' = torque/inertia.
-TEST(Accelerations, OfARotorAreItsTorqueOverItsInertia) {
+TEST(Accelerations, RotorHasItsTorqueOverItsInertia) {
   Scene<2> scene;
   const auto wheel = scene.add_rotor({.inertia = 0.5}, "wheel");
   const auto motor = scene.add(Torque{wheel, 3.0}, "motor");

@@ -104,21 +104,19 @@ void expect_honest(const Watched& w, Stepper stepper) {
   expect_honest(w, stepper, w.positions(w.run(1e-13, Stepper::erk)), {1e-4, 1e-6, 1e-8, 1e-10, 1e-12});
 }
 
-TEST_P(Accuracy, OfAPendulumCountsThePhaseThatErrorsOfItsSpeedAddUpTo) {
-  expect_honest(rods({1.0}, 1.5, 10.0), GetParam());
-}
+TEST_P(Accuracy, CountsThePhaseErrorOfAPendulum) { expect_honest(rods({1.0}, 1.5, 10.0), GetParam()); }
 
-TEST_P(Accuracy, OfADoublePendulumThatAmplifiesErrorsSomewhat) {
+TEST_P(Accuracy, HoldsForADoublePendulumThatAmplifiesErrors) {
   expect_honest(rods({1.0, 1.0}, 2.0, 5.0), GetParam());
 }
 
-TEST_P(Accuracy, OfALightBobBelowAHeavyOne) { expect_honest(rods({1e6, 1.0}, 1.0, 1.0), GetParam()); }
+TEST_P(Accuracy, HoldsForALightBobBelowAHeavyOne) { expect_honest(rods({1e6, 1.0}, 1.0, 1.0), GetParam()); }
 
-TEST_P(Accuracy, OfAFourBarThroughItsSingularPosition) { expect_honest(four_bar(), GetParam()); }
+TEST_P(Accuracy, HoldsForAFourBarThroughItsSingularPosition) { expect_honest(four_bar(), GetParam()); }
 
-TEST_P(Accuracy, OfSevenStarsThatMeet) { expect_honest(pleiades(), GetParam()); }
+TEST_P(Accuracy, HoldsForSevenStarsThatMeet) { expect_honest(pleiades(), GetParam()); }
 
-TEST_P(Accuracy, FarFromTheOriginIsThatOfTheRoundingThere) {
+TEST_P(Accuracy, IsThatOfRoundingFarFromTheOrigin) {
   // 1e8 m away a metre is known to 1e-8: runs end there, in few steps, or say what was asked too much.
   const Vec<2> far(1e8, 0.0);
   const Watched near = rods({1.0}, 1.5, 10.0), away = rods({1.0}, 1.5, 10.0, far);
@@ -220,7 +218,7 @@ Vec<2> thrown_past_its_pivot(double b, double t_end) {
 /// erk's steps are half as long there as the distance to the singularity of the motion at which a single
 /// difference of two orders vanishes: at some tolerance that falls into a run. The error is no larger than
 /// what is claimed.
-TEST(AccuracyOfErk, OfASpringThrownPastItsPivotIsWhatIsClaimedAtAnyTolerance) {
+TEST(AccuracyOfErk, HoldsAtAnyToleranceForAMassThrownPastASpringsPivot) {
   constexpr double t_end = 8.0;
   for (const double b : {0.3, 0.1, 0.03, 0.01}) {
     const Vec<2> end = thrown_past_its_pivot(b, t_end);

@@ -60,7 +60,7 @@ TEST(Allocation, DoesNotHappenWhileReading) {
 
 // The samples of a run have their room before it begins. (Without the audit, which names at the end the worst
 // element of each law that was not kept to the last bit.)
-TEST(Allocation, OfARunDoesNotDependOnItsLength) {
+TEST(Allocation, DoesNotDependOnTheLengthOfARun) {
   const EachKind each;
   const auto during = [&](double t_end, int samples) {
     Simulation<2> simulation(each.scene, {.t_end = t_end, .samples = samples, .audit = Audited::off});

@@ -19,7 +19,7 @@ constexpr double located = 1e-12;
 /// better.
 constexpr double on_branch = 1e-10;
 
-TEST(Branches, OfTheBeadOnATurningHoopForkWhereItIsThrownOut) {
+TEST(Branches, BeadOnATurningHoopForksWhereItIsThrownOut) {
   // mex39: Omega^2 = g/R, beyond which cos phi0 = g/(R Omega^2).
   Particle<3> bead;
   const auto diagram = follow_branches<3>(
@@ -50,7 +50,7 @@ TEST(Branches, OfTheBeadOnATurningHoopForkWhereItIsThrownOut) {
   EXPECT_NEAR(side, 0.0, on_branch);  // one to either side
 }
 
-TEST(Branches, OfTheGovernorLeaveTheAxisAtItsThreshold) {
+TEST(Branches, GovernorLeavesTheAxisAtItsThreshold) {
   // mex23: Omega^2 = (m1 + m2) g/(m1 L). On the axis the four rods are dependent on each other, and each of
   // the masses may go to either side: four branches.
   models::GovernorParts parts;
@@ -75,7 +75,7 @@ TEST(Branches, OfTheGovernorLeaveTheAxisAtItsThreshold) {
   }
 }
 
-TEST(Branches, OfAShallowArchTurnBackWhereItSnaps) {
+TEST(Branches, ShallowArchTurnsBackWhereItSnaps) {
   // A point on two springs from (+-1, 0), of stiffness k and relaxed length l0 = sqrt(1 + h^2), under the
   // load p: p = 2 k y (l0/l - 1), l^2 = 1 + y^2; dp/dy = 0 at l^3 = l0, where p = 2 k (l0^(2/3) - 1)^(3/2).
   const double k = 10.0, h = 0.5, l0 = std::sqrt(1.0 + h * h);
@@ -139,7 +139,7 @@ TEST(Branches, BeginAlongThemselvesHoweverSteep) {
     EXPECT_NEAR(point.state.sample().position(loaded.bead).x(), point.parameter, 10.0 * on_branch);
 }
 
-TEST(Branches, AreNotClosedBecauseTheirFirstStepsAreShort) {
+TEST(Branches, ShortFirstStepsDoNotCloseThem) {
   // x = 20 p^2 begins flat and bends at once, so that the first steps are halved.
   Loaded loaded;
   const auto diagram = loaded.follow([](double p) { return 20.0 * p * p; }, {.from = 0.0, .to = 1.0});
@@ -205,7 +205,7 @@ TEST(Branches, RefuseOptionsAndScenesThatMakeNoSense) {
               ThrowsMessage<InvalidScene>(HasSubstr("follow_steady")));
 }
 
-TEST(Branches, OfASkateForkWhereTheSpringAlongItsBladeSoftens) {
+TEST(Branches, SkateForksWhereTheSpringAlongItsBladeSoftens) {
   // The blade at (x, y) points along x, held there by a spring that turns it. Along it p x + x^3 = 0: x = 0,
   // and from p = 0 on x^2 = -p; across it the spring of y is taken up, at any y.
   constexpr double arm = 0.4;
@@ -243,7 +243,7 @@ TEST(Branches, OfASkateForkWhereTheSpringAlongItsBladeSoftens) {
   EXPECT_NEAR(sides, 0.0, 1e2 * on_branch);
 }
 
-TEST(Branches, ThatForkWithinOneStepAreAllFollowed) {
+TEST(Branches, AllForksWithinOneStepAreFollowed) {
   // Two rigid columns side by side, V = k x^2/2 + p y with k = 10 and 10.1: each buckles at p = k, within the
   // same step of the load, into k cos theta = p to either side.
   const auto diagram = follow_branches<2>(

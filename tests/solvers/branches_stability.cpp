@@ -32,7 +32,7 @@ Diagram<Equilibrium<2>> follow_linear(const auto& stiffness, const BranchOptions
       options);
 }
 
-TEST(Branches, OfFollowerLoadsForkWhereTheDeterminantIsZeroAndNowhereElse) {
+TEST(Branches, FollowerLoadsForkWhereTheDeterminantIsZeroAndNowhereElse) {
   // det = 1 for every P, though the symmetric part is singular at P = 2.
   const auto column = follow_linear(
       [](double P) {
@@ -70,7 +70,7 @@ TEST(Branches, AForkIsFoundWhereTwoEigenvaluesMeetAtZero) {
   }
 }
 
-TEST(Branches, OfFollowerLoadsTellWhereFlutterBegins) {
+TEST(Branches, FollowerLoadsTellWhereFlutterBegins) {
   // s^2 = -mu, mu^2 - (3 - P) mu + 1 = 0: a complex pair where |3 - P| < 2, with omega = 1 at P = 1. At P = 5
   // it turns into two real mu < 0, which grow as it does: no limit of stability.
   const auto column = [](double P) { return Eigen::Matrix2d{{2.0 - P, P - 1.0}, {-1.0, 1.0}}; };
@@ -88,7 +88,7 @@ TEST(Branches, OfFollowerLoadsTellWhereFlutterBegins) {
   EXPECT_TRUE(damped.bifurcations.empty());
 }
 
-TEST(Branches, OfZieglersColumnTellItsFlutterLoad) {
+TEST(Branches, ZieglersColumnTellsItsFlutterLoad) {
   // Two links of 1 with springs of 1, masses 2 at the knee and 1 at the tip, P along the last link: with
   // w = omega^2, 2 w^2 + (2 P - 7) w + 1 = 0, a double root at P = 7/2 - sqrt(2), omega^4 = 1/2.
   const auto found = follow_branches<2>(
@@ -131,7 +131,7 @@ TEST(Branches, TellWhereNegativeDampingSetsIn) {
   EXPECT_NEAR(found.flutters[0].frequency, 2.0, located);
 }
 
-TEST(Branches, ThatLoseAndGainStabilityAtOnceFork) {
+TEST(Branches, SimultaneousLossAndGainOfStabilityIsAFork) {
   // V = (p - 1) x^2/2 + (1 - p) y^2/2 + (x^4 + y^4)/4: as many eigenvalues < 0 before as after; x^2 = 1 - p
   // before and y^2 = p - 1 after.
   const auto exchange = follow_linear(
@@ -152,7 +152,7 @@ TEST(Branches, ThatLoseAndGainStabilityAtOnceFork) {
   EXPECT_NEAR(two.bifurcations[0].parameter + two.bifurcations[1].parameter, 2.003, 2 * located);
 }
 
-TEST(Branches, WithAnEigenvalueThatIsBelowZeroBetweenTwoPointsOnlyFork) {
+TEST(Branches, EigenvalueBelowZeroBetweenTwoPointsIsAFork) {
   // K = (p - 1) (p - 1.004) along x: both ends of a step of 0.044 are above 0.
   const auto found = follow_linear(
       [](double p) {
@@ -178,7 +178,7 @@ Diagram<Equilibrium<2>> follow_truss(double h, const BranchOptions& options) {
       options);
 }
 
-TEST(Branches, OfASteepTrussForkSidewaysWhereTheySayWhateverTheStep) {
+TEST(Branches, SteepTrussForksSidewaysAtOnePlaceWhateverTheStep) {
   // k_xx = 2 k (1 - l0/l + l0 b^2/l^3) = 0 with l^2 = b^2 + y^2: l^3 - l0 l^2 + l0 b^2 = 0, l < l0, which has
   // a solution where l0^2 >= 27/4; the load there is 2 k y (l0/l - 1).
   for (const double h : {3.0, 2.6}) {

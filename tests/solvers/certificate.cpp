@@ -302,7 +302,7 @@ TEST(Certificate, SaysWhereSomethingHappensInOneRunOnly) {
 }
 
 /// Vibrations of a spring of 1e8 N/m: explicit steps would have to follow them.
-TEST(Certificate, OfAStiffSceneIsByTwoImplicitRuns) {
+TEST(Certificate, ComparesTwoImplicitRunsOfAStiffScene) {
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -9.81}});
   const auto bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});

@@ -148,7 +148,7 @@ TEST_P(Changes, ContactsAndFrictionAnswerAnImposedConstraint) {
   }
 }
 
-TEST_P(Changes, AtOneTimeAreAllCarriedOutAndListed) {
+TEST_P(Changes, SimultaneousChangesAreAllCarriedOutAndListed) {
   Scene<2> scene;
   const auto ball = scene.add_particle({.mass = 1.0, .velocity = {1.0, 0.0}});
   const auto speed_up = [=](double by) {
@@ -174,7 +174,7 @@ TEST_P(Changes, AtOneTimeAreAllCarriedOutAndListed) {
 }
 
 // A ball falls 1/2 onto a floor without restitution; where it strikes, at sqrt(1/g), the user ends the run.
-TEST_P(Changes, AndImpactsWhereAnEventEndsTheRunAreCarriedOut) {
+TEST_P(Changes, ImpactIsCarriedOutWhereAnEventEndsTheRun) {
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -g}});
   const auto ball = scene.add_particle({.mass = 1.0, .position = {0.0, 0.5}});
@@ -192,7 +192,7 @@ TEST_P(Changes, AndImpactsWhereAnEventEndsTheRunAreCarriedOut) {
 }
 
 // The last step reaches from several samples to the change at its end: they are of the motion before it.
-TEST_P(Changes, WhereTheRunEndsLeaveWhatWasBefore) {
+TEST_P(Changes, LastChangeLeavesTheSamplesBeforeIt) {
   Scene<2> scene;
   const auto body = scene.add_particle({.mass = 1.0, .velocity = {1.0, 0.0}});
   const Event<2> back{
@@ -245,7 +245,7 @@ TEST_P(Changes, ChatteringChangesAreErrors) {
   }
 }
 
-TEST_P(Changes, ReleasedStopLetsItFall) {
+TEST_P(Changes, ReleasedStopLetsTheBodyFall) {
   // Stopped on its way down a ball falls on, through where it was stopped.
   const Reflected its(0.0);
   const auto run = simulate(its.scene, options(1.0), {its.bounce(0.0)});
@@ -254,7 +254,7 @@ TEST_P(Changes, ReleasedStopLetsItFall) {
   EXPECT_NEAR(run.position(its.ball, 10).y(), -0.5 * g * left * left, bound);
 }
 
-TEST_P(Changes, GoOnWithTheWayThatWasCovered) {
+TEST_P(Changes, LengthOfThePathIsKeptAcrossChanges) {
   // Reflected without loss a lone ball flies as far each time: its length is that of all its way, up to the
   // last reflection and on from there, and not that of a step which would have gone through the floor.
   const Reflected its(1.0);

@@ -127,7 +127,7 @@ class CompliantTwin : public testing::TestWithParam<Stepper> {
 };
 INSTANTIATE_TEST_SUITE_P(Steppers, CompliantTwin, both_steppers, stepper_name);
 
-TEST_P(CompliantTwin, BesideRedundantRods) {
+TEST_P(CompliantTwin, MovesAlikeBesideRedundantRods) {
   compare<2>([](CompliantMultipliers springs) {
     Built<2> b("redundant");
     const auto bob = b.particle(1.0, {1.0, 0.0}), low = b.particle(0.5, {1.0, -1.0});
@@ -138,7 +138,7 @@ TEST_P(CompliantTwin, BesideRedundantRods) {
   });
 }
 
-TEST_P(CompliantTwin, BetweenThePointsOfARod) {
+TEST_P(CompliantTwin, MovesAlikeBetweenThePointsOfARod) {
   compare<2>([](CompliantMultipliers springs) {
     Built<2> b("parallel");
     const auto bob = b.particle(1.0, {1.0, 0.0}), low = b.particle(0.5, {2.0, 0.0});
@@ -150,7 +150,7 @@ TEST_P(CompliantTwin, BetweenThePointsOfARod) {
   });
 }
 
-TEST_P(CompliantTwin, FromADrivenPin) {
+TEST_P(CompliantTwin, MovesAlikeOnADrivenPin) {
   compare<2>([](CompliantMultipliers springs) {
     Built<2> b("driven");
     const auto bob = b.particle(1.0, {0.3, -1.0}), end = b.particle(0.2, {0.3, -1.5});
@@ -162,7 +162,7 @@ TEST_P(CompliantTwin, FromADrivenPin) {
   });
 }
 
-TEST_P(CompliantTwin, OfADumbbellThatBounces) {
+TEST_P(CompliantTwin, DumbbellBouncesAlike) {
   compare<2>([](CompliantMultipliers springs) {
     Built<2> b("bounces");
     const auto low = b.particle(1.0, {0.0, 0.45}), high = b.particle(2.0, {0.2, 1.4});
@@ -174,7 +174,7 @@ TEST_P(CompliantTwin, OfADumbbellThatBounces) {
   });
 }
 
-TEST_P(CompliantTwin, OfAStackThatLandsAndLifts) {
+TEST_P(CompliantTwin, StackLandsAndLiftsAlike) {
   compare<2>([](CompliantMultipliers springs) {
     Built<2> b("stack");
     const auto a = b.particle(1.0, {0.0, 0.2}), c = b.particle(2.0, {0.0, 1.2}),
@@ -187,7 +187,7 @@ TEST_P(CompliantTwin, OfAStackThatLandsAndLifts) {
   });
 }
 
-TEST_P(CompliantTwin, OfABallThatComesToRest) {
+TEST_P(CompliantTwin, BallComesToRestAlike) {
   compare<2>([](CompliantMultipliers springs) {
     Built<2> b("rests");
     const auto ball = b.particle(1.0, {0.0, 0.1});
@@ -198,7 +198,7 @@ TEST_P(CompliantTwin, OfABallThatComesToRest) {
   });
 }
 
-TEST_P(CompliantTwin, OfABlockThatSticksAndSlips) {
+TEST_P(CompliantTwin, BlockSticksAndSlipsAlike) {
   compare<2>([](CompliantMultipliers springs) {
     Built<2> b("stick-slip");
     const auto block = b.particle(1.0, {1.0, 0.0});
@@ -210,7 +210,7 @@ TEST_P(CompliantTwin, OfABlockThatSticksAndSlips) {
   });
 }
 
-TEST_P(CompliantTwin, ThatPressesARoughContact) {
+TEST_P(CompliantTwin, PressesARoughContactAlike) {
   compare<2>([](CompliantMultipliers springs) {
     Built<2> b("pressed");
     const auto block = b.particle(1.0, {0.0, 0.0}, {1.0, 0.0});
@@ -221,7 +221,7 @@ TEST_P(CompliantTwin, ThatPressesARoughContact) {
   });
 }
 
-TEST_P(CompliantTwin, OfAWheelThatRolls) {
+TEST_P(CompliantTwin, WheelRollsAlike) {
   compare<2>([](CompliantMultipliers springs) {
     Built<2> b("wheel");
     const auto centre = b.particle(1.0, {0.0, 0.5}), trailer = b.particle(1.0, {-1.0, 0.4});
@@ -233,7 +233,7 @@ TEST_P(CompliantTwin, OfAWheelThatRolls) {
   });
 }
 
-TEST_P(CompliantTwin, OfASkateWithATrailer) {
+TEST_P(CompliantTwin, SkateMovesAlikeWithATrailer) {
   compare<2>([](CompliantMultipliers springs) {
     Built<2> b("skate");
     const auto front = b.particle(1.0, {1.0, 0.0}, {1.0, 0.0}),
@@ -249,7 +249,7 @@ TEST_P(CompliantTwin, OfASkateWithATrailer) {
   });
 }
 
-TEST_P(CompliantTwin, BetweenHingedBodies) {
+TEST_P(CompliantTwin, HingedBodiesMoveAlike) {
   compare<2>([](CompliantMultipliers springs) {
     Built<2> b("hinged");
     const auto arm = add_body<2>(b.scene, {.mass = 1.0, .inertia = 0.1, .centre = {0.5, 0.0}}, "arm");
@@ -263,7 +263,7 @@ TEST_P(CompliantTwin, BetweenHingedBodies) {
   });
 }
 
-TEST_P(CompliantTwin, OfABodyInSpace) {
+TEST_P(CompliantTwin, BodyInSpaceMovesAlike) {
   compare<3>([](CompliantMultipliers springs) {
     Built<3> b("hung");
     const auto body = add_body<3>(
@@ -277,7 +277,7 @@ TEST_P(CompliantTwin, OfABodyInSpace) {
   });
 }
 
-TEST_P(CompliantTwin, BesideAStringThatGoesTaut) {
+TEST_P(CompliantTwin, StringGoesTautAlike) {
   compare<2>([](CompliantMultipliers springs) {
     Built<2> b("string");
     const auto bob = b.particle(1.0, {0.5, -0.2}), low = b.particle(0.3, {0.5, -0.7});
@@ -291,7 +291,7 @@ TEST_P(CompliantTwin, BesideAStringThatGoesTaut) {
   });
 }
 
-TEST_P(CompliantTwin, OfBallsInARowBetweenWalls) {
+TEST_P(CompliantTwin, BallsInARowBounceAlikeBetweenWalls) {
   compare<2>([](CompliantMultipliers springs) {
     Built<2> b("row");
     const auto a = b.particle(1.0, {0.0, 0.0}, {2.1, 0.0}), c = b.particle(1.0, {1.0, 0.0}),
@@ -306,7 +306,7 @@ TEST_P(CompliantTwin, OfBallsInARowBetweenWalls) {
   });
 }
 
-TEST_P(CompliantTwin, WhereAConstraintIsImposed) {
+TEST_P(CompliantTwin, ImposedConstraintActsAlike) {
   compare<2>([](CompliantMultipliers springs) {
     Built<2> b("imposed");
     const auto ball = b.particle(2.0, {0.6, 0.0}), other = b.particle(1.0, {0.9, 0.3});
@@ -319,7 +319,7 @@ TEST_P(CompliantTwin, WhereAConstraintIsImposed) {
   });
 }
 
-TEST_P(CompliantTwin, WhereAChangeThrowsABallUp) {
+TEST_P(CompliantTwin, ChangeThrowsABallUpAlike) {
   // Off the floor, pulled by its spring, and the other onto the ceiling.
   compare<2>([](CompliantMultipliers springs) {
     Built<2> b("thrown");
@@ -338,7 +338,7 @@ TEST_P(CompliantTwin, WhereAChangeThrowsABallUp) {
   });
 }
 
-TEST_P(CompliantTwin, ReleasedAndImposedAgain) {
+TEST_P(CompliantTwin, MovesAlikeReleasedAndImposedAgain) {
   // The twin's spring loses its stiffness and gets it back.
   for (const bool again : {false, true}) {
     Scene<2> scene("cut"), twin("cut");

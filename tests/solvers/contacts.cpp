@@ -39,7 +39,7 @@ TEST(Complementarity, IsSolvedForRandomPositiveSemidefiniteMatrices) {
   }
 }
 
-TEST(Complementarity, WithoutSolutionSaysSo) {
+TEST(Complementarity, SaysThatThereIsNoSolution) {
   EXPECT_FALSE(complementary_solution(Eigen::MatrixXd::Zero(1, 1), Eigen::VectorXd::Constant(1, -1.0)));
   Eigen::MatrixXd M(2, 2);
   M << 1.0, -1.0, -1.0, 1.0;

@@ -11,7 +11,7 @@ namespace {
 class ContactsAtRoundOff : public WithEvents {};
 INSTANTIATE_TEST_SUITE_P(Runs, ContactsAtRoundOff, at_tolerances, tolerance_name);
 
-TEST_P(ContactsAtRoundOff, OnBothSidesPushOnTheSideThatIsPressed) {
+TEST_P(ContactsAtRoundOff, OnlyThePressedSideOfASlotPushes) {
   // A slot without play, gravity across it: the floor bears, the ceiling does nothing, from the first sample.
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -g}});

@@ -285,7 +285,7 @@ TEST_P(CoulombFriction, FrictionIsExactWhereTheForceOfAWireChangesItsSign) {
   }
 }
 
-TEST_P(CoulombFriction, WithoutForceDoesNotChatter) {
+TEST_P(CoulombFriction, UnpressedContactDoesNotChatter) {
   // Nothing presses, nothing pulls.
   Scene<2> scene;
   const auto block = scene.add_particle({.mass = 1.0});

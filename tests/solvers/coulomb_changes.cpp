@@ -271,7 +271,7 @@ TEST_P(CoulombChanges, TwoFeetHaveTheFrictionOfBoth) {
   EXPECT_NEAR(run.velocity(right, 10).x(), v, bound() * v);
 }
 
-TEST_P(CoulombChanges, InSpaceTurnsAPuckBackDownAnIncline) {
+TEST_P(CoulombChanges, PuckTurnsBackDownAnIncline) {
   // Straight up with 2: slows by (s + mu c) g, then back with (s - mu c) g.
   constexpr double mu = 0.2, s = 0.6, c = 0.8;
   Scene<3> scene;
@@ -310,7 +310,7 @@ double time_of_rest(double f, double mu, double k, double speed, double theta) {
   return x.t;
 }
 
-TEST_P(CoulombChanges, InSpaceBringsToRestInTimeWhereItsForceVaries) {
+TEST_P(CoulombChanges, PuckComesToRestInTimeUnderAVaryingForce) {
   constexpr double mu = 0.3, k = 2.0;
   for (const double f : {0.4, 1.2}) {
     for (const double angle : {0.5, 1.5, 2.5}) {

@@ -38,7 +38,7 @@ TEST(Branches, TellTheSidesOfAKinkApartAndItsEdge) {
   EXPECT_NE(outcome(0.0), outcome(1.0));
 }
 
-TEST(Branches, ThatAreHeldGoOnBeyondTheirEnd) {
+TEST(Branches, HeldBranchGoesOnBeyondItsEnd) {
   using S = Jet<1>;
   Branches::Sides held;
   {
@@ -56,7 +56,7 @@ TEST(Branches, ThatAreHeldGoOnBeyondTheirEnd) {
   EXPECT_EQ(recorded[0].back().difference, -0.25);  // behind 2
 }
 
-TEST(Branches, AreHeardOnlyWhileSomebodyListens) {
+TEST(Branches, ComparisonsAreRecordedOnlyWhileSomebodyListens) {
   EXPECT_EQ(sides([] { EXPECT_FALSE((Jet<1>(1.0) < 0.0)); }).size(), 1U);
   EXPECT_TRUE((Jet<1>(1.0) > 0.0));
 }
@@ -124,7 +124,7 @@ TEST_P(Kinks, KinksOfAPotentialAreMetAtTheStartAndOnTheWay) {
 
 // No error estimate would see an effect of 1e-3: it weights a jump between the 6th and the 9th stage by a
 // thousandth of what the step does.
-TEST_P(Kinks, FromOneInstantOnIsWhenTheForceActs) {
+TEST_P(Kinks, ForceActsFromItsInstantOn) {
   for (const double begin : {0.21, 0.51, 0.55, 0.83}) {
     OnALine line(0.0, 1.0);
     line.push([begin](const auto& t, const auto&, const auto&) { return t >= begin ? 1.0 : 0.0; }, "wind");
@@ -181,7 +181,7 @@ TEST(Chatter, IsSaidByTheNameOfTheForce) {
       ThrowsMessage<IntegrationFailure>(AllOf(HasSubstr("ForceLaw \"relay\""), HasSubstr("chatter"))));
 }
 
-TEST(Corner, OfACurveStopsTheBeadByTheNameOfTheCurve) {
+TEST(Corner, StopsTheBeadByTheNameOfTheCurve) {
   Scene<2> scene("vee");
   scene.add(UniformGravity<2>{{0.0, -g}});
   const auto bead = scene.add_particle({.mass = 1.0, .position = {1.0, 1.0}}, "bead");
@@ -228,7 +228,7 @@ class Friction : public testing::TestWithParam<Stepper> {
 INSTANTIATE_TEST_SUITE_P(InBothSteppers, Friction, both_steppers, stepper_name);
 
 // mu = 0.7 > tan(0.5) = 0.546: it stops after v/(g (sin + mu cos)).
-TEST_P(Friction, ThatSticksStopsTheRunWhenItDoes) {
+TEST_P(Friction, StopsTheRunWhenItSticks) {
   for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {
     OnASlope slope({-2.0, 0.0, 0.0});
     slope.rub(coulomb(0.7));
@@ -242,7 +242,7 @@ TEST_P(Friction, ThatSticksStopsTheRunWhenItDoes) {
   }
 }
 
-TEST_P(Friction, ThatHoldsWhatIsAtRestStopsTheRunAtItsStart) {
+TEST_P(Friction, StopsTheRunAtItsStartWhereItHolds) {
   OnASlope slope({0.0, 0.0, 0.0});
   slope.rub(coulomb(0.7));
   EXPECT_THAT([&] { (void)simulate(slope.scene, options(1e-6)); },
@@ -250,7 +250,7 @@ TEST_P(Friction, ThatHoldsWhatIsAtRestStopsTheRunAtItsStart) {
                   AllOf(HasSubstr("stopped at t = 0:"), HasSubstr("FrictionLaw \"rub\" would stick"))));
 }
 
-TEST_P(Friction, ThatIsWeakerLetsTheBlockSlideFromRest) {
+TEST_P(Friction, LetsTheBlockSlideFromRestWhereItIsWeaker) {
   OnASlope slope({0.0, 0.0, 0.0});
   slope.rub(coulomb(0.3));
   const auto run = simulate(slope.scene, options(1e-8));
@@ -258,7 +258,7 @@ TEST_P(Friction, ThatIsWeakerLetsTheBlockSlideFromRest) {
   EXPECT_NEAR(run.position(slope.block, 10).x(), 0.5 * a, 1e3 * 1e-8);
 }
 
-TEST_P(Friction, ThatIsWeakerLetsTheBlockTurnBack) {
+TEST_P(Friction, LetsTheBlockTurnBackWhereItIsWeaker) {
   for (const double tolerance : {1e-5, 1e-7, 1e-9}) {
     OnASlope slope({-2.0, 0.0, 0.0});
     slope.rub(coulomb(0.3));
@@ -272,7 +272,7 @@ TEST_P(Friction, ThatIsWeakerLetsTheBlockTurnBack) {
 
 // Across the slope the direction of sliding turns, the speed never vanishes, and nothing is to be reported:
 // v' = g (sin(0.5) e_x - 0.3 cos(0.5) v/|v|), by Runge-Kutta of order 4 in steps whose error is round-off.
-TEST_P(Friction, ThatTurnsTheBlockRoundIsFollowed) {
+TEST_P(Friction, TurnsTheBlockRound) {
   OnASlope slope({-2.0, 0.5, 0.0});
   slope.rub(coulomb(0.3));
   const auto run = simulate(slope.scene, options(1e-8));
@@ -292,7 +292,7 @@ TEST_P(Friction, ThatTurnsTheBlockRoundIsFollowed) {
 }
 
 // Smoothed over speeds of 1e-2 the block creeps down with v/sqrt(v^2 + 1e-4) = tan(0.5)/0.7.
-TEST_P(Friction, ThatIsSmoothedCreeps) {
+TEST_P(Friction, CreepsIfSmoothed) {
   OnASlope slope({-2.0, 0.0, 0.0});
   slope.rub([](auto N, auto, auto v) { return (-0.7 * N / sqrt(v.squaredNorm() + 1e-4) * v).eval(); });
   const auto run = simulate(slope.scene, options(1e-8));

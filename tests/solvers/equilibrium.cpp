@@ -33,7 +33,7 @@ struct Hung {
   }
 };
 
-TEST(Equilibrium, OfAPendulumIsBelowItsPivotAndTheRodCarriesItsWeight) {
+TEST(Equilibrium, PendulumHangsBelowItsPivotAndTheRodCarriesItsWeight) {
   const Hung hung(1.0);
   const auto found = equilibrium(hung.scene);
   EXPECT_NEAR(found.sample().position(hung.bob).x(), 0.0, rounding);
@@ -44,7 +44,7 @@ TEST(Equilibrium, OfAPendulumIsBelowItsPivotAndTheRodCarriesItsWeight) {
   EXPECT_NEAR(found.sample().energy(), -19.62, 19.62 * rounding);
 }
 
-TEST(Equilibrium, NearAnUnstableOneIsTheUnstableOne) {
+TEST(Equilibrium, StaysAtTheUnstableOneNearby) {
   const Hung hung(3.0);
   const auto found = equilibrium(hung.scene);
   EXPECT_NEAR(found.sample().position(hung.bob).y(), 1.0, rounding);
@@ -59,7 +59,7 @@ TEST(Equilibrium, IsFoundFromWhereNewtonsMatrixIsSingular) {
   EXPECT_NEAR(found.sample().position(hung.bob).y(), -1.0, rounding);
 }
 
-TEST(Equilibrium, OfAChainThrownFarIsPlumb) {
+TEST(Equilibrium, ChainThrownFarHangsPlumb) {
   const auto chain = models::Chain{.beads = 20}.scene();  // released from horizontal
   const auto found = equilibrium(chain.scene);
   for (std::size_t i = 0; i < 20; ++i) {
@@ -78,7 +78,7 @@ TEST(Equilibrium, PutsAGuessThatViolatesTheConstraintsOntoThem) {
   EXPECT_NEAR(found.sample().position(bob).y(), -1.0, rounding);
 }
 
-TEST(Equilibrium, OfWhatHangsOnASpringStretchesItByTheWeight) {
+TEST(Equilibrium, WeightStretchesItsSpring) {
   // A rod of compliance C = 1/k, and a spring of stiffness k in its place: l + m g/k.
   for (const double k : {1e2, 1e12}) {
     Scene<2> scene;
@@ -97,7 +97,7 @@ TEST(Equilibrium, OfWhatHangsOnASpringStretchesItByTheWeight) {
   EXPECT_NEAR(found.sample().position(bob).y(), -1.1962, rounding);
 }
 
-TEST(Equilibrium, WithTwoEqualRodsSharesTheLoadAndSaysSo) {
+TEST(Equilibrium, TwoEqualRodsShareTheLoadAndSaySo) {
   Hung hung(1.0);
   const auto other = hung.scene.add(Distance{hung.bob, Fixed<2>{}, 1.0}, "other rod");
   const auto found = equilibrium(hung.scene);
@@ -106,7 +106,7 @@ TEST(Equilibrium, WithTwoEqualRodsSharesTheLoadAndSaysSo) {
   EXPECT_FALSE(found.sample().is_unique(hung.rod));
 }
 
-TEST(Equilibrium, OfASkateIsReachedAlongItsBlade) {
+TEST(Equilibrium, SkateReachesItAlongItsBlade) {
   // A blade along x: a spring to the origin draws it to x = 0, and the blade takes up the force along y.
   Scene<2> scene;
   const auto skate = scene.add_particle({.mass = 2.0, .position = {0.6, -0.8}});
@@ -118,7 +118,7 @@ TEST(Equilibrium, OfASkateIsReachedAlongItsBlade) {
   EXPECT_NEAR(found.sample().multiplier(blade), -8.0, 8.0 * rounding);
 }
 
-TEST(RelativeEquilibrium, OfAConicalPendulumHasItsWeightOverTheCosineAsTension) {
+TEST(RelativeEquilibrium, ConicalPendulumsTensionIsItsWeightOverTheCosine) {
   // m l Omega^2 sin cos = m g sin: cos = g/(l Omega^2), tension m l Omega^2.
   Scene<3> scene;
   scene.add(UniformGravity<3>{{0.0, 0.0, -9.81}});
@@ -144,7 +144,7 @@ TEST(RelativeEquilibrium, TurnsAboutAnyAxis) {
   EXPECT_NEAR(e.dot(found.sample().position(bob) - p), -9.81 / 16.0, 10 * rounding);
 }
 
-TEST(RelativeEquilibrium, InThePlaneHoldsASpringStretched) {
+TEST(RelativeEquilibrium, HoldsASpringStretchedInThePlane) {
   // k (x - l) = m Omega^2 x about a centre that is not the origin.
   Scene<2> scene;
   const auto bead = scene.add_particle({.mass = 1.0, .position = {2.1, 3.0}});
@@ -187,7 +187,7 @@ auto refusal(const Scene<D>& scene, const EquilibriumOptions<D>& options = {}) {
   return [&scene, options] { (void)equilibrium(scene, options); };
 }
 
-TEST(Equilibrium, OfWhatFallsIsRefusedByName) {
+TEST(Equilibrium, FallingBodyHasNone) {
   Scene<2> scene("drop");
   scene.add(UniformGravity<2>{{0.0, -9.81}});
   scene.add_particle({.mass = 2.0, .position = {0.0, 1.0}}, "stone");
@@ -195,7 +195,7 @@ TEST(Equilibrium, OfWhatFallsIsRefusedByName) {
                                   AllOf(HasSubstr("\"drop\""), HasSubstr("\"stone\""), HasSubstr("9.81"))));
 }
 
-TEST(Equilibrium, OnASlopeThatNeverEndsIsRefused) {
+TEST(Equilibrium, EndlessSlopeHasNone) {
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -9.81}});
   const auto block = scene.add_particle({.mass = 2.0}, "block");
@@ -203,7 +203,7 @@ TEST(Equilibrium, OnASlopeThatNeverEndsIsRefused) {
   EXPECT_THAT(refusal(scene), ThrowsMessage<NoEquilibrium>(HasSubstr("\"block\"")));
 }
 
-TEST(Equilibrium, OfADrivenSceneIsRefusedByItsDrive) {
+TEST(Equilibrium, DrivenSceneIsRefusedByItsDrive) {
   Scene<2> scene;
   const auto bob = scene.add_particle({.mass = 1.0, .position = {0.0, -1.0}});
   scene.add(UniformGravity<2>{{0.0, -9.81}});
@@ -211,7 +211,7 @@ TEST(Equilibrium, OfADrivenSceneIsRefusedByItsDrive) {
   EXPECT_THAT(refusal(scene), ThrowsMessage<NoEquilibrium>(HasSubstr("Distance \"crank\" moves")));
 }
 
-TEST(Equilibrium, ThatLastsForAnInstantIsRefused) {
+TEST(Equilibrium, MustLastLongerThanAnInstant) {
   Scene<2> scene;
   const auto bob = scene.add_particle({.mass = 1.0, .position = {0.0, -1.0}});
   scene.add(potential(points(bob),
@@ -219,13 +219,13 @@ TEST(Equilibrium, ThatLastsForAnInstantIsRefused) {
   EXPECT_THAT(refusal(scene), ThrowsMessage<NoEquilibrium>(HasSubstr("change with time")));
 }
 
-TEST(RelativeEquilibrium, OfAnotherTurningThanTheDrivesIsRefused) {
+TEST(RelativeEquilibrium, RotationMustBeThatOfTheDrives) {
   const auto built = models::HoopAboutDiameter{.spin = 4.5}.scene();
   EXPECT_THAT(refusal(built.scene, {.turning = {.rate = {0.0, 0.0, 4.4}}}),
               ThrowsMessage<NoEquilibrium>(HasSubstr("RotatingPlane")));
 }
 
-TEST(RelativeEquilibrium, OfASceneThatIsNotRoundIsRefused) {
+TEST(RelativeEquilibrium, SceneMustBeSymmetricAboutTheAxis) {
   // A wall of the bowl that is oval: in balance at the start, no longer a quarter turn on.
   Scene<3> scene;
   scene.add(UniformGravity<3>{{0.0, 0.0, -9.81}});
@@ -234,7 +234,7 @@ TEST(RelativeEquilibrium, OfASceneThatIsNotRoundIsRefused) {
   EXPECT_THROW((void)equilibrium(scene, {.turning = {.rate = {0.0, 0.0, std::sqrt(9.81)}}}), NoEquilibrium);
 }
 
-TEST(Equilibrium, WithFrictionIsRefusedByName) {
+TEST(Equilibrium, RefusesFrictionByName) {
   Hung hung(1.0);
   hung.scene.add(friction_law(hung.rod, points(hung.bob),
                               [](auto lambda, auto, auto v) { return (-0.1 * lambda * lambda * v).eval(); }),
@@ -274,7 +274,7 @@ TEST(Equilibrium, IsFoundWhereOneForceAloneActs) {
   EXPECT_NEAR(found.sample().position(bead).x(), 1.0, 1e-10);
 }
 
-TEST(Equilibrium, OfALightParticleIsNotTakenForOneBesideAStiffSpring) {
+TEST(Equilibrium, LightParticleIsNotAtRestBesideAStiffSpring) {
   // A bead of 1e-6 kg that falls, held sideways by 1e10 N/m.
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -9.81}});

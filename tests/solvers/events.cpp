@@ -187,7 +187,7 @@ TEST_P(Events, FailingEventStopsTheRunByName) {
               ThrowsMessage<InvalidArgument>(AllOf(HasSubstr("\"slack\""), HasSubstr("no function"))));
 }
 
-TEST_P(Events, BeforeAFailureAreKept) {
+TEST_P(Events, EventsBeforeAFailureAreKept) {
   const Pendulum pendulum(1.0);
   try {
     (void)simulate(pendulum.scene, options(3.0),

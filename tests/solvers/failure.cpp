@@ -126,7 +126,7 @@ TEST(Failure, StepsAreLimited) {
   EXPECT_EQ(failure->trajectory<2>().statistics().steps, 50);
 }
 
-TEST(Failure, OfAnObserverReachesItsUser) {
+TEST(Failure, ExceptionOfAnObserverReachesItsUser) {
   const Pendulum pendulum;
   EXPECT_THAT(
       [&] {

@@ -119,7 +119,7 @@ TEST_P(FastEvents, FunctionsWithJumpsOrCornersAreFollowed) {
   EXPECT_NEAR(run.events()[2].time, 1.301, 1e-12);
 }
 
-TEST_P(FastEvents, AtTheEndOfARunAreListedAndCarriedOut) {
+TEST_P(FastEvents, EventAtTheEndOfARunIsListedAndCarriedOut) {
   Fall fall;
   const auto changed = std::make_shared<int>(0);
   const std::vector<Event<2>> events{
@@ -142,7 +142,7 @@ TEST_P(FastEvents, AtTheEndOfARunAreListedAndCarriedOut) {
 }
 
 // Before a change, at it, and as close behind it as round-off tells: each once.
-TEST_P(FastEvents, BesideAChangeAreListedOnce) {
+TEST_P(FastEvents, EventBesideAChangeIsListedOnce) {
   for (const double behind : {-1e-9, -1e-14, 0.0, 1e-14, 1e-12, 1e-11, 1e-9}) {
     const std::vector<Event<2>> events{
         {.name = "change",
@@ -155,7 +155,7 @@ TEST_P(FastEvents, BesideAChangeAreListedOnce) {
 }
 
 // A step may be as long as a period, or several: few values of it are alike by chance at some rate.
-TEST_P(FastEvents, AtAnyRateAreAllFound) {
+TEST_P(FastEvents, EventsAtAnyRateAreAllFound) {
   constexpr int rates = 100;
   for (int k = 0; k < rates; ++k) {
     const double rate = 20.0 * std::pow(100.0, k / (rates - 1.0));

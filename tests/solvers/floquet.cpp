@@ -44,7 +44,7 @@ TEST(Floquet, RestingSceneHasTheMultipliersOfItsModes) {
   }
 }
 
-TEST(Floquet, WithRepeatedAndYieldingConstraintsAreThoseOfOne) {
+TEST(Floquet, RepeatedAndCompliantConstraintsChangeNoMultiplier) {
   Hung twice;
   twice.scene.add(Distance{twice.bob, Fixed<2>{}, 1.0});
   EXPECT_NEAR(floquet(twice.scene, 0.7).multipliers[0].real(), std::cos(0.7 * std::sqrt(9.81)), known);
@@ -93,7 +93,7 @@ TEST(Floquet, ProductOfMultipliersMatchesDrag) {
   EXPECT_EQ(found.stability(), Stability::stable);
 }
 
-TEST(Floquet, TurnAwayFromOneAtKapitzasBoundary) {
+TEST(Floquet, MultipliersMeetAtOneOnKapitzasBoundary) {
   // g/(l omega^2) at A/l = 0.05, 0.1, 0.2: -a_0(q)/4 of Mathieu's equation, q = 2 A/l, to the digits
   // published. There the multipliers meet at 1; their sum changes by about (2 pi)^2 per unit of x, so that x
   // is known to 1e-10/40.
@@ -111,7 +111,7 @@ TEST(Floquet, TurnAwayFromOneAtKapitzasBoundary) {
   }
 }
 
-TEST(Floquet, LibrationHasOneTwice) {
+TEST(Floquet, LibrationHasTheMultiplierOneTwice) {
   // Along the motion nothing changes, and another amplitude has another period: a Jordan block, whose
   // eigenvalues are known to the square root.
   const models::PlanePendulum pendulum;
@@ -121,7 +121,7 @@ TEST(Floquet, LibrationHasOneTwice) {
   EXPECT_EQ(found.stability(), Stability::undecided);
 }
 
-TEST(Floquet, DoNotDependOnTheUnitOfTime) {
+TEST(Floquet, MultipliersDoNotDependOnTheUnitOfTime) {
   // A bob goes round on a turntable's rod without gravity, at one turn in a time unit of any size: its
   // distance and its turning are 1 and 1, coupled. (In small units velocity rows are far longer than position
   // rows.)

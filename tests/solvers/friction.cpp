@@ -64,7 +64,7 @@ void expect_slides_down(const Options& options, double compliance) {
 // pivots KLU lets some be a thousand times too small. Sums of some hundred terms are right to 100 roundings
 // of them, a fiftieth of what is allowed at 1e-12; without refinement it was up to 0.04 here and 0.4
 // elsewhere.
-TEST_P(Sliding, BesideABodyLeavesNewtonsEquationsRightToRoundOff) {
+TEST_P(Sliding, KeepsNewtonsEquationsToRoundOffBesideABody) {
   const Vec<3> axis = Vec<3>(0.3, -0.8, 0.5).normalized();
   for (const double turn : {0.2, 0.9, 1.7, 2.6}) {
     Scene<3> scene;
@@ -92,11 +92,11 @@ TEST_P(Sliding, BesideABodyLeavesNewtonsEquationsRightToRoundOff) {
   }
 }
 
-TEST_P(Sliding, DownARoughInclineIsUniformlyAccelerated) { expect_slides_down(options(1.0), 0.0); }
+TEST_P(Sliding, IsUniformlyAcceleratedDownARoughIncline) { expect_slides_down(options(1.0), 0.0); }
 
 // What is pulled along a table without weight presses on it by round-off, of either sign, which |N| must not
 // hear: the motion is that of the pull, and can be read between samples, in whatever direction.
-TEST_P(Sliding, OnATableThatItDoesNotPressIsWithoutFriction) {
+TEST_P(Sliding, HasNoFrictionOnATableThatIsNotPressed) {
   const double m = 1.3, f = 2.0, v0 = 0.7, t = 0.37;
   for (int k = 0; k < 40; ++k) {
     const double angle = 0.16 * k;
@@ -114,11 +114,11 @@ TEST_P(Sliding, OnATableThatItDoesNotPressIsWithoutFriction) {
   }
 }
 
-TEST_P(Sliding, DownAYieldingInclineIsTheSame) { expect_slides_down(options(1.0), 1e-3); }
+TEST_P(Sliding, IsTheSameDownACompliantIncline) { expect_slides_down(options(1.0), 1e-3); }
 
 // Without gravity N = m v^2 / R and m v' = -mu N: v = v0 / (1 + mu v0 t / R),
 // theta = ln(1 + mu v0 t / R) / mu. The bead is inside: the hoop pushes it inwards, lambda = -N.
-TEST_P(Sliding, RoundARoughHoopSlowsDownByTheLogarithm) {
+TEST_P(Sliding, SlowsDownLogarithmicallyRoundARoughHoop) {
   const double mu = 0.3, m = 2.0, R = 1.5, v0 = 4.0;
   Scene<2> scene;
   const auto bead = scene.add_particle({.mass = m, .position = {R, 0.0}, .velocity = {0.0, v0}});
@@ -218,7 +218,7 @@ TEST(SlidingLadder, HasTheMultipliersOfTheLinearSystemByHand) {
   }
 }
 
-TEST_P(Sliding, OfALadderFollowsTheEquationByHand) {
+TEST_P(Sliding, LadderFollowsTheEquationByHand) {
   const Ladder::State start{0.5, 0.8};
   const Ladder ladder(0.4, 0.25, start);
   const auto run = simulate(ladder.scene, options(0.3));
@@ -257,7 +257,7 @@ TEST(SlidingLadder, DrawnBackHasOneAccelerationIfTheTableOnlyPushes) {
 
 // Fast enough, the rod pulls the block off the table, N < 0, and |N| holds it back: a solution like any
 // other. Where the bracket of (2) turns negative, between x = 0.1 and 0.2, there begin to be more than one.
-TEST_P(Sliding, IntoPainlevesParadoxStopsTheRunByName) {
+TEST_P(Sliding, StopsByNameInPainlevesParadox) {
   const Ladder ladder(6.0, 0.0, {0.1, 10.0});
   const auto bracket = [&](double x) {
     const double s = x / ladder.L, c = ladder.height(x) / ladder.L;

@@ -84,7 +84,7 @@ TEST_P(Impacts, RestOfOneBallLeavesAnotherBouncing) {
   }
 }
 
-TEST_P(Impacts, WithoutRestitutionCloseAtOnce) {
+TEST_P(Impacts, PlasticImpactClosesTheContactAtOnce) {
   const Ball scene(0.0);
   const auto run = simulate(scene.scene, options(1.0));
   ASSERT_EQ(run.events().size(), 1U);
@@ -166,7 +166,7 @@ TEST_P(Impacts, BallsApartHandTheSpeedOn) {
   }
 }
 
-TEST_P(Impacts, AtOneTimeAreAllCarriedOut) {
+TEST_P(Impacts, SimultaneousImpactsAreAllCarriedOut) {
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -g}});
   std::vector<Particle<2>> balls;
@@ -185,7 +185,7 @@ TEST_P(Impacts, AtOneTimeAreAllCarriedOut) {
   }
 }
 
-TEST_P(Impacts, AtTheStartHaveAStateBefore) {
+TEST_P(Impacts, ImpactAtTheStartHasAStateBefore) {
   Scene<2> scene;
   const auto ball = scene.add_particle({.mass = 2.0, .velocity = {0.3, -1.0}});
   const auto floor =

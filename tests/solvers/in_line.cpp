@@ -15,7 +15,7 @@ INSTANTIATE_TEST_SUITE_P(Steppers, TwoLinkages, both_steppers, stepper_name);
 /// Parallelograms of unit particles turn uniformly: their rods pull with 1, nothing pulls or pushes the
 /// crossbars. The second is in line a little before the first. Where one has forces without bound, those of
 /// the other must not be judged by them: what can be read is right to the root of the tolerance, as promised.
-TEST_P(TwoLinkages, InLineAtOnceGiveNoForceThatTheirStateDoesNotDetermine) {
+TEST_P(TwoLinkages, GiveNoUndeterminedForceWhenBothAreInLine) {
   constexpr double tolerance = 1e-6, phase = 0.5;
   for (const double before : {1e-5, 1e-4, 1e-3}) {
     Scene<2> scene;

@@ -42,7 +42,7 @@ TEST_P(LagrangianMotions, ShareForcesOfConstraintsThatAreStatedTwice) {
   }
 }
 
-TEST_P(LagrangianMotions, OfARheonomicConstraintFollowIt) {
+TEST_P(LagrangianMotions, FollowARheonomicConstraint) {
   // r = 1 + t/10 prescribed: lambda = r'' - r phi'^2 - g cos phi, and the angular momentum changes by
   // gravity.
   LagrangianSystem<2> system({.position = {1.0, 0.5}, .velocity = {0.1, 0.0}},
@@ -58,7 +58,7 @@ TEST_P(LagrangianMotions, OfARheonomicConstraintFollowIt) {
   }
 }
 
-TEST_P(LagrangianMotions, OfARollingDiskObeyItsNonholonomicConstraints) {
+TEST_P(LagrangianMotions, ObeyTheNonholonomicConstraintsOfARollingDisk) {
   // mln37: upright disk on a plane tilted by beta, x downhill, heading alpha = Omega t:
   // phi'' = m g r sin(beta) cos(Omega t)/(I + m r^2).
   constexpr double m = 2.0, r = 0.5, I = 0.25, J = 0.125, beta = 0.3, Omega = 1.5;
@@ -207,7 +207,7 @@ TEST(LagrangianMotion, RefusesForcesWhereConstraintsAreCloseToDependent) {
   EXPECT_THROW((void)motion.multiplier(circle, 0), UndeterminedForce);
 }
 
-TEST_P(LagrangianMotions, AreReadBetweenSamplesAsWell) {
+TEST_P(LagrangianMotions, CanBeReadBetweenSamples) {
   const LagrangianSystem<1> spring({.position = Vec<1>(1.0)}, [](const auto& q, const auto& v) {
     return 0.5 * v[0] * v[0] - 0.5 * q[0] * q[0];
   });

@@ -15,7 +15,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-TEST(LagrangeTerms, AreTheDerivativesOfTheFunction) {
+TEST(LagrangeTerms, EqualTheDerivativesOfTheFunction) {
   const auto function = [](const auto& t, const auto& q, const auto& v) {
     return 0.5 * (1.0 + q[1] * q[1]) * v[0] * v[0] + sin(t * q[0]) * v[1] + exp(0.3 * v[0] * v[1]) -
            q[0] * q[1];
@@ -167,7 +167,7 @@ TEST(RouthReduction, FindsRatesOfAMomentumThatIsNotLinearInThem) {
   }
 }
 
-TEST(LagrangianSystems, AreNotCyclicWhereACoordinateMattersElsewhere) {
+TEST(LagrangianSystems, CoordinateThatMattersElsewhereIsNotCyclic) {
   const LagrangianSystem<2> stop({}, [](const auto& q, const auto& v) {
     const auto pressed = max(q[0] - 3.0, 0.0);
     return 0.5 * v.squaredNorm() - pow(pressed, 4.0) + cos(q[1]);

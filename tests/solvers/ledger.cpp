@@ -33,7 +33,7 @@ class Ledgers : public WithEvents {
 };
 INSTANTIATE_TEST_SUITE_P(Runs, Ledgers, at_usual_tolerance, tolerance_name);
 
-TEST_P(Ledgers, OfABallThatBouncesHasTheImpactsLossAndTheGroundsImpulse) {
+TEST_P(Ledgers, BouncingBallHasTheLossOfItsImpactsAndTheImpulseOfTheGround) {
   // It falls from h, strikes at v = sqrt(2 g h), and leaves at e v.
   constexpr double m = 2.0, h = 1.0, e = 0.5;
   Scene<2> scene;
@@ -56,7 +56,7 @@ TEST_P(Ledgers, OfABallThatBouncesHasTheImpactsLossAndTheGroundsImpulse) {
   }
 }
 
-TEST_P(Ledgers, OfABlockThatComesToRestHasFrictionsWork) {
+TEST_P(Ledgers, StoppingBlockHasTheWorkOfFriction) {
   // It slides x = v t - mu g t^2 / 2 until v = mu g t; the moment of the floor is that of m g at x.
   // x dt less.
   constexpr double m = 2.0, v = 2.0, mu = 0.4;
@@ -82,7 +82,7 @@ TEST_P(Ledgers, OfABlockThatComesToRestHasFrictionsWork) {
   }
 }
 
-TEST_P(Ledgers, OfABeadOnATurningRodHasTheDrivesWorkAndMoment) {
+TEST_P(Ledgers, BeadOnATurningRodHasTheWorkAndMomentOfTheDrive) {
   // r = r0 cosh(w t) along the rod; E = m w^2 r0^2 cosh(2 w t) / 2, L = m w r^2.
   constexpr double m = 2.0, r0 = 0.5, w = 1.5;
   Scene<2> scene;
@@ -103,7 +103,7 @@ TEST_P(Ledgers, OfABeadOnATurningRodHasTheDrivesWorkAndMoment) {
   }
 }
 
-TEST_P(Ledgers, OfABodyHasNoAccountOfItsInnerRods) {
+TEST_P(Ledgers, InnerRodsOfABodyHaveNoAccount) {
   // What no user stated is one account: the body, a rod of length 1 on a pivot, is held together without
   // work.
   Scene<2> scene;
@@ -124,7 +124,7 @@ TEST_P(Ledgers, OfABodyHasNoAccountOfItsInnerRods) {
     EXPECT_NEAR(of(ledger.work, "what holds bodies together", i), 0.0, bound * g);
 }
 
-TEST_P(Ledgers, OfACompliantRodHasItsElasticEnergyAndOfAChangeWhatItPutIn) {
+TEST_P(Ledgers, CompliantRodHasItsElasticEnergyAndAChangeTheEnergyItPutIn) {
   // x = A cos(w t) about the rod's length, w^2 = 1 / (m C); at a quarter of the period the user doubles the
   // velocity.
   constexpr double m = 2.0, A = 0.1, C = 0.02;

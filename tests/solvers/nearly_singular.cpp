@@ -86,7 +86,7 @@ TEST_P(NearlySingular, BranchesThatTheToleranceDoesNotTellApartAreRefused) {
 }
 
 /// Of equal lengths the branches cross, and the slider goes straight on: x = 2 cos of the crank's angle.
-TEST_P(NearlySingular, WhereBranchesCrossTheSliderGoesStraightOn) {
+TEST_P(NearlySingular, SliderGoesStraightOnWhereBranchesCross) {
   const Crank crank(0.0);
   for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {
     const auto run =

@@ -53,7 +53,7 @@ TEST(NormalModes, PendulumUpsideDownIsUnstable) {
   EXPECT_EQ(modes.stability(), Stability::unstable);
 }
 
-TEST(NormalModes, WithDragDecayAtHalfItsCoefficientOverTheMass) {
+TEST(NormalModes, DecayAtHalfTheDragOverTheMass) {
   // 2 u'' + 1.2 u' + 2 (9.81) u = 0: s = -0.3 +- i sqrt(9.81 - 0.09).
   Bob damped(-1.0);
   damped.scene.add(LinearDrag{damped.bob, 1.2});
@@ -64,7 +64,7 @@ TEST(NormalModes, WithDragDecayAtHalfItsCoefficientOverTheMass) {
   EXPECT_EQ(modes.stability(), Stability::stable);
 }
 
-TEST(NormalModes, WithMuchDragAreTwoThatCreep) {
+TEST(NormalModes, OverdampedModesAreTwoDecays) {
   // s^2 + 8 s + 9.81 = 0.
   Bob damped(-1.0);
   damped.scene.add(LinearDrag{damped.bob, 16.0});
@@ -214,7 +214,7 @@ Scene<3> chain(std::size_t beads, double stiffness = 0.0) {
   return scene;
 }
 
-TEST(LowestModes, AreThoseOfTheDenseMatrix) {
+TEST(LowestModes, EqualThoseOfTheDenseMatrix) {
   // Two methods that share the terms alone. Every frequency of a chain in space is double. Either knows
   // omega^2 to roundings of the highest, 4 g N^2 of rods and 4 k N^2 of springs.
   constexpr std::size_t beads = 40;
@@ -263,7 +263,7 @@ TEST(LowestModes, FindFreeMotionsAndWhatGrows) {
   EXPECT_NE(unstable.stability(), Stability::stable);
 }
 
-TEST(LowestModes, AreRefusedWithoutANumberAndWithNonholonomicRows) {
+TEST(LowestModes, NeedANumberAndHolonomicRows) {
   Scene<3> scene = chain(201);
   const auto rest = equilibrium(scene);
   EXPECT_THAT([&] { (void)normal_modes(scene, rest); }, ThrowsMessage<InvalidScene>(HasSubstr("lowest")));
@@ -303,7 +303,7 @@ struct DampedLine {
   }
 };
 
-TEST(LowestModes, OfALineWithRayleighDampingSolveOneQuadraticEach) {
+TEST(LowestModes, SolveOneQuadraticEachUnderRayleighDamping) {
   // Either eigenvalue is known to roundings of the largest of K, 4 k, over 2 |s|.
   constexpr std::size_t N = 1000;
   const double n = N + 1.0;
@@ -318,7 +318,7 @@ TEST(LowestModes, OfALineWithRayleighDampingSolveOneQuadraticEach) {
   }
 }
 
-TEST(LowestModes, ThatDampingSustainsAreUnstable) {
+TEST(LowestModes, NegativeDampingIsUnstable) {
   // Damping of -2 d over a unit of inertia: modes grow as exp(d t), known to roundings of 4 over the lowest
   // |s| = 0.005, 2e-13, and some.
   const DampedLine line{601, 1.0, -0.002, 0.0};
@@ -360,7 +360,7 @@ void expect_as_dense(const Scene<D>& scene, const UniformRotation<D>& turning, s
   }
 }
 
-TEST(LowestModes, WithOneDashpotAreThoseOfTheDenseMatrix) {
+TEST(LowestModes, OneDashpotGivesThoseOfTheDenseMatrix) {
   for (const double damper : {0.5, 50.0}) {
     Scene<3> scene = chain(40);
     const auto extra = scene.add_particle({.mass = 0.1, .position = {0.5, 0.0, -1.0}});
@@ -370,7 +370,7 @@ TEST(LowestModes, WithOneDashpotAreThoseOfTheDenseMatrix) {
   }
 }
 
-TEST(LowestModes, WithDampingBesideCompliantAndRedundantRowsAreThoseOfTheDenseMatrix) {
+TEST(LowestModes, DampingBesideCompliantAndRedundantRowsGivesThoseOfTheDenseMatrix) {
   Scene<3> scene = chain(40);
   const auto held = scene.add_particle({.mass = 0.1, .position = {0.5, 0.0, -1.0}});
   scene.add(LinearDrag{held, 0.2});
@@ -381,7 +381,7 @@ TEST(LowestModes, WithDampingBesideCompliantAndRedundantRowsAreThoseOfTheDenseMa
   expect_as_dense<3>(scene, {}, 8, 4.0 * 40 * 40);
 }
 
-TEST(LowestModes, OfATurningChainHaveCoriolisForces) {
+TEST(LowestModes, FeelTheCoriolisForcesOfATurningChain) {
   // Beads on a radius, held by springs to the ground of the turning frame and to each other.
   Scene<2> scene("turning");
   std::vector<Particle<2>> beads;
@@ -418,7 +418,7 @@ Eigen::VectorXd residual(const System& system, const RotatingFrame& frame, const
   return out;
 }
 
-TEST(LinearTerms, AreTheDerivativesOfTheResidual) {
+TEST(LinearTerms, EqualTheDerivativesOfTheResidual) {
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.3, -0.9}});
   const auto a = scene.add_particle({.mass = 1.3, .position = {0.9, 0.2}});

@@ -41,7 +41,7 @@ TEST(Options, SamplesHaveABound) {
   expect_refused({.t_end = 1.0, .samples = 2'000'000'000}, "samples", "more than 1e8 samples");
 }
 
-TEST(Options, TheLengthMustBeOne) {
+TEST(Options, TheLengthMustBeFiniteAndNotNegative) {
   for (const double length : {-1.0, nan, infinity})
     expect_refused({.t_end = 1.0, .length = length}, "length", "must be finite and > 0, or 0");
 }

@@ -62,7 +62,7 @@ TEST(Problem, AForceThatVariesTakesOneMoreOfTheImplicitStepper) {
 }
 
 /// Velocities are then found by the holonomic rows alone, see NewtonMatrix (7): a second choice of rows.
-TEST(Problem, SoDoesANonholonomicRow) {
+TEST(Problem, ANonholonomicRowTakesOneMoreOfTheImplicitStepper) {
   Scene<2> blade;
   const auto p = blade.add_particle({.mass = 1.0, .velocity = {1.0, 0.0}});
   blade.add(UniformGravity<2>{{0.0, -9.81}});
@@ -84,7 +84,7 @@ TEST(Problem, AForceThatReadsMultipliersTakesOneOfEachKind) {
 }
 
 /// 60 rods from one hub, whose complement would be full.
-TEST(Problem, WhereManyConstraintsShareAParticleNoComplementIsAnalysed) {
+TEST(Problem, NoComplementIsAnalysedWhereManyConstraintsShareAParticle) {
   Scene<2> star;
   const auto hub = star.add_particle({.mass = 1.0});
   star.add(UniformGravity<2>{{0.0, -9.81}});

@@ -71,7 +71,7 @@ TEST(Readings, RotorsHaveAllTimesToo) {
 }
 
 /// What can be read of a sample can be read of a run and of a simulation, and is the same.
-TEST(Readings, AreTheSameOfSampleTrajectoryAndSimulation) {
+TEST(Readings, SampleTrajectoryAndSimulationReadTheSame) {
   const CompoundPendulum p;
   const Options options{.t_end = 1.0, .samples = 3};
   const auto run = simulate(p.scene, options);

@@ -82,7 +82,7 @@ TEST_F(TwinRods, LetFrictionReadAUniqueMultiplierElsewhere) {
 }
 
 // Rods of length 1 from (0, 0) and from (0, 0.5) cannot both hold the bob at (0, -1).
-TEST_F(TwinRods, ThatContradictEachOtherInLengthAreRefusedByName) {
+TEST_F(TwinRods, ContradictoryLengthsAreRefusedByName) {
   scene.add(Distance{Fixed<2>{}, bob, 1.0}, "one");
   scene.add(Distance{Fixed<2>{{0.0, 0.5}}, bob, 1.4}, "two");
   EXPECT_THAT([&] { (void)simulate(scene, {.t_end = 1.0}); },
@@ -90,7 +90,7 @@ TEST_F(TwinRods, ThatContradictEachOtherInLengthAreRefusedByName) {
 }
 
 // The pivots coincide at t = 0 and move alike at first; in acceleration, 0 against 2, they do not.
-TEST_F(TwinRods, ThatContradictEachOtherInAccelerationAreRefusedByName) {
+TEST_F(TwinRods, ContradictoryAccelerationsAreRefusedByName) {
   scene.add(Distance{Fixed<2>{}, bob, 1.0}, "one");
   scene.add(Distance{driven([](auto t) { return vec(0.0, t * t); }), bob, 1.0}, "two");
   EXPECT_THAT([&] { (void)simulate(scene, {.t_end = 1.0}); },
@@ -99,7 +99,7 @@ TEST_F(TwinRods, ThatContradictEachOtherInAccelerationAreRefusedByName) {
 }
 
 // The same with one of the equations in other units.
-TEST_F(TwinRods, ThatContradictEachOtherAreRefusedWhateverTheScaleOfAnEquation) {
+TEST_F(TwinRods, ContradictionIsRefusedWhateverTheScaleOfAnEquation) {
   for (const double scale : {1e-8, 1e8}) {
     Scene<2> scaled;
     scaled.add(UniformGravity<2>{{0.0, -10.0}});
@@ -115,7 +115,7 @@ TEST_F(TwinRods, ThatContradictEachOtherAreRefusedWhateverTheScaleOfAnEquation) 
 }
 
 // Alike up to t = 0.5 including all derivatives that matter, apart later: found in mid-run.
-TEST_F(TwinRods, ThatBeginToContradictEachOtherStopTheRunByName) {
+TEST_F(TwinRods, ContradictionOnTheWayStopsTheRunByName) {
   scene.add(Distance{Fixed<2>{}, bob, 1.0}, "one");
   scene.add(Distance{driven([](auto t) {
                        const auto late = t > 0.5 ? t - 0.5 : 0.0 * t;

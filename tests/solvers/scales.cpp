@@ -50,7 +50,7 @@ Scene<2> snakeboard() {
   return scene;
 }
 
-TEST_P(Scales, OfASnakeboardThatDrivesOffFromRest) {
+TEST_P(Scales, SnakeboardDrivesOffSmoothlyAtEveryTolerance) {
   Statistics before;
   double tolerance_before = 0.0;
   for (const double tolerance : falling) {
@@ -66,7 +66,7 @@ TEST_P(Scales, OfASnakeboardThatDrivesOffFromRest) {
   }
 }
 
-TEST_P(Scales, OfAParticleOnADrivenPlane) {
+TEST_P(Scales, ParticleOnADrivenPlaneMovesSmoothlyAtEveryTolerance) {
   // y = x/2 + a (1 - cos t), smooth: all moves along the normal, by a (1 - cos t) of it in y + x' s share.
   constexpr double a = 0.1, t_end = 20.0;
   Statistics before;
@@ -90,7 +90,7 @@ TEST_P(Scales, OfAParticleOnADrivenPlane) {
   }
 }
 
-TEST_P(Scales, OfAKnifeEdgeWithoutALever) {
+TEST_P(Scales, KnifeEdgeWithoutALeverMovesSmoothlyAtEveryTolerance) {
   // Its heading is sin t, and the force along it 1 - cos t, of which round-off leaves little at first.
   Statistics before;
   double tolerance_before = 0.0;

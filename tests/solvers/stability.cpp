@@ -42,7 +42,7 @@ double fastest_growth(const NormalModes<2>& modes) {
   return growth;
 }
 
-TEST(Stability, OfABeadThatFallsOffIsNotLostBesideAStiffSpringAndASlider) {
+TEST(Stability, FallingBeadIsUnstableBesideAStiffSpringAndASlider) {
   // s^2 + d s - k = 0, in units of time from fast to slow.
   for (const double unit : {1.0, 1e-8}) {
     for (const double stiff : {1e2, 1e8, 1e10, 1e14}) {
@@ -60,7 +60,7 @@ TEST(Stability, OfABeadThatFallsOffIsNotLostBesideAStiffSpringAndASlider) {
   }
 }
 
-TEST(Stability, OfABeadThatFallsOffIsNotLostBesideAStiffSpringThatItIsCoupledTo) {
+TEST(Stability, FallingBeadIsUnstableCoupledToAStiffSpring) {
   // The same tied by a spring of 1 to one of 1e8: to a millionth the bead alone with a stiffness more by 1.
   Scene<2> scene;
   scene.add(LinearDrag{bead(scene, 0.0), 5.0});
@@ -77,7 +77,7 @@ TEST(Stability, OfABeadThatFallsOffIsNotLostBesideAStiffSpringThatItIsCoupledTo)
   EXPECT_NEAR(fastest_growth(modes), -0.5 + std::sqrt(8.25), 1e-6);
 }
 
-TEST(Stability, OfWhatAConstraintOfVelocitiesDrivesApartIsNotCalledEnergy) {
+TEST(Stability, GrowthAlongANonholonomicConstraintIsUnstable) {
   // v_x = 0.3 (x - 1) grows by itself, whatever holds y.
   for (const double k : {1.0, 1e8}) {
     Scene<2> scene;
@@ -101,7 +101,7 @@ void follow(Scene<2>& scene, double a) {
   }));
 }
 
-TEST(Stability, OfAWeakFollowerForceIsNotThatOfTheStiffSpringBesideIt) {
+TEST(Stability, WeakFollowerForceIsUnstableBesideAStiffSpring) {
   const double a = 1e-3;
   for (const double stiff : {10.0, 1e10, 1e14}) {
     Scene<2> scene;
@@ -113,7 +113,7 @@ TEST(Stability, OfAWeakFollowerForceIsNotThatOfTheStiffSpringBesideIt) {
   }
 }
 
-TEST(Stability, OfAWeakPushIsNotThatOfTheStrongDamperBesideIt) {
+TEST(Stability, WeakPushIsUnstableBesideAStrongDamper) {
   // s^2 - d s + 1 = 0.
   const double d = 1e-3;
   Scene<2> scene;
@@ -126,7 +126,7 @@ TEST(Stability, OfAWeakPushIsNotThatOfTheStrongDamperBesideIt) {
   EXPECT_NEAR(fastest_growth(modes), 0.5 * d, rounding);
 }
 
-TEST(Stability, OfManyIsToldAsOfFewForForcesWithoutAPotential) {
+TEST(Stability, FollowerForceIsUnstableAmongManyCoordinates) {
   for (const int others : {10, 301}) {
     Scene<2> scene;
     follow(scene, 0.5);
@@ -138,7 +138,7 @@ TEST(Stability, OfManyIsToldAsOfFewForForcesWithoutAPotential) {
   }
 }
 
-TEST(Stability, OfABeadOnAFlatTopIsNotDecidedBesideAStiffSpring) {
+TEST(Stability, BeadOnAFlatTopIsUndecidedBesideAStiffSpring) {
   for (const double stiff : {1e6, 1e10, 1e14}) {
     Scene<2> scene;
     const auto top = bead(scene, 1.0);
@@ -153,7 +153,7 @@ TEST(Stability, OfABeadOnAFlatTopIsNotDecidedBesideAStiffSpring) {
   }
 }
 
-TEST(Stability, OfASlowlyGrowingModeIsNotAFreeMotionBesideAStiffSpring) {
+TEST(Stability, SlowGrowthIsNoFreeMotionBesideAStiffSpring) {
   for (const double stiff : {1e6, 1e10, 1e14}) {
     Scene<2> scene;
     hold(scene, bead(scene, 1.0), -1e-3);
@@ -164,7 +164,7 @@ TEST(Stability, OfASlowlyGrowingModeIsNotAFreeMotionBesideAStiffSpring) {
   }
 }
 
-TEST(Stability, OfADoorInTwoHingesIsNotReadFromRoundOff) {
+TEST(Stability, DoorInTwoHingesIsNotJudgedByRoundOff) {
   // It turns freely: its only stiffness is the round-off of what hinges and weight sum to 0. With a drag of
   // 0.4 at 1 m in x and 0.1 m in y off the hinges, s = -0.4 (1 + 0.01)/(4 + 10 (0.25 + 0.01)), to
   // the roundings of a sum, 1e3, of terms of size 1.
@@ -204,7 +204,7 @@ TEST(Stability, IsThatOfAllModesHoweverFewAreWanted) {
   }
 }
 
-TEST(Stability, OfManyIsNotDecidedWhereOnlyFreeMotionsWereLookedAt) {
+TEST(Stability, IsUndecidedWhereOnlyFreeMotionsWereComputed) {
   Scene<2> scene;
   for (int i = 0; i < 301; ++i) {
     const auto added = bead(scene, i);

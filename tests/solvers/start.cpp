@@ -168,7 +168,7 @@ TEST(Assembly, FollowsADrivenPivot) {
 
 // A square with both diagonals, two of its nodes held: nothing can move, and of any speeds only round-off is
 // left, in which no equations agree with each other.
-TEST(Start, OfAFrameThatCannotMoveIsAtRestWhateverItsSpeeds) {
+TEST(Start, FrameThatCannotMoveIsPutToRest) {
   for (const double speed : {0.0, 1e-9, 1.0, 1e12}) {
     Scene<2> scene;
     const Vec<2> centre(0.3, -0.7);
@@ -188,7 +188,7 @@ TEST(Start, OfAFrameThatCannotMoveIsAtRestWhateverItsSpeeds) {
 }
 
 // The same with driven nodes: all move alike, and nothing that the speeds make is left in the accelerations.
-TEST(Start, OfAFrameThatIsDrivenFollowsItsDrive) {
+TEST(Start, DrivenFrameFollowsItsDrive) {
   Scene<2> scene;
   const std::array<Vec<2>, 5> r{Vec<2>(1.0, 0.1), {0.4, 1.2}, {-0.7, 0.8}, {-0.9, -0.6}, {0.3, -1.1}};
   std::vector<Particle<2>> node;
@@ -220,7 +220,7 @@ Scene<2> stretched_out(double t, double u) {
   return scene;
 }
 
-TEST(Start, AtASingularPositionIsAnErrorThatSaysSo) {
+TEST(Start, SingularPositionIsAnErrorThatSaysSo) {
   using Rates = std::array<double, 2>;
   for (const Rates& rates : {Rates{1.0, 1.0}, Rates{1.0, -3.0}, Rates{1.0, -1.0}, Rates{0.0, 0.0}}) {
     const Scene<2> scene = stretched_out(rates[0], rates[1]);
@@ -232,7 +232,7 @@ TEST(Start, AtASingularPositionIsAnErrorThatSaysSo) {
   }
 }
 
-TEST(Start, WithRedundantConstraintsIsNoSingularPosition) {
+TEST(Start, RedundantConstraintsAreNoSingularPosition) {
   // A parallelogram with a third crank, and a rod twice: they depend on the others wherever it is.
   Scene<2> scene("three cranks");
   scene.add(UniformGravity<2>{{0.0, -1.0}});

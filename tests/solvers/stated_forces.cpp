@@ -64,7 +64,7 @@ TEST_P(Coupler, SharesItsLoadByLeastSquaresWhateverItIsMadeOf) {
   }
 }
 
-TEST_P(Coupler, AtRestCarriesThePublishedForces) {
+TEST_P(Coupler, CarriesThePublishedForcesAtRest) {
   build(0.0);
   const Simulation<2> now(scene, {.t_end = 1.0});
   constexpr double last_digit = 5e-3;
@@ -260,7 +260,7 @@ TEST(InternalRods, TakeWhatTheyCanFromRodsThatRepeatThem) {
 }
 
 // Two identical equations of one constraint: which of them carries it does not matter, and no number grows.
-TEST(StatedForces, OfAnEquationWrittenTwiceInOneConstraintAreThoseOfOne) {
+TEST(StatedForces, EquationWrittenTwiceSharesTheForceOfOne) {
   Scene<2> scene;
   scene.add(UniformGravity<2>{{0.0, -10.0}});
   const auto bob = scene.add_particle({.mass = 2.0, .position = {0.6, -0.8}});
@@ -275,7 +275,7 @@ TEST(StatedForces, OfAnEquationWrittenTwiceInOneConstraintAreThoseOfOne) {
 }
 
 // A wheel locked twice, once in thousandths of a radian: each lock exerts half the torque 3.
-TEST(StatedForces, OfRotorsAreTorques) {
+TEST(StatedForces, LocksOfARotorShareItsTorque) {
   Scene<2> scene;
   const auto wheel = scene.add_rotor({.inertia = 0.5});
   scene.add(force_law(points(wheel), [](auto, auto w) { return (0.0 * w + vec(3.0)).eval(); }));

@@ -16,7 +16,7 @@ using testing::ThrowsMessage;
 /// Equilibria are sought to round-off; those here are conditioned like 1.
 constexpr double rounding = 1e-12;
 
-TEST(Equilibrium, OfABungeeIsFoundFromWhereItIsSlack) {
+TEST(Equilibrium, BungeeIsFoundFromWhereItIsSlack) {
   // k (l - l0) = m g below the hook: l = 1 + 9.81/50. There gravity and the rope cancel to round-off.
   for (const double guess : {-0.3, -0.9, -1.5}) {
     Scene<2> scene("bungee");
@@ -29,7 +29,7 @@ TEST(Equilibrium, OfABungeeIsFoundFromWhereItIsSlack) {
   }
 }
 
-TEST(Equilibrium, OfLargeForcesThatCancelIsFoundByWhatIsLeft) {
+TEST(Equilibrium, LargeForcesThatCancelDoNotHideTheRest) {
   // A thrust of 1e8 either way and a spring of 1e-3: round-off of the former, 1e-8, moves the latter by 1e-5.
   Scene<2> scene;
   const auto x = scene.add_rotor({.inertia = 1.0, .angle = 0.3});
@@ -41,7 +41,7 @@ TEST(Equilibrium, OfLargeForcesThatCancelIsFoundByWhatIsLeft) {
   EXPECT_NO_THROW((void)normal_modes(scene, at));
 }
 
-TEST(Equilibrium, OfWhatIsSoftIsNotHeldByWhatIsStiffElsewhere) {
+TEST(Equilibrium, StiffnessElsewhereDoesNotHoldWhatIsSoft) {
   for (const double ratio : {1e6, 1e9, 1e12, 1e15}) {
     Scene<2> scene("two");
     const auto a = scene.add_rotor({.inertia = 1.0, .angle = 0.3}, "soft"),
@@ -56,7 +56,7 @@ TEST(Equilibrium, OfWhatIsSoftIsNotHeldByWhatIsStiffElsewhere) {
   }
 }
 
-TEST(Equilibrium, OfAParticleIsFoundAlongItsSoftDirection) {
+TEST(Equilibrium, ParticleMovesAlongItsSoftDirection) {
   // Along (c, s) a spring of 1e-6, across one of 1e5 and more that carries 1e3.
   for (const double stiff : {1e4, 1e5, 1e6}) {
     for (const double angle : {0.0, 0.6}) {
@@ -80,7 +80,7 @@ TEST(Equilibrium, OfAParticleIsFoundAlongItsSoftDirection) {
   }
 }
 
-TEST(Equilibrium, OfAHeavyParticleInAQuarticWellHasZeroFrequency) {
+TEST(Equilibrium, HeavyParticleInAQuarticWellHasZeroFrequency) {
   for (const double mass : {1.0, 1e6}) {
     Scene<2> scene("well");
     const auto x = scene.add_rotor({.inertia = mass, .angle = 0.5});
@@ -128,7 +128,7 @@ TEST(NormalModes, MayBeThoseOfACopyOfTheScene) {
   EXPECT_NEAR(normal_modes(copy, at).frequency(0), std::sqrt(9.81), rounding);
 }
 
-TEST(Equilibrium, OfASceneWithAReleasedConstraintSaysSo) {
+TEST(Equilibrium, SaysThatAConstraintIsReleased) {
   Scene<2> scene("let go");
   scene.add(UniformGravity<2>{{0.0, -9.81}});
   const auto bob = scene.add_particle({.mass = 1.0, .position = {0.0, -1.0}}, "bob");

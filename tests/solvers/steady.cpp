@@ -20,7 +20,7 @@ constexpr double g = 9.81;
 /// Newton's iteration ends at round-off of terms of size 1 to 100, over some dozens of equations.
 constexpr double rounding = 1e-11;
 
-TEST(Steady, OfAConicalPendulumIsThatOfItsHeight) {
+TEST(Steady, ConicalPendulumTurnsAtTheRateOfItsHeight) {
   // mex: cos theta = g/(l Omega^2), tension m l Omega^2; the height is kept, the speed is a rough guess.
   Scene<3> scene("conical");
   scene.add(UniformGravity<3>{{0.0, 0.0, -g}});

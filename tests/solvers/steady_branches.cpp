@@ -22,7 +22,7 @@ std::vector<double> parameters(const auto& points) {
   return all;
 }
 
-TEST(SteadyBranches, OfTheBicycleTellItsWeaveAndItsCapsizeSpeed) {
+TEST(SteadyBranches, TellTheBicyclesWeaveAndCapsizeSpeeds) {
   // As printed, table 2: eigenvalues are round-off of terms of order 1e3 and cross 0 with slopes of 0.2 and
   // more, whatever the step. On the way from rest two real ones become the weave.
   for (const double step : {0.1, 0.5}) {
@@ -67,7 +67,7 @@ struct Disk {
   [[nodiscard]] double critical() const { return std::sqrt(m * g * r * A / (C * (C + m * r * r))); }
 };
 
-TEST(SteadyBranches, OfTheRollingDiskTellItsCriticalSpin) {
+TEST(SteadyBranches, TellTheRollingDisksCriticalSpin) {
   const Disk disk;
   const auto diagram = follow_steady<3>([&](double spin) { return PosedSteady<3>{disk.scene(spin)}; },
                                         {.from = 1.0, .to = 4.0, .step = 0.1});
@@ -86,7 +86,7 @@ TEST(SteadyBranches, OfTheRollingDiskTellItsCriticalSpin) {
   }
 }
 
-TEST(SteadyBranches, OfATopAsleepTellItsCriticalSpin) {
+TEST(SteadyBranches, TellTheSleepingTopsCriticalSpin) {
   // Two vibrations meet: n = sqrt(4 A m g l)/C.
   constexpr double A = 0.3, C = 0.02, mgl = g * 0.5;
   const auto diagram = follow_steady<3>(
@@ -134,7 +134,7 @@ TEST(SteadyBranches, KeepWhatIsStatedAtEachValueOfTheParameter) {
   EXPECT_TRUE(diagram.bifurcations.empty());
 }
 
-TEST(SteadyBranches, AreRefusedByNameWhereNoSymmetryCarriesThemOn) {
+TEST(SteadyBranches, NeedASymmetryThatCarriesThemOn) {
   EXPECT_THAT(
       [] {
         (void)follow_steady<3>(

@@ -148,7 +148,7 @@ TEST_P(Switches, EndOfAFlatBottomIsSeenFromIt) {
 }
 
 // A push of 1 N for as long as `brief` within a run of 3 s.
-TEST_P(Switches, InTimeAreSeenHoweverBrief) {
+TEST_P(Switches, KickIsSeenHoweverBrief) {
   for (const double brief : {0.5, 1e-3, 1e-6}) {
     Flight flight(0.0, 1.0);
     flight.push(
@@ -166,7 +166,7 @@ TEST_P(Switches, InTimeAreSeenHoweverBrief) {
 }
 
 // Constant drag d < g against the velocity: up with g + d, down with g - d.
-TEST_P(Switches, InVelocityTurnTheDrag) {
+TEST_P(Switches, DragTurnsWithTheVelocity) {
   const double d = 3.0, v = 5.0, up = v / (g + d), t_end = 1.5;
   Flight flight(0.0, v);
   flight.push(
@@ -182,7 +182,7 @@ TEST_P(Switches, InVelocityTurnTheDrag) {
 
 // Hertz's contact: a force that has no value on the other side. It returns the speed, after
 // 2 (v^2/(0.8 k))^(2/5)/v int_0^1 dx/sqrt(1 - x^(5/2)) = 2.9432 (...) (Johnson, Contact Mechanics, 11.24).
-TEST_P(Switches, ToARootThatEndsThereArePassed) {
+TEST_P(Switches, RootThatEndsAtItsSwitchIsPassed) {
   const double k = 1000.0, v = 1.0;
   Flight flight(0.5, -v);
   flight.push(
@@ -215,7 +215,7 @@ TEST_P(Switches, SwitchOfCurvatureAloneIsPassedInStride) {
 }
 
 // Down a slope of 45 degrees, g/2 each way, from 1 m to where the curve has its corner.
-TEST_P(Switches, ToACornerOfACurveAreNamed) {
+TEST_P(Switches, CornerOfACurveIsNamed) {
   for (const double t_end : {1.0, 2.0, 3.7}) {
     Scene<2> scene("vee");
     scene.add(UniformGravity<2>{{0.0, -g}});

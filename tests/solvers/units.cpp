@@ -39,20 +39,20 @@ void expect_as_many(long actual, long expected) {
               0.05 * static_cast<double>(expected));
 }
 
-TEST(Units, APendulumTakesAsManyStepsInAny) {
+TEST(Units, PendulumTakesAsManyStepsInAnyUnits) {
   const long metres = steps(Pendulum().scene, 3.0);
   for (const Units& u : {nano, giga}) {
     expect_as_many(steps(Pendulum(u.length, u.time, u.mass).scene, 3.0 * u.time), metres);
   }
 }
 
-TEST(Units, SpringAndDamperTakeAsManyStepsInAny) {
+TEST(Units, SpringAndDamperTakeAsManyStepsInAnyUnits) {
   const long metres = steps(damped_scene({1.0, 1.0, 1.0}), 3.0);
   for (const Units& u : {nano, giga}) expect_as_many(steps(damped_scene(u), 3.0 * u.time), metres);
 }
 
 // A thrown stone has no length of its own but that of its path.
-TEST(Units, AThrownStoneTakesAsManyStepsInAny) {
+TEST(Units, ThrownStoneTakesAsManyStepsInAnyUnits) {
   const auto thrown = [](const Units& u) {
     Scene<2> scene;
     const double speed = u.length / u.time;
@@ -64,7 +64,7 @@ TEST(Units, AThrownStoneTakesAsManyStepsInAny) {
   for (const Units& u : {nano, giga}) expect_as_many(steps(thrown(u), 1.0 * u.time), metres);
 }
 
-TEST(Units, ABeadOnASphereTakesAsManyStepsInAny) {
+TEST(Units, BeadOnASphereTakesAsManyStepsInAnyUnits) {
   const auto on_sphere = [](const Units& u) {
     Scene<2> scene;
     scene.add(UniformGravity<2>{{0.0, -9.81 * u.length / (u.time * u.time)}});
@@ -122,7 +122,7 @@ TEST(Units, ARadiusFarBeyondTheWayOfABeadIsNotItsLength) {
 }
 
 // Nor has a charge that starts at the cusp of a cycloid.
-TEST(Units, ACycloidTakesAsManyStepsInAny) {
+TEST(Units, CycloidTakesAsManyStepsInAnyUnits) {
   const auto charge = [](const Units& u) {
     Scene<2> scene;
     const double acceleration = u.length / (u.time * u.time), B = 3.0 * u.mass / u.time;

@@ -85,7 +85,7 @@ TEST(KilledSweep, TakesNothingFromAJournalWhereItIsDamaged) {
   }
 }
 
-TEST(KilledSweep, BetweenItsLastTwoStepsItOnlyRemovesTheJournal) {
+TEST(KilledSweep, OnlyRemovesTheJournalIfKilledBetweenItsLastTwoSteps) {
   const Folder folder;
   ten_rows(folder / "whole.h5");
   const std::string whole = bytes_of(folder / "whole.h5"), file = folder / "a.h5";
@@ -99,7 +99,7 @@ TEST(KilledSweep, BetweenItsLastTwoStepsItOnlyRemovesTheJournal) {
   EXPECT_FALSE(std::filesystem::exists(folder / "b.h5.journal"));
 }
 
-TEST(KilledSweep, MissesItsJournal) {
+TEST(KilledSweep, SaysThatItsJournalIsMissing) {
   const Folder folder;
   const std::string file = folder / "a.h5";
   ten_rows(file, 5);

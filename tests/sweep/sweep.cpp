@@ -179,7 +179,7 @@ TEST(Sweep, ARowNeedNotBeARun) {
   EXPECT_EQ(read_column(folder / "a.h5", "square"), (std::vector<double>{0.0, 1.0, 4.0, 9.0}));
 }
 
-TEST(Sweep, AgainItDoesNothing) {
+TEST(Sweep, DoesNothingTheSecondTime) {
   const Folder folder;
   sweep(angles(20), make_swing(5), observe_swing(), quietly(folder / "a.h5"));
   const std::string before = bytes_of(folder / "a.h5");
@@ -204,7 +204,7 @@ TEST(Sweep, EndsItsLogWithWhatIsDone) {
               HasSubstr("the log /nowhere/a.log cannot be written"));
 }
 
-TEST(SweepErrors, AColumnThatIsNotThere) {
+TEST(SweepErrors, NameAColumnThatIsNotThere) {
   const Folder folder;
   sweep(angles(2), make_swing(), observe_swing(), quietly(folder / "a.h5"));
   EXPECT_THAT(error_of([&] { (void)read_column(folder / "a.h5", "force"); }),
@@ -212,7 +212,7 @@ TEST(SweepErrors, AColumnThatIsNotThere) {
   EXPECT_THAT(error_of([&] { (void)read_column(folder / "b.h5", "force"); }), HasSubstr("cannot be read"));
 }
 
-TEST(SweepErrors, NothingToSweepOrToObserve) {
+TEST(SweepErrors, SayThatThereIsNothingToSweepOrToObserve) {
   const Folder folder;
   EXPECT_THAT(error_of([] { angles(0); }), HasSubstr("empty table"));
   EXPECT_THAT(error_of([] { (void)grid({}); }), HasSubstr("no columns"));
@@ -226,7 +226,7 @@ TEST(SweepErrors, NothingToSweepOrToObserve) {
   EXPECT_FALSE(std::filesystem::exists(folder / "a.h5"));
 }
 
-TEST(SweepErrors, TwoColumnsOfOneName) {
+TEST(SweepErrors, NameTheColumnThatIsThereTwice) {
   const Folder folder;
   EXPECT_THAT(error_of([] {
                 (void)grid({{"k", "", 0.0, 1.0, 2}, {"k", "", 0.0, 1.0, 2}});
@@ -273,7 +273,7 @@ TEST(SweepErrors, AFileThatIsNoSweepStaysAsItIs) {
   EXPECT_EQ(bytes_of(other + ".journal"), "dear diary");
 }
 
-TEST(SweepErrors, AFolderThatIsNotThere) {
+TEST(SweepErrors, NameAFolderThatIsNotThere) {
   EXPECT_THAT(error_of([&] { sweep(angles(5), make_swing(), observe_swing(), quietly("/nowhere/a.h5")); }),
               HasSubstr("does its folder exist"));
 }

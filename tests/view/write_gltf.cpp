@@ -200,7 +200,7 @@ TEST(WriteGltf, HasYUpwards) {
   EXPECT_LT((up - Vec<3>::UnitY()).norm(), single);
 }
 
-TEST(WriteGltf, AtRestThereIsNoAnimation) {
+TEST(WriteGltf, HasNoAnimationAtRest) {
   const Glb glb(simulate(Pendulum({0.0, -1.0}).scene, {.t_end = 1.0, .samples = 3}));
   EXPECT_FALSE(glb.json().get_child_optional("animations"));
   EXPECT_EQ(glb.track("bob", "translation").size(), 1U);

@@ -290,7 +290,7 @@ TEST(BodyBoxes, HaveTheInertiaOfTheBody) {
   }
 }
 
-TEST(LevelSet, OfACircleIsARoundPolygon) {
+TEST(LevelSet, CircleIsARoundPolygon) {
   const auto circle = [](const Sketch::Place& r) { return std::hypot(r[0], r[1]) - 1.0; };
   const Eigen::AlignedBox3d box(Vec<3>(-1.5, -1.5, 0.0), Vec<3>(1.5, 1.5, 0.0));
   const int cells = 60;
@@ -306,7 +306,7 @@ TEST(LevelSet, OfACircleIsARoundPolygon) {
   EXPECT_NEAR(length, 2.0 * std::numbers::pi, 1e-2);
 }
 
-TEST(LevelSet, OfASphereIsClosed) {
+TEST(LevelSet, SphereIsClosed) {
   const auto sphere = [](const Sketch::Place& r) { return std::hypot(r[0], r[1], r[2]) - 1.0; };
   const Eigen::AlignedBox3d box(Vec<3>::Constant(-1.3), Vec<3>::Constant(1.3));
   const auto triangles = level_set(sphere, box, 3, 20);

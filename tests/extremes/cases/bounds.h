@@ -29,7 +29,7 @@ inline constexpr double tolerance = 1e-8;
 
 /// Motion and forces of a model over [0, t_end] against its hand derivation: the larger of the two errors.
 template <int D>
-[[nodiscard]] Result compared(const models::Model<D>& model, const Options& options) {
+[[nodiscard]] Run compared(const models::Model<D>& model, const Options& options) {
   const models::Measurement m = models::measure<D>(model, options);
   return {.error = std::isnan(m.error_force) ? m.error_force : std::max(m.error_position, m.error_force),
           .statistics = m.statistics};
@@ -37,7 +37,7 @@ template <int D>
 
 /// Motion alone.
 template <int D>
-[[nodiscard]] Result compared_motion(const models::Model<D>& model, const Options& options) {
+[[nodiscard]] Run compared_motion(const models::Model<D>& model, const Options& options) {
   const models::Measurement m = models::measure<D>(model, options);
   return {.error = m.error_position, .statistics = m.statistics};
 }
@@ -47,25 +47,21 @@ template <int D>
 
 /// A run that is to be stopped in mid-run: the error is `measure(failure)`, infinite if nothing stopped it.
 template <int D, class Measure>
-[[nodiscard]] Result stopped(const Scene<D>& scene, const Options& options, const Measure& measure) {
+[[nodiscard]] Run stopped(const Scene<D>& scene, const Options& options, const Measure& measure) {
   try {
     return {.error = infinite, .statistics = simulate(scene, options).statistics()};
   } catch (const IntegrationFailure& failure) {
-    return {.error = measure(failure),
-            .statistics = failure.trajectory<D>().statistics(),
-            .outcome = "IntegrationFailure",
-            .said = failure.what()};
+    return ended_by(failure, measure(failure));
   }
 }
 
 /// A run that stability or double precision may not allow: if `may_be_refused` it may stop with an
 /// IntegrationFailure that says `why`, which is then no error.
-[[nodiscard]] Result unless_refused(const std::function<Result()>& run, bool may_be_refused,
-                                    std::string_view why);
+[[nodiscard]] Run unless_refused(const std::function<Run()>& run, bool may_be_refused, std::string_view why);
 
 /// A stiff scene in the explicit stepper, whose steps are limited by stability: it may reach the end, or must
 /// report that max_steps were reached.
-[[nodiscard]] inline Result unless_too_stiff(const std::function<Result()>& run, Stepper stepper) {
+[[nodiscard]] inline Run unless_too_stiff(const std::function<Run()>& run, Stepper stepper) {
   return unless_refused(run, stepper == Stepper::erk, "max_steps");
 }
 

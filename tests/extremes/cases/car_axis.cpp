@@ -18,7 +18,7 @@ auto right_foot(const auto& t) {
 // Of its units: eps = 0.01, M = 10, so each wheel's mass is eps^2 M/2 = 5e-4 and weighs as much; springs of
 // stiffness 1 relaxed at 1/2. The left foot's rod to the wheel stays upright on the base between the feet:
 // x_l x_b + y_l y_b = 0.
-Result car_axis_at_3(const Options& options) {
+Run car_axis_at_3(const Options& options) {
   constexpr double mass = 5e-4;
   Scene<2> scene("car-axis");
   scene.add(UniformGravity<2>{{0.0, -1.0}});

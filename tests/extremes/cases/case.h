@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/dalembert.h>
+#include <dalembert/tests/outcome.h>
 
 #include <functional>
 #include <limits>
@@ -10,21 +11,26 @@
 /// Stiff, extreme and hostile scenes, each swept over one parameter and compared with its physics.
 namespace dalembert::extremes {
 
-/// What one run of a case gave. Where a refusal is what is due, `outcome` names it and `error` says how far
-/// it is from the time, distance or number that it ought to name.
-struct Result {
+/// One run of a case. The case gives `error`, `statistics` and, where a refusal is what is due, `outcome`:
+/// its error is then how far the refusal is from the time, distance or number that it ought to name.
+/// `judge` adds the rest.
+struct Run {
   double error = std::numeric_limits<double>::quiet_NaN();
   Statistics statistics{};
-  std::string outcome = "ok";  ///< or an error type of the library
-  std::string said{};          ///< what the error said
+  Outcome outcome{};  ///< "missed" if the run ended with more than the limit
+  double parameter = 0.0;
+  Stepper stepper = Stepper::ida;
+  double limit = 0.0;
+
+  /// Within the limit, be it a run or the refusal that is due.
+  [[nodiscard]] bool right() const { return error <= limit; }
 };
 
-/// Which run, and what it says of its steps.
-struct Run {
-  double parameter;
-  Stepper stepper;
-  Statistics statistics;
-};
+/// A run that an exception of the library ended.
+[[nodiscard]] inline Run ended_by(const Error& exception,
+                                  double error = std::numeric_limits<double>::quiet_NaN()) {
+  return {.error = error, .statistics = statistics_of(exception), .outcome = outcome_of(exception)};
+}
 
 /// A scene swept over one parameter.
 struct Case {
@@ -33,16 +39,10 @@ struct Case {
   std::vector<double> sweep;  ///< all of it
   std::vector<double> brief;  ///< what of it is done within seconds, for tests
   /// Runs it and compares with the reference. Throws what the library throws where none is due.
-  std::function<Result(double parameter, Stepper)> run;
+  std::function<Run(double parameter, Stepper)> run;
   /// The largest error that is right, derived beside each case.
   std::function<double(const Run&)> limit;
   std::vector<Stepper> steppers = {Stepper::ida, Stepper::erk};
-};
-
-/// Cases of one kind.
-struct Group {
-  std::string name;
-  std::vector<Case> cases;
 };
 
 [[nodiscard]] std::vector<Case> stiffness();
@@ -62,17 +62,9 @@ struct Group {
 [[nodiscard]] std::vector<Case> contacts();
 
 /// All of them.
-[[nodiscard]] std::vector<Group> groups();
-
-/// A result and what became of it. `result.outcome` is "ok", "missed" if it ran but not within the limit, or
-/// the type of the error thrown.
-struct Verdict {
-  Result result;
-  double limit;
-  bool right;  ///< within the limit, be it a run or the refusal that is due
-};
+[[nodiscard]] std::vector<Case> all_cases();
 
 /// Runs a case at one value; nothing thrown by the library leaves it.
-[[nodiscard]] Verdict judge(const Case& extreme, double parameter, Stepper stepper);
+[[nodiscard]] Run judge(const Case& extreme, double parameter, Stepper stepper);
 
 }  // namespace dalembert::extremes

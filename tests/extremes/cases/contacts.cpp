@@ -25,8 +25,8 @@ Case grazing() {
                 const auto run = built.run(2.0, stepper);
                 const double u = speed(depth), left = 1.0 + u;
                 const double due = depth > 0.0 ? 0.5 - depth - u * left - 0.5 * left * left : 0.0;
-                return Result{.error = std::abs(run.position(built.ball, 1).y() - due),
-                              .statistics = run.statistics()};
+                return Run{.error = std::abs(run.position(built.ball, 1).y() - due),
+                           .statistics = run.statistics()};
               },
           .limit =
               [speed](const Run& run) {
@@ -50,8 +50,8 @@ Case corner() {
                 built.wall(1.0, 0.0, 0.0, 0.5, "wall");
                 const auto run = built.run(1.5, stepper);
                 const Vec<2> due(0.5 * (0.5 - later), g * 0.5 - 0.5 * g * 0.25);
-                return Result{.error = (run.position(built.ball, 1) - due).norm(),
-                              .statistics = run.statistics()};
+                return Run{.error = (run.position(built.ball, 1) - due).norm(),
+                           .statistics = run.statistics()};
               },
           .limit = [](const Run& run) { return 2.0 * drift(run, 1.5); }};
 }
@@ -71,8 +71,8 @@ Case first_step() {
                 const double u = std::sqrt(1.0 + 2.0 * g * height);
                 const double left = 0.15 - 2.0 * height / (u + 1.0);  // of the fall, (u - 1)/g
                 const double due = (u - 0.5 * g * left) * left;
-                return Result{.error = std::abs(run.position(built.ball, 1).y() - due),
-                              .statistics = run.statistics()};
+                return Run{.error = std::abs(run.position(built.ball, 1).y() - due),
+                           .statistics = run.statistics()};
               },
           // What is no further than 1e-8 of the scene's length touches at the start.
           .limit =
@@ -111,7 +111,7 @@ Case stack() {
                   simulate(scene, {.t_end = 5.0, .samples = 2, .tolerance = tolerance, .stepper = stepper});
               const double under = run.multiplier(floor, 1) / (g * (1.0 + ratio)) - 1.0;
               const double over = run.multiplier(between, 1) / (g * ratio) - 1.0;
-              return Result{.error = larger(std::abs(under), std::abs(over)), .statistics = run.statistics()};
+              return Run{.error = larger(std::abs(under), std::abs(over)), .statistics = run.statistics()};
             };
             return unless_refused(forces, ratio * std::sqrt(tolerance) > 1.0, "no finite number");
           },

@@ -68,7 +68,7 @@ Case kink() {
                   error = larger(
                       error, std::abs(u - square_of_rate(std::atan2(r.x(), r.y()), mu, g / R, rate * rate)));
                 }
-                return Result{.error = error, .statistics = run.statistics()};
+                return Run{.error = error, .statistics = run.statistics()};
               },
           .limit = [](const Run& run) { return 60.0 * added_up(run, run.parameter, 0.0) + 1e3 * epsilon; }};
 }
@@ -99,7 +99,7 @@ Case jump() {
                   const double t = run.times()[i], blown = std::max(0.0, t - begin);
                   error = larger(error, std::abs(run.position(body, i).x() - (t + 0.5 * blown * blown)));
                 }
-                return Result{.error = error, .statistics = run.statistics()};
+                return Run{.error = error, .statistics = run.statistics()};
               },
           // The length and time of a lone particle with a speed and no force are those of the run.
           .limit = [](const Run& run) { return added_up(run, tolerance, 2.0); }};
@@ -171,7 +171,7 @@ Case stick() {
               const double x = (-push + 0.5 * up * first) * first + 0.5 * down * back * back;
               error = larger(error, std::abs(run.position(block, i).x() - x));
             }
-            return Result{.error = error, .statistics = run.statistics()};
+            return Run{.error = error, .statistics = run.statistics()};
           },
       // A part of the time to stop is a part of the push: speeds err by as much.
       .limit = [](const Run&) { return 1e3 * tolerance; }};

@@ -29,7 +29,7 @@ struct Kapitza {
   }
   /// While the exact motion is within 0.5 rad of upright: then it has fallen, and tumbles chaotically. Wrong,
   /// and infinitely so, is a run that stays up, or falls, where the exact one does not.
-  [[nodiscard]] Result compared(Stepper stepper) const {
+  [[nodiscard]] Run compared(Stepper stepper) const {
     const models::DrivenPivot p = pendulum();
     const Options options{.t_end = 1000.0 * 2.0 * pi / p.frequency,
                           .samples = 1001,
@@ -83,7 +83,7 @@ Case kapitza(const char* name, double strength) {
 /// `half_period`, and a pivot that from a time on moves along x with a constant speed.
 struct Switched {
   double half_period;
-  [[nodiscard]] Result compared(const Options& options) const {
+  [[nodiscard]] Run compared(const Options& options) const {
     Scene<2> scene("switched");
     scene.add(UniformGravity<2>{{0.0, -9.81}});
     const auto bob = scene.add_particle({.mass = 1.0, .position = {0.0, -1.0}}, "bob");
@@ -136,7 +136,7 @@ Case discontinuous_force() {
 /// part of that along itself: the bob's velocity relative to the pivot is then -u across the rod, times
 /// cos(angle). Before and after, it is a free pendulum. An impulse is beyond an equation of motion: to say
 /// where it is and stop is right too, and then the error is that of the time.
-Result jolted(double u, const Options& options) {
+Run jolted(double u, const Options& options) {
   Scene<2> scene("jolted");
   scene.add(UniformGravity<2>{{0.0, -9.81}});
   const auto bob = scene.add_particle({.mass = 1.0, .position = {std::sin(1.0), -std::cos(1.0)}}, "bob");
@@ -158,10 +158,7 @@ Result jolted(double u, const Options& options) {
                        -static_cast<double>(std::cos(y[0])));
     return {.error = (run.position(bob, run.size() - 1) - exact).norm(), .statistics = run.statistics()};
   } catch (const IntegrationFailure& failure) {
-    return {.error = std::abs(failure.time() - 1.0),
-            .statistics = failure.trajectory<2>().statistics(),
-            .outcome = "IntegrationFailure",
-            .said = failure.what()};
+    return ended_by(failure, std::abs(failure.time() - 1.0));
   }
 }
 

@@ -155,13 +155,10 @@ Case chatter() {
                 };
                 try {
                   const Trajectory<2> run = simulate(scene, options);
-                  return Result{.error = stands(run), .statistics = run.statistics()};
+                  return Run{.error = stands(run), .statistics = run.statistics()};
                 } catch (const IntegrationFailure& failure) {
                   const auto run = failure.trajectory<2>();
-                  return Result{.error = run.size() > 0 ? stands(run) : infinite,
-                                .statistics = run.statistics(),
-                                .outcome = "IntegrationFailure",
-                                .said = failure.what()};
+                  return ended_by(failure, run.size() > 0 ? stands(run) : infinite);
                 }
               },
           // The catalogue's bound, or what the block still slides in the last sample interval, a fiftieth of

@@ -27,9 +27,9 @@ struct Pulled {
 };
 
 /// When it went, and how far off that is; infinite if it did when it must not, or the other way round.
-Result went(const Pulled& pulled, const Options& options, bool goes, double due) {
+Run went(const Pulled& pulled, const Options& options, bool goes, double due) {
   const Trajectory<2> run = simulate(pulled.scene, options);
-  Result result{.error = infinite, .statistics = run.statistics()};
+  Run result{.error = infinite, .statistics = run.statistics()};
   if (goes && !run.events().empty() && run.events()[0].kind == EventKind::slides)
     result.error = std::abs(run.events()[0].time - due);
   if (!goes && run.events().empty()) result.error = run.velocity(pulled.block, run.size() - 1).norm();
@@ -89,7 +89,7 @@ Case slope() {
                   const double t = run.times()[i];
                   error = larger(error, std::abs(run.position(block, i).dot(down) - 0.5 * a * t * t));
                 }
-                return Result{.error = error, .statistics = run.statistics()};
+                return Run{.error = error, .statistics = run.statistics()};
               },
           .limit = [](const Run&) { return error_bound; }};
 }
@@ -105,8 +105,8 @@ Case slow() {
               [](double rate, Stepper stepper) {
                 const double due = held * g / rate;
                 const Pulled pulled(0.2, held, [rate](auto t) { return rate * t; });
-                Result result = went(
-                    pulled, {.t_end = 1.001 * due, .tolerance = tolerance, .stepper = stepper}, true, due);
+                Run result = went(pulled, {.t_end = 1.001 * due, .tolerance = tolerance, .stepper = stepper},
+                                  true, due);
                 result.error /= due;
                 return result;
               },

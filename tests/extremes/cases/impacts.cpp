@@ -19,8 +19,8 @@ Case walls() {
                 built.wall(-1.0, 0.0, -1.0, 1.0, "right");
                 const auto run = built.run(impacts, stepper);
                 const bool all = run.events().size() == static_cast<std::size_t>(impacts);
-                return Result{.error = all ? std::abs(run.velocity(built.ball, 1).norm() - 1.0) : infinite,
-                              .statistics = run.statistics()};
+                return Run{.error = all ? std::abs(run.velocity(built.ball, 1).norm() - 1.0) : infinite,
+                           .statistics = run.statistics()};
               },
           .limit = [](const Run& run) { return 10.0 * epsilon * run.parameter; }};
 }
@@ -41,7 +41,7 @@ Case elastic() {
                 double error = run.events().size() == static_cast<std::size_t>(impacts) ? 0.0 : infinite;
                 for (std::size_t i = 0; i < run.size(); ++i)
                   error = larger(error, std::abs(run.energy(i) / g - 1.0));
-                return Result{.error = error, .statistics = run.statistics()};
+                return Run{.error = error, .statistics = run.statistics()};
               },
           .limit =
               [](const Run& run) {
@@ -65,7 +65,7 @@ Case accumulation() {
                 built.wall(0.0, 1.0, 0.0, e, "floor");
                 const auto run = built.run(due(e) + 1.0, stepper);
                 const EventRecord& last = run.events().back();
-                return Result{
+                return Run{
                     .error = last.kind == EventKind::rested ? std::abs(last.time / due(e) - 1.0) : infinite,
                     .statistics = run.statistics()};
               },
@@ -130,7 +130,7 @@ Case three_balls() {
                 double error = 0.0;
                 for (std::size_t i = 0; i < 3; ++i)
                   error = larger(error, std::abs(run.velocity(balls[i], 1).x() - due[i]));
-                return Result{.error = error, .statistics = run.statistics()};
+                return Run{.error = error, .statistics = run.statistics()};
               },
           .limit = [](const Run& run) { return drift(run, 0.0) / run.statistics.time + 100.0 * epsilon; }};
 }

@@ -47,7 +47,7 @@ Case energy_drift() {
           .run =
               [](double tolerance, Stepper stepper) {
                 const Drift d = drift(tolerance, stepper);
-                return Result{.error = d.energy, .statistics = d.statistics};
+                return Run{.error = d.energy, .statistics = d.statistics};
               },
           .limit = [](const Run& run) { return 2.5 * added_up(run, run.parameter, 0.0); }};
 }
@@ -62,7 +62,7 @@ Case phase_drift() {
           .run =
               [](double tolerance, Stepper stepper) {
                 const Drift d = drift(tolerance, stepper);
-                return Result{.error = d.position, .statistics = d.statistics};
+                return Run{.error = d.position, .statistics = d.statistics};
               },
           .limit =
               [](const Run& run) {
@@ -88,7 +88,7 @@ Case long_chain() {
                 .t_end = t_end(beads), .samples = 3, .tolerance = tolerance, .stepper = stepper};
             const auto reference = chain.reference(sample_times(options), 1e-10L);
             const models::Measurement m = models::measure<2>(chain.model(), options, reference);
-            return Result{.error = m.error_position, .statistics = m.statistics};
+            return Run{.error = m.error_position, .statistics = m.statistics};
           },
       .limit =
           [=](const Run& run) { return added_up(run, tolerance, t_end(run.parameter) * std::sqrt(9.81)); }};
@@ -106,7 +106,7 @@ Case short_links() {
                 const auto run = simulate(models::Chain{.beads = 3000}.model().scene().scene,
                                           {.t_end = 0.02, .tolerance = tolerance, .stepper = stepper});
                 const auto& s = run.statistics();
-                return Result{
+                return Run{
                     .error = static_cast<double>(s.convergence_failures) / static_cast<double>(s.steps),
                     .statistics = s};
               },
@@ -147,7 +147,7 @@ Case memory(std::string name, std::string parameter, double limit, const Held& h
               [held](double samples, Stepper stepper) {
                 const models::HangingRods built = models::PlanePendulum{}.scene();
                 const auto [statistics, bytes] = held(built.scene, many(samples, stepper), allocated());
-                return Result{.error = bytes / (samples * bytes_per_sample), .statistics = statistics};
+                return Run{.error = bytes / (samples * bytes_per_sample), .statistics = statistics};
               },
           .limit = [limit](const Run& run) { return limit + 3e5 / (run.parameter * bytes_per_sample); }};
 }

@@ -17,7 +17,7 @@ using models::Real;
 using models::State;
 
 /// Largest distance of B_0 from the exact branch.
-Result of_first_joint(int loops, const Options& options) {
+Run of_first_joint(int loops, const Options& options) {
   const models::FourBar linkage{.loops = loops};
   const auto reference = linkage.reference(sample_times(options));
   const models::FourBarScene built = linkage.scene();
@@ -73,22 +73,21 @@ int times_in_line(const models::FourBar& linkage, const Options& options) {
 }
 
 Case crossings() {
-  return {.name = "crossings",
-          .parameter = "tolerance; singular positions of a four-bar in 20 s, against the reference's",
-          .sweep = every_tolerance,
-          .brief = {1e-4, 1e-8, 1e-11},
-          .run =
-              [](double tolerance, Stepper stepper) {
-                const models::FourBar linkage{.loops = 2};
-                const Options options{
-                    .t_end = 20.0, .samples = 2001, .tolerance = tolerance, .stepper = stepper};
-                const auto run = simulate(linkage.scene().scene, options);
-                const int expected = times_in_line(linkage, options);
-                return Result{
-                    .error = static_cast<double>(std::abs(run.statistics().singular_positions - expected)),
-                    .statistics = run.statistics()};
-              },
-          .limit = [](const Run&) { return 0.0; }};
+  return {
+      .name = "crossings",
+      .parameter = "tolerance; singular positions of a four-bar in 20 s, against the reference's",
+      .sweep = every_tolerance,
+      .brief = {1e-4, 1e-8, 1e-11},
+      .run =
+          [](double tolerance, Stepper stepper) {
+            const models::FourBar linkage{.loops = 2};
+            const Options options{.t_end = 20.0, .samples = 2001, .tolerance = tolerance, .stepper = stepper};
+            const auto run = simulate(linkage.scene().scene, options);
+            const int expected = times_in_line(linkage, options);
+            return Run{.error = static_cast<double>(std::abs(run.statistics().singular_positions - expected)),
+                       .statistics = run.statistics()};
+          },
+      .limit = [](const Run&) { return 0.0; }};
 }
 
 /// Constraints that come nowhere close to dependent, though Newton's iteration may fail at tight tolerances.
@@ -100,7 +99,7 @@ Case no_crossings() {
       .brief = every_tolerance,
       .run =
           [](double tolerance, Stepper stepper) {
-            Result result{.error = 0.0};
+            Run result{.error = 0.0};
             const auto add = [&](const auto& scene, double t_end) {
               result.statistics =
                   simulate(scene, {.t_end = t_end, .tolerance = tolerance, .stepper = stepper}).statistics();
@@ -156,7 +155,7 @@ struct DeadPoint {
     });
     return seen;
   }
-  [[nodiscard]] Result compared(const Options& options) const {
+  [[nodiscard]] Run compared(const Options& options) const {
     Scene<2> scene("dead-point");
     scene.add(UniformGravity<2>{{0.0, -9.81}});
     const double sine = std::sin(0.3), cosine = std::cos(0.3);

@@ -60,7 +60,7 @@ Case upright() {
             double error = 0.0;
             for (std::size_t i = 0; i < run.size(); ++i)
               error = larger(error, (run.position(bob, i) - exact[i]).norm());
-            return Result{.error = error, .statistics = run.statistics()};
+            return Run{.error = error, .statistics = run.statistics()};
           },
       .limit =
           [=](const Run& run) {
@@ -166,7 +166,7 @@ Case cusp() {
                   const VecOf<Real, 2> exact = vec(s[0], std::hypot(s[0], Real(b)));
                   error = larger(error, (run.position(bead, i++) - exact.cast<double>()).norm());
                 });
-                return Result{.error = error, .statistics = run.statistics()};
+                return Run{.error = error, .statistics = run.statistics()};
               },
           .limit = [](const Run& run) { return 9.81 * t_end * t_end * added_up(run, tolerance, 1.0); }};
 }

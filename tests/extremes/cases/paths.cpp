@@ -76,7 +76,7 @@ Lone<2> knife_edge(double v) {
 
 /// The largest error over the largest coordinate.
 template <int D>
-Result compared_alone(const Lone<D>& s, Stepper stepper) {
+Run compared_alone(const Lone<D>& s, Stepper stepper) {
   const Trajectory<D> run = simulate(s.scene, {.t_end = t_end, .tolerance = tolerance, .stepper = stepper});
   double error = 0.0, way = 0.0;
   for (std::size_t i = 0; i < run.size(); ++i) {

@@ -17,7 +17,7 @@ double duration(double mass_ratio) { return std::min(1.0, 1e3 / std::sqrt(mass_r
 double own_times(double t_end, double length) { return t_end / std::sqrt(length / 9.81); }
 
 /// Largest error of the positions over the length, and of each tension over the weight that hangs on its rod.
-Result compared_by_weight(const models::DoublePendulum& pendulum, const Options& options) {
+Run compared_by_weight(const models::DoublePendulum& pendulum, const Options& options) {
   const auto reference = pendulum.reference(sample_times(options));
   const models::HangingRods rods = pendulum.scene();
   const Trajectory<2> run = simulate(rods.scene, options);

@@ -44,7 +44,7 @@ Case redundant_pin() {
                   error = larger(error, (run.velocity(p, i) - Vec<2>(-s, c)).norm());
                   error = larger(error, (run.constraint_force(p, i) - Vec<2>(-c, g - s)).norm() / g);
                 }
-                return Result{.error = error, .statistics = run.statistics()};
+                return Run{.error = error, .statistics = run.statistics()};
               },
           .limit = as_good};
 }
@@ -87,10 +87,10 @@ struct Mechanism {
 
 /// By how much the redundant statement of a mechanism errs more than the other, both at a tolerance against
 /// the other at a hundredth of it.
-Result compared_statements(const Mechanism& repeated, const Mechanism& once, double weight, double t_end,
-                           double tolerance, Stepper stepper) {
+Run compared_statements(const Mechanism& repeated, const Mechanism& once, double weight, double t_end,
+                        double tolerance, Stepper stepper) {
   Options options{.t_end = t_end, .samples = 1001, .tolerance = tolerance, .stepper = stepper};
-  Result result;
+  Run result;
   Statistics unused;
   const auto seen = repeated.run(options, result.statistics), seen_once = once.run(options, unused);
   options.tolerance = std::max(0.01 * tolerance, 1e-12);

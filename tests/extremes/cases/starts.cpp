@@ -21,11 +21,11 @@ double number_after(const std::string& said, const std::string& word) {
 }
 
 /// A refusal that must name `culprit` and, after `word`, the distance or speed d.
-Result as_refused(const InconsistentStart& refusal, const std::string& culprit, const std::string& word,
-                  double d) {
+Run as_refused(const InconsistentStart& refusal, const std::string& culprit, const std::string& word,
+               double d) {
   const std::string said = refusal.what();
   const double named = said.find(culprit) != std::string::npos ? number_after(said, word) : infinite;
-  return {.error = std::abs(named / d - 1.0), .outcome = "InconsistentStart", .said = said};
+  return ended_by(refusal, std::abs(named / d - 1.0));
 }
 
 /// A pendulum of 1 m from horizontal, its bob put `apart` beyond the rod's length and moving along it at
@@ -64,7 +64,7 @@ Case refused(const char* name, const char* parameter, const char* word, double s
             try {
               const Simulation<2> simulation(astray.scene, {.t_end = 1.0, .stepper = stepper});
               const double left = left_of(simulation, astray.bob);
-              return Result{.error = d <= start_tolerance * scale ? left : infinite};
+              return Run{.error = d <= start_tolerance * scale ? left : infinite};
             } catch (const InconsistentStart& refusal) {
               return as_refused(refusal, "\"rod\"", word, d);
             }
@@ -89,7 +89,7 @@ Case assembled() {
                 scene.add(Distance{Fixed<2>{}, joint, 1.0}, "left");
                 scene.add(Distance{Fixed<2>{{1.8, 0.0}}, joint, 1.0}, "right");
                 const Simulation<2> simulation(scene, {.t_end = 1.0, .stepper = stepper, .assemble = true});
-                return Result{.error = (simulation.position(joint) - right).norm()};
+                return Run{.error = (simulation.position(joint) - right).norm()};
               },
           // The rods meet at an angle whose sine is 0.78; the height is one rounding of 1 over 2 x 0.44.
           .limit = [](const Run&) { return few_roundings; }};
@@ -112,9 +112,9 @@ Case redundant(const char* name, bool assemble) {
             try {
               const Simulation<2> simulation(scene, {.t_end = 1.0, .stepper = stepper, .assemble = assemble});
               // Somewhere between the two.
-              return Result{.error = d <= start_tolerance
-                                         ? std::max(0.0, std::abs(simulation.position(bob).norm() - 1.0) - d)
-                                         : infinite};
+              return Run{.error = d <= start_tolerance
+                                      ? std::max(0.0, std::abs(simulation.position(bob).norm() - 1.0) - d)
+                                      : infinite};
             } catch (const InconsistentStart& refusal) {
               const std::string said = refusal.what();
               const char* culprit = said.find("\"first\"") != std::string::npos ? "\"first\"" : "\"second\"";
@@ -139,9 +139,9 @@ Case redundant_velocities() {
                 scene.add(nonholonomic(points(skate), [d](auto, auto v) { return v.y() - d; }), "second");
                 try {
                   const Simulation<2> simulation(scene, {.t_end = 1.0, .stepper = stepper, .assemble = true});
-                  return Result{.error = d <= start_tolerance
-                                             ? std::max(0.0, std::abs(simulation.velocity(skate).y()) - d)
-                                             : infinite};
+                  return Run{.error = d <= start_tolerance
+                                          ? std::max(0.0, std::abs(simulation.velocity(skate).y()) - d)
+                                          : infinite};
                 } catch (const InconsistentStart& refusal) {
                   const std::string said = refusal.what();
                   const char* culprit =

@@ -48,7 +48,7 @@ struct DampedPair {
 /// The car axis of the Test Set for IVP Solvers (F. Mazzia, C. Magherini, release 2.4): an axle of length 1
 /// on two springs, the left one on level ground, the right one on a road y = 0.1 sin(10 t), whose foot stays
 /// 1 from the left one's. Error of the four coordinates at t = 3 against the published ones.
-[[nodiscard]] Result car_axis_at_3(const Options& options);
+[[nodiscard]] Run car_axis_at_3(const Options& options);
 
 /// The governor of the catalogue with a spring k and a damper 2 sqrt(k m2) that hold its sleeve z where it
 /// starts, z0. To the Lagrangian's equation (see models/governor.h), divided by L, they add

@@ -67,7 +67,7 @@ Case sample_at_singular() {
                   const Vec<2> due(exact[i].forces[0], exact[i].forces[1]);
                   error = larger(error, (ground - due).norm() / weight * std::sqrt(tolerance));
                 }
-                return Result{.error = error, .statistics = run.statistics()};
+                return Run{.error = error, .statistics = run.statistics()};
               },
           // The scene's own time is that of the joints over its 2 m, 0.2 s at the speed there.
           .limit =
@@ -80,8 +80,8 @@ Case sample_at_singular() {
 /// precision holds. An error within the tolerance, or what the run says of its accuracy, is no rise above one
 /// that happened to be much smaller.
 template <int D>
-Result rise(const models::Model<D>& model, Stepper stepper) {
-  Result result{.error = 0.0};
+Run rise(const models::Model<D>& model, Stepper stepper) {
+  Run result{.error = 0.0};
   double best = infinite;
   for (const double tolerance : {1e-10, 1e-11, 1e-12, 1e-13}) {
     models::Measurement m;
@@ -93,7 +93,7 @@ Result rise(const models::Model<D>& model, Stepper stepper) {
       if (tolerance > 1e-13 ||
           std::string_view(stop.what()).find("more than double precision") == std::string_view::npos)
         throw;
-      result.outcome = "IntegrationFailure";
+      result.outcome = outcome_of(stop);
       break;
     }
     const double error = std::max(m.error_position, m.error_force);

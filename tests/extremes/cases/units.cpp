@@ -39,8 +39,8 @@ Case units_of(const char* what, Units (*units)(double)) {
               [units](double unit, Stepper stepper) {
                 const double steps = static_cast<double>(run_in({}, stepper).steps);
                 const Statistics statistics = run_in(units(unit), stepper);
-                return Result{.error = std::abs(static_cast<double>(statistics.steps) / steps - 1.0),
-                              .statistics = statistics};
+                return Run{.error = std::abs(static_cast<double>(statistics.steps) / steps - 1.0),
+                           .statistics = statistics};
               },
           .limit = [](const Run&) { return 0.05; }};
 }
@@ -71,7 +71,7 @@ Case late_start() {
                   const Vec<2> exact = pendulum.reference(run.times()[i] - t0).positions[0];
                   error = larger(error, (run.position(built.beads[0], i) - exact).norm());
                 }
-                return Result{.error = error, .statistics = run.statistics()};
+                return Run{.error = error, .statistics = run.statistics()};
               },
           .limit =
               [](const Run& run) {
@@ -108,7 +108,7 @@ Case late_drive() {
                             models::PlanePendulum{}.reference(t).positions[0] + Vec<2>(pivot_speed * t, 0.0);
                         error = larger(error, (run.position(bob, i) - exact).norm());
                       }
-                      return Result{.error = error, .statistics = run.statistics()};
+                      return Run{.error = error, .statistics = run.statistics()};
                     },
                     t0 >= 1e9, "t_start and t_end closer to 0");
               },
