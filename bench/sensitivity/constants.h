@@ -64,7 +64,6 @@ inline const std::array named_constants = {
     CONSTANT(shortest_branch_step),
     CONSTANT(same_branch),
     CONSTANT(parameter_difference),
-    CONSTANT(range_defect),
     CONSTANT(free_displacement),
     CONSTANT(shift_below_0),
     CONSTANT(roundings_at_contacts),

@@ -139,9 +139,6 @@ struct Constants {
   double same_branch = 0.98;
   /// The step of difference quotients by the parameter, as a fraction of its range.
   double parameter_difference = 1e-6;
-  /// A singular point is a bifurcation if less than this part of the derivative of the forces by the
-  /// parameter is outside the range of the stiffness, else a fold.
-  double range_defect = 1e-5;
   /// How far along a mode of eigenvalue 0 another equilibrium is sought, as a fraction of the scene's length.
   double free_displacement = 0.01;
   /// The lowest modes of many are those closest to minus this part of the largest stiffness over mass.

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 namespace dalembert {
@@ -40,7 +42,13 @@ class Follower {
           "The branch of equilibria has a fold where it is to begin, at option from; begin at "
           "another value, or go from `to` to `from`");
     starts_.push_back({corrector_.begin(), *along, no_bifurcation});
-    for (std::size_t b = 0; b < starts_.size() && b < most_branches; ++b) follow_branch(starts_[b]);
+    for (std::size_t b = 0; b < starts_.size(); ++b) {
+      if (b < most_branches)
+        follow_branch(starts_[b]);
+      else
+        found_.branches.push_back(
+            {{point(starts_[b].node)}, starts_[b].origin, BranchEnd::lost, not_followed()});
+    }
     return std::move(found_);
   }
 
@@ -96,6 +104,9 @@ class Follower {
     if (branch.end == BranchEnd::lost) branch.why += why_lost(last);
     found_.branches.push_back(std::move(branch));
   }
+  static std::string not_followed() {
+    return "it is not followed: " + std::to_string(most_branches) + " others were";
+  }
   [[nodiscard]] std::string why_lost(const Node& last) const {
     std::ostringstream text;
     text << "beyond " << corrector_.parameter(last) << " no point was found in steps of "
@@ -123,46 +134,74 @@ class Follower {
     }
     while (!found.zeros.empty()) {
       const Node at = found.zeros.front().at;
-      std::vector<Eigen::VectorXd> null;
-      std::vector<Index> places;
+      const bool turns = found.zeros.front().turns;
+      std::ptrdiff_t count = 0, together = 0;
       std::erase_if(found.zeros, [&](const SingularPoints::Zero& zero) {
         if (!same_place(zero.at.x, at.x)) return false;
-        null.push_back(corrector_.direction(zero.at.stiffness.shapes.col(zero.place)));
-        places.push_back(zero.place);
+        ++count;
+        together = std::max(together, zero.count);
         return true;
       });
-      locate(at, places, null);
+      if (std::ranges::any_of(located_, [&](const VectorXd& x) { return same_place(x, at.x); })) continue;
+      located_.push_back(at.x);
+      const std::vector<Index> places = smallest(at.stiffness.values, std::max(count, together));
+      if (!corrector_.is_singular(at, places.front()))
+        found_.flutters.push_back(point(at));
+      else if (turns)
+        found_.folds.push_back(point(at));
+      else
+        bifurcate(at, places, why);
     }
   }
-  void locate(const Node& found, const std::vector<Index>& places, const std::vector<VectorXd>& null) {
-    const auto defect = corrector_.range_defect(found, places.front());
-    if (!defect) {
-      found_.flutters.push_back(point(found));
-      return;
-    }
-    if (*defect > constants.range_defect) {
-      found_.folds.push_back(point(found));
-      return;
-    }
-    if (std::ranges::any_of(located_, [&](const VectorXd& x) { return same_place(x, found.x); })) return;
-    located_.push_back(found.x);
+  void bifurcate(const Node& found, const std::vector<Index>& places, std::string& why) {
     found_.bifurcations.push_back(point(found));
-    for (const VectorXd& direction : directions(null)) switch_branch(found, direction);
+    const auto orbits = corrector_.orbits(found, places);
+    std::vector<Axis> axes;
+    for (const auto& [shapes, one_branch] : orbits) {
+      for (const Index shape : shapes) {
+        axes.push_back({corrector_.direction(found.stiffness.shapes.col(shape)), one_branch});
+        if (one_branch) break;  // the others are this one, carried around
+      }
+    }
+    for (const VectorXd& direction : directions(axes)) switch_branch(found, direction);
+    if (axes.size() > 2) why += why_not_all(found, places.size());
+  }
+  [[nodiscard]] std::string why_not_all(const Node& found, std::size_t count) const {
+    std::ostringstream text;
+    text << "at " << corrector_.parameter(found) << ' ' << count
+         << " eigenvalues are 0 at once: branches were looked for along their shapes only; ";
+    return text.str();
   }
   [[nodiscard]] bool same_place(const VectorXd& a, const VectorXd& b) const {
     return (a - b).norm() < constants.shortest_branch_step * step_;
   }
 
-  /// Both directions of a single null vector, eight of two, of more each and its opposite.
-  static std::vector<VectorXd> directions(const std::vector<VectorXd>& null) {
+  static std::vector<Index> smallest(const VectorXd& values, std::ptrdiff_t count) {
+    std::vector<Index> places(static_cast<std::size_t>(values.size()));
+    std::iota(places.begin(), places.end(), Index{0});
+    std::ranges::stable_sort(places, {}, [&](Index k) { return std::abs(values[k]); });
+    places.resize(static_cast<std::size_t>(std::min(count, std::ssize(places))));
+    return places;
+  }
+
+  /// A null vector; of what symmetries carry into its opposite only one direction counts.
+  struct Axis {
+    VectorXd along;
+    bool one_sided;
+  };
+  /// Along each axis, and of two along their bisectors.
+  static std::vector<VectorXd> directions(const std::vector<Axis>& axes) {
     std::vector<VectorXd> all;
-    const auto add = [&](const VectorXd& direction) {
-      for (const double sign : {1.0, -1.0}) all.emplace_back(sign * direction.normalized());
+    const auto add = [&](const VectorXd& direction, bool one_sided) {
+      all.emplace_back(direction.normalized());
+      if (!one_sided) all.emplace_back(-direction.normalized());
     };
-    for (const VectorXd& one : null) add(one);
-    if (null.size() == 2) {
-      add(null[0] + null[1]);
-      add(null[0] - null[1]);
+    for (const auto& [along, one_sided] : axes) add(along, one_sided);
+    if (axes.size() == 2) {
+      const auto& [a, b] = std::tie(axes[0], axes[1]);
+      add(a.along + b.along, a.one_sided || b.one_sided);
+      if (!(a.one_sided && b.one_sided))
+        add(a.one_sided ? a.along - b.along : b.along - a.along, a.one_sided || b.one_sided);
     }
     return all;
   }

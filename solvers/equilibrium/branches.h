@@ -57,7 +57,9 @@ struct Branch {
   std::vector<BranchPoint<State>> points;  ///< in their order
   std::size_t origin = no_bifurcation;     ///< the bifurcation where it emanates, if it does
   BranchEnd end = BranchEnd::lost;         ///< why it ends
-  /// Of `lost`: where, and what failed there; before that where a change of stability was not located.
+  /// Of `lost`: where, and what failed there, or that others were too many to follow this one. Of any: before
+  /// that where a change of stability was not located, and where more eigenvalues vanish at once than are
+  /// looked into.
   std::string why{};
 };
 
@@ -65,7 +67,7 @@ template <class State>
 struct Diagram {
   std::vector<Branch<State>> branches;
   std::vector<BranchPoint<State>> bifurcations;  ///< where branches intersect
-  std::vector<BranchPoint<State>> folds;         ///< where a branch turns back
+  std::vector<BranchPoint<State>> folds;         ///< where a branch turns back: the parameter is extreme
   /// Where a vibration begins to grow, or ceases to; with frequency 0, of nonholonomic scenes, a motion that
   /// does not vibrate and leads to no other branch.
   std::vector<BranchPoint<State>> flutters{};
@@ -133,7 +135,15 @@ template <int D>
 /// emanate there are followed too. (Keller, in Applications of Bifurcation Theory, 1977; Allgower, Georg,
 /// Numerical Continuation Methods, 1990.) Where an equilibrium loses its stability to a vibration that grows
 /// (follower forces, negative damping, gyroscopic forces) no branch of equilibria emanates: such points are
-/// located likewise, see `flutters`. Each branch states why it ends, see BranchEnd.
+/// located likewise, see `flutters`. Each branch states why it ends, see BranchEnd. Up to 50 are followed;
+/// the others are listed with their first point, as lost.
+///
+/// Equilibria that a symmetry of the scene carries into each other are one: a column that tilts in any
+/// direction has one tilted branch. Symmetries are found from the equations, see `steady`: translations and
+/// rotations that the frame keeps.
+///
+/// Where eigenvalues of several shapes vanish at once branches are sought along each shape, and of two shapes
+/// along their bisectors.
 ///
 /// Every value builds the scene anew; only numbers may differ. What is returned is read with the handles of
 /// the scene that was built last: `build` may store them for its caller.

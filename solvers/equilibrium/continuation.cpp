@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace dalembert {
 
@@ -47,14 +48,53 @@ EquilibriumCorrector::EquilibriumCorrector(std::function<PosedSystem(double)> po
   begin_.x = Eigen::VectorXd::Zero(static_cast<Index>(scale_.size()) + 1);
   for (std::size_t i = 0; i < scale_.size(); ++i) begin_.x[static_cast<Index>(i)] = flat.q[i] / scale_[i];
   begin_.lambda.assign(flat.lambda.begin(), flat.lambda.end());
+  find_symmetries();
   const Here here = at(options.from, begin_.x);
   finish(here, state(here, begin_), begin_);
 }
 
+/// Those of the scene at a value of the parameter at which nothing is special, as it may be at the ends of
+/// its range: without a load a scene has more. They are sought from a state beside the first: columns in line
+/// and rods in a plane have dependent rows. Where a scene has no such states none are known.
+void EquilibriumCorrector::find_symmetries() {
+  constexpr double inside = 0.618, beside = 0.02;
+  try {
+    const PosedSystem posed = pose(value(inside));
+    if (posed.system->coordinates() != scale_.size()) return;
+    const RotatingFrame frame(*posed.system->layout(), posed.turning);
+    Eigen::VectorXd q = positions(begin_.x);
+    for (Index i = 0; i < q.size(); ++i)
+      q[i] += beside * scale_[static_cast<std::size_t>(i)] * std::sin(1.37 * static_cast<double>(i + 1));
+    const std::vector<double> all(q.begin(), q.end());
+    std::vector<double> v(all.size());
+    frame.velocity(all, v);
+    const double duration = frame.rotates() ? 1.0 / frame.rate() : 1.0;
+    const Problem problem(posed.system);
+    const Start start = consistent_start(
+        problem, all, v, {.t_end = posed.time + duration, .t_start = posed.time, .assemble = true});
+    Symmetries found(problem, start, posed.time);
+    if (found.size() == 0) return;
+    kept_ = found.commuting(q, frame);
+    symmetries_ = std::move(found);
+  } catch (const Error&) {
+    symmetries_.reset();
+  }
+}
+
+Eigen::VectorXd EquilibriumCorrector::positions(const Eigen::VectorXd& x) const {
+  return x.head(std::ssize(scale_))
+      .cwiseProduct(Eigen::Map<const Eigen::VectorXd>(scale_.data(), std::ssize(scale_)));
+}
+
+Eigen::MatrixXd EquilibriumCorrector::displacements(const Eigen::VectorXd& x) const {
+  if (!symmetries_) return Eigen::MatrixXd(std::ssize(scale_), 0);
+  return symmetries_->displacements(positions(x), kept_);
+}
+
 EquilibriumCorrector::Here EquilibriumCorrector::at(double p, const Eigen::VectorXd& x) const {
   PosedSystem posed = pose(p);
-  std::vector<double> q;
-  for (std::size_t i = 0; i < scale_.size(); ++i) q.push_back(x[static_cast<Index>(i)] * scale_[i]);
+  const Eigen::VectorXd flat = positions(x);
+  const std::vector<double> q(flat.begin(), flat.end());
   if (posed.system->coordinates() != q.size() || posed.system->rows() != begin_.lambda.size())
     throw InvalidScene("Branches of scene \"" + posed.system->layout()->scene +
                        "\": for another value of the parameter it has other points or constraints");
@@ -77,7 +117,7 @@ void EquilibriumCorrector::finish(const Here& here, const EquilibriumSolver::Sta
   node.lambda.assign(flat.lambda.begin(), flat.lambda.end());
   const LinearTerms terms =
       linear_terms(*here.system, here.balance.frame(), {flat.time, flat.q, flat.v}, flat.lambda);
-  node.stiffness = tangent_stiffness(*here.system, terms);
+  node.stiffness = tangent_stiffness(*here.system, terms, displacements(node.x));
   node.vibrations = vibrations(*here.system, terms);
 }
 
@@ -91,7 +131,10 @@ std::optional<Node> EquilibriumCorrector::finished(Node guess) const {
   try {
     const Here here = at(parameter(guess), guess.x);
     const EquilibriumSolver::State s = state(here, guess);
-    if (!(s.relative_residual <= equilibrium_tolerance)) return std::nullopt;
+    if (!(s.relative_residual <= equilibrium_tolerance)) {
+      const ActiveRows rows = here.balance.rows_at(s);
+      if (!(unbalanced(s, rows, linear(here, s, guess, rows)) <= residual_tolerance)) return std::nullopt;
+    }
     finish(here, s, guess);
     return guess;
   } catch (const Error&) {
@@ -112,53 +155,98 @@ Eigen::VectorXd EquilibriumCorrector::slope_by_parameter(const Node& node, const
   return (residual(value(after), node, rows) - residual(value(before), node, rows)) / (after - before);
 }
 
-/// With l on the left of K's eigenvalue and m such that (l, m) is on the left of all equations: m balances
-/// what l does across the tangent space.
-std::optional<double> EquilibriumCorrector::range_defect(const Node& node, Index shape) const {
+/// With l on the left of K's eigenvalue, (l, m) is on the left of all equations if m balances what l does
+/// across the tangent space. With nonholonomic rows fewer equations hold than what may move is free.
+bool EquilibriumCorrector::is_singular(const Node& node, Index shape) const {
   const Here here = at(parameter(node), node.x);
+  if (here.system->holonomic_rows() == here.system->rows()) return true;
   const EquilibriumSolver::State s = state(here, node);
-  const Eigen::MatrixXd A = jacobian(here, s, node, here.balance.rows_at(s));
-  const auto n = static_cast<Index>(s.q.size()), m = A.rows() - n;
-  Eigen::VectorXd left(n + m);
+  const ActiveRows active = here.balance.rows_at(s);
+  const Eigen::MatrixXd A = linear(here, s, node, active).A;
+  const auto n = static_cast<Index>(s.q.size()), m = static_cast<Index>(active.size());
+  Eigen::VectorXd left(n);
   for (Index i = 0; i < n; ++i)
     left[i] = node.stiffness.duals(i, shape) / here.system->masses()[static_cast<std::size_t>(i)];
-  if (m > 0) {
-    const Eigen::MatrixXd rows = A.bottomLeftCorner(m, n).transpose(),
-                          across = -A.topLeftCorner(n, n).transpose() * left.head(n);
-    left.tail(m) = dense::least_squares(rows, across, rank_threshold);
-    // With nonholonomic rows fewer equations hold than what may move is free.
-    const double terms = (A.topLeftCorner(n, n).cwiseAbs().transpose() * left.head(n).cwiseAbs()).norm();
-    const bool regular = (rows * left.tail(m) - across).norm() > std::sqrt(rank_threshold) * terms;
-    if (regular && here.system->holonomic_rows() < here.system->rows()) return std::nullopt;
-  }
-  const Eigen::VectorXd slope = A.col(n + m);
-  // Difference quotients keep round-off of the forces that act where the mode moves.
-  const Eigen::Map<const Eigen::VectorXd> acting(s.acting.data(), n);
-  const double size = std::max(slope.cwiseAbs().dot(left.cwiseAbs()), acting.dot(left.head(n).cwiseAbs()));
-  return size > 0.0 ? std::abs(slope.dot(left)) / size : 0.0;
+  const Eigen::MatrixXd rows = A.block(n, 0, m, n).transpose(),
+                        across = -A.topLeftCorner(n, n).transpose() * left;
+  const Eigen::MatrixXd balance = dense::least_squares(rows, across, rank_threshold);
+  const double terms = (A.topLeftCorner(n, n).cwiseAbs().transpose() * left.cwiseAbs()).norm();
+  return (rows * balance - across).norm() <= std::sqrt(rank_threshold) * terms;
 }
 
-/// [R_q R_lambda R_p] in the units of x, one row per coordinate and one per constraint row.
-Eigen::MatrixXd EquilibriumCorrector::jacobian(const Here& here, const EquilibriumSolver::State& s,
-                                               const Node& node, const ActiveRows& rows) const {
+/// On the eigenvectors each symmetry is z -> B z. The orbit of some z fills the sphere if it has its
+/// dimension (compact groups).
+std::vector<Corrector::Orbit> EquilibriumCorrector::orbits(const Node& node,
+                                                           const std::vector<Index>& shapes) const {
+  if (!symmetries_) return Corrector::orbits(node, shapes);
+  const auto d = static_cast<Index>(shapes.size());
+  const Eigen::MatrixXd fixing = kept_ * dense::kernel(displacements(node.x), rank_threshold);
+  const Eigen::MatrixXd right = node.stiffness.shapes(Eigen::all, shapes),
+                        left = node.stiffness.duals(Eigen::all, shapes);
+  std::vector<Eigen::MatrixXd> all;
+  Eigen::MatrixXd coupled = Eigen::MatrixXd::Zero(d, d);
+  for (Index k = 0; k < fixing.cols(); ++k) {
+    all.emplace_back(left.transpose() * (symmetries_->motion(fixing.col(k)).A * right));
+    coupled = coupled.cwiseMax(all.back().cwiseAbs()).eval();
+  }
+  const double least = std::sqrt(rank_threshold) * (d > 0 ? coupled.maxCoeff() : 0.0);
+  std::vector<Index> left_over(shapes.size());
+  std::iota(left_over.begin(), left_over.end(), Index{0});
+  std::vector<Orbit> found;
+  while (!left_over.empty()) {
+    std::vector<Index> own{left_over.front()};
+    left_over.erase(left_over.begin());
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      std::erase_if(left_over, [&](Index i) {
+        if (!(std::max(coupled(i, own[k]), coupled(own[k], i)) > least)) return false;
+        own.push_back(i);
+        return true;
+      });
+    }
+    const auto size = static_cast<Index>(own.size());
+    const Eigen::VectorXd z = Eigen::VectorXd::LinSpaced(size, 1.0, 2.0);
+    Eigen::MatrixXd orbit(size, std::ssize(all));
+    for (Index k = 0; k < orbit.cols(); ++k) orbit.col(k) = all[static_cast<std::size_t>(k)](own, own) * z;
+    const bool whole = size > 1 && dense::row_space(orbit.transpose(), rank_threshold).cols() == size - 1;
+    for (Index& i : own) i = shapes[static_cast<std::size_t>(i)];
+    found.push_back({std::move(own), whole});
+  }
+  return found;
+}
+
+EquilibriumCorrector::Linear EquilibriumCorrector::linear(const Here& here, const EquilibriumSolver::State& s,
+                                                          const Node& node, const ActiveRows& rows) const {
   const LinearTerms terms =
       linear_terms(*here.system, here.balance.frame(), {here.balance.time(), s.q, s.v}, s.lambda);
+  Eigen::MatrixXd X = displacements(node.x);
+  for (Index i = 0; i < X.rows(); ++i) X.row(i) /= scale_[static_cast<std::size_t>(i)];
+  X = orthonormal_span(std::move(X));
   const auto n = static_cast<Index>(s.q.size()), m = static_cast<Index>(rows.size());
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n + m, n + m + 1);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n + m + X.cols(), n + m + 1);
   for (const auto& k : terms.stiffness)
     A(static_cast<Index>(k.row()), static_cast<Index>(k.col())) -= k.value() * scale_[k.col()];
+  const Eigen::VectorXd slope = slope_by_parameter(node, rows);
+  const double most = std::max({A.cwiseAbs().maxCoeff(), slope.head(n).cwiseAbs().maxCoeff(), s.scale}),
+               force = most > 0.0 ? most : 1.0;
   for (Index a = 0; a < m; ++a) {
     const std::size_t r = rows.rows[static_cast<std::size_t>(a)];
     const bool holonomic = r < here.system->holonomic_rows();
     for (const std::size_t k : here.system->row(r)) {
       const std::size_t i = here.system->w_columns()[k];
-      A(static_cast<Index>(i), n + a) += terms.w[k];
+      A(static_cast<Index>(i), n + a) += terms.w[k] * force;
       if (holonomic) A(n + a, static_cast<Index>(i)) += terms.w[k] * scale_[i];
     }
-    if (holonomic) A(n + a, n + a) = here.system->law(r).compliance;
+    if (holonomic) A(n + a, n + a) = here.system->law(r).compliance * force;
   }
-  A.col(n + m) = slope_by_parameter(node, rows);
-  return A;
+  A.block(0, n + m, n + m, 1) = slope;
+  Eigen::VectorXd units = Eigen::VectorXd::Constant(n + m, force);
+  for (Index a = n; a < n + m; ++a) {
+    const double length = A.row(a).head(n + m).norm();
+    units[a] = length > 0.0 ? length : 1.0;
+  }
+  A.topRows(n + m) = (units.cwiseInverse().asDiagonal() * A.topRows(n + m)).eval();
+  A.bottomLeftCorner(X.cols(), n) = X.transpose();
+  return {std::move(A), force, std::move(units)};
 }
 
 std::optional<Eigen::VectorXd> EquilibriumCorrector::tangent(const Node& node) const {
@@ -167,33 +255,44 @@ std::optional<Eigen::VectorXd> EquilibriumCorrector::tangent(const Node& node) c
   constexpr double exact = 1e-4, rounding = 1e-8, no_stiffness = 1e-12;
   const Here here = at(parameter(node), node.x);
   const EquilibriumSolver::State s = state(here, node);
-  const Eigen::MatrixXd A = jacobian(here, s, node, here.balance.rows_at(s));
-  const Index last = A.cols() - 1;
-  const Eigen::VectorXd slope = A.col(last);
-  const Eigen::VectorXd change = dense::least_squares(A.leftCols(last), -slope, no_stiffness);
-  const double off = (A.leftCols(last) * change + slope).norm();
-  if (!(off <= exact * slope.norm() + rounding * s.scale)) return std::nullopt;
+  const Linear all = linear(here, s, node, here.balance.rows_at(s));
+  const Index last = all.A.cols() - 1;
+  const Eigen::VectorXd slope = all.A.col(last);
+  const Eigen::VectorXd change = dense::least_squares(all.A.leftCols(last), -slope, no_stiffness);
+  const double off = (all.A.leftCols(last) * change + slope).norm();
+  if (!(off <= exact * slope.norm() + rounding * s.scale / all.force)) return std::nullopt;
   Eigen::VectorXd along(node.x.size());
   along << change.head(along.size() - 1), 1.0;
   return along.normalized();
 }
 
-void EquilibriumCorrector::newton_step(const Here& here, const EquilibriumSolver::State& s, double off,
-                                       const Eigen::VectorXd& normal, Node& node) const {
-  const ActiveRows rows = here.balance.rows_at(s);
-  const auto n = static_cast<Index>(s.q.size()), m = static_cast<Index>(rows.size());
-  Eigen::MatrixXd A(n + m + 1, n + m + 1);
-  A.topRows(n + m) = jacobian(here, s, node, rows);
-  A.row(n + m).setZero();
-  A.row(n + m).head(n) = normal.head(n);
-  A(n + m, n + m) = normal[n];
-  Eigen::VectorXd b(n + m + 1);
-  b << balance_of(s, rows), off;
+/// Where forces cancel within one law nothing tells what they are sums of: so by what they change by.
+double EquilibriumCorrector::unbalanced(const EquilibriumSolver::State& s, const ActiveRows& rows,
+                                        const Linear& all) {
+  return balance_of(s, rows).cwiseQuotient(all.units).lpNorm<Eigen::Infinity>();
+}
+
+Eigen::VectorXd EquilibriumCorrector::solution(const Linear& all, const Eigen::VectorXd& normal,
+                                               const Eigen::VectorXd& right, double across) {
+  const Index n = normal.size() - 1, rows = all.A.rows();
+  Eigen::MatrixXd A(rows + 1, all.A.cols());
+  A.topRows(rows) = all.A;
+  A.row(rows).setZero();
+  A.row(rows).head(n) = normal.head(n);
+  A(rows, A.cols() - 1) = normal[n];
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(rows + 1);
+  b.head(right.size()) = right.cwiseQuotient(all.units);
+  b[rows] = across;
   const double rounding = epsilon * static_cast<double>(A.rows());
-  const Eigen::VectorXd step = dense::least_squares(A, -b, rounding);
-  node.x.head(n) += step.head(n);
-  node.x[n] += step[n + m];
-  for (Index a = 0; a < m; ++a) node.lambda[rows.rows[static_cast<std::size_t>(a)]] += step[n + a];
+  return dense::least_squares(A, b, rounding);
+}
+
+double EquilibriumCorrector::parameter_slope(const Node& node, const Eigen::VectorXd& normal) const {
+  const Here here = at(parameter(node), node.x);
+  const EquilibriumSolver::State s = state(here, node);
+  const ActiveRows rows = here.balance.rows_at(s);
+  const Linear all = linear(here, s, node, rows);
+  return solution(all, normal, Eigen::VectorXd::Zero(all.units.size()), 1.0).tail(1).value();
 }
 
 std::optional<Node> EquilibriumCorrector::correct(const Node& guess, const Eigen::VectorXd& normal) const {
@@ -211,8 +310,19 @@ std::optional<Node> EquilibriumCorrector::correct(const Node& guess, const Eigen
         return node;
       }
       before = size;
-      newton_step(here, s, off, normal, node);
-      double& fraction = node.x[node.x.size() - 1];
+      const ActiveRows rows = here.balance.rows_at(s);
+      const Linear all = linear(here, s, node, rows);
+      if (std::max(unbalanced(s, rows, all), std::abs(off)) <= rounding) {
+        finish(here, s, node);
+        return node;
+      }
+      const Eigen::VectorXd step = solution(all, normal, -balance_of(s, rows), -off);
+      const Index n = node.x.size() - 1;
+      node.x.head(n) += step.head(n);
+      node.x[n] += step[step.size() - 1];
+      for (std::size_t a = 0; a < rows.size(); ++a)
+        node.lambda[rows.rows[a]] += all.force * step[n + static_cast<Index>(a)];
+      double& fraction = node.x[n];
       if (!node.x.allFinite()) break;
       fraction = std::clamp(fraction, 0.0, 1.0);  // a point beyond is then never found
     }

@@ -3,6 +3,7 @@
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/equilibrium/branches.h>
 #include <dalembert/solvers/equilibrium/equilibrium_solver.h>
+#include <dalembert/solvers/equilibrium/symmetries.h>
 #include <dalembert/solvers/equilibrium/tangent_modes.h>
 
 #include <Eigen/Core>
@@ -48,10 +49,23 @@ class Corrector {
   /// The unit tangent of the branch at a point, towards options.to; none at a fold. It has no component along
   /// free motions.
   [[nodiscard]] virtual std::optional<Eigen::VectorXd> tangent(const Node& node) const = 0;
-  /// The part of the residual's derivative by p along the left eigenvector of an eigenvalue of K, over that
-  /// derivative. At a singular point it is 0 at a bifurcation (the derivative is in the range of the
-  /// equations), not 0 at a fold. Nothing where the equations are regular, and only what moves is not stiff.
-  [[nodiscard]] virtual std::optional<double> range_defect(const Node& node, Eigen::Index shape) const = 0;
+  /// By how much the parameter changes along the branch per unit across a hyperplane, at a point that is not
+  /// singular.
+  [[nodiscard]] virtual double parameter_slope(const Node& node, const Eigen::VectorXd& normal) const = 0;
+  /// Whether an eigenvector of K of eigenvalue 0 leads to other equilibria: not where the equations are
+  /// regular, and only what nonholonomic rows let move is not stiff.
+  [[nodiscard]] virtual bool is_singular(const Node& node, Eigen::Index shape) const = 0;
+  /// Eigenvectors of K by their places, which symmetries that leave the point as it is carry into each other.
+  struct Orbit {
+    std::vector<Eigen::Index> shapes;
+    bool one_branch;  ///< every direction that they span is carried into every other
+  };
+  [[nodiscard]] virtual std::vector<Orbit> orbits(const Node&,
+                                                  const std::vector<Eigen::Index>& shapes) const {
+    std::vector<Orbit> each;
+    for (const Eigen::Index shape : shapes) each.push_back({{shape}, false});
+    return each;
+  }
   /// The direction of an eigenvector in x, of length 1.
   [[nodiscard]] Eigen::VectorXd direction(const Eigen::VectorXd& shape) const;
 
@@ -72,11 +86,12 @@ class Corrector {
 
 /// Newton's iteration for an equilibrium,
 ///
-///   R1(q, lambda, p) = 0,   R2(q, lambda, p) = 0,   normal . (x - x_guess) = 0.                       (1)
+///   R1(q, lambda, p) = 0,   R2(q, lambda, p) = 0,   normal . (x - x_guess) = 0,   X(q)^T dx = 0.        (1)
 ///
 /// Derivatives by q and lambda are those of EquilibriumSolver, by p difference quotients; corrections are of
-/// least norm, so that free motions do no harm. No scene is built outside of the range of p: there are no
-/// points there.
+/// least norm, so that free motions do no harm. X are the displacements by symmetries of the scene that its
+/// frame keeps: they carry an equilibrium into others of the same p, and the last of (1) chooses one of them.
+/// No scene is built outside of the range of p: there are no points there.
 class EquilibriumCorrector final : public Corrector {
  public:
   /// Begins at the equilibrium of options.from. Throws like `find_equilibrium`.
@@ -85,7 +100,10 @@ class EquilibriumCorrector final : public Corrector {
   [[nodiscard]] std::optional<Node> correct(const Node& guess, const Eigen::VectorXd& normal) const override;
   [[nodiscard]] std::optional<Node> finished(Node guess) const override;
   [[nodiscard]] std::optional<Eigen::VectorXd> tangent(const Node& node) const override;
-  [[nodiscard]] std::optional<double> range_defect(const Node& node, Eigen::Index shape) const override;
+  [[nodiscard]] double parameter_slope(const Node& node, const Eigen::VectorXd& normal) const override;
+  [[nodiscard]] bool is_singular(const Node& node, Eigen::Index shape) const override;
+  [[nodiscard]] std::vector<Orbit> orbits(const Node& node,
+                                          const std::vector<Eigen::Index>& shapes) const override;
 
  private:
   struct Here {
@@ -97,11 +115,30 @@ class EquilibriumCorrector final : public Corrector {
   [[nodiscard]] EquilibriumSolver::State state(const Here& here, const Node& node) const;
   [[nodiscard]] Eigen::VectorXd residual(double p, const Node& node, const ActiveRows& rows) const;
   [[nodiscard]] Eigen::VectorXd slope_by_parameter(const Node& node, const ActiveRows& rows) const;
-  [[nodiscard]] Eigen::MatrixXd jacobian(const Here& here, const EquilibriumSolver::State& s,
-                                         const Node& node, const ActiveRows& rows) const;
-  void newton_step(const Here& here, const EquilibriumSolver::State& s, double off,
-                   const Eigen::VectorXd& normal, Node& node) const;
+  /// (1), linearised, without the hyperplane: [R_q R_lambda R_p] in the units of x, and X^T. Forces are
+  /// measured by the largest that acts, that a unit of x changes or that the range of p does; constraints by
+  /// their gradients.
+  struct Linear {
+    Eigen::MatrixXd A;
+    double force;           ///< the unit of lambda
+    Eigen::VectorXd units;  ///< of each row
+  };
+  [[nodiscard]] Linear linear(const Here& here, const EquilibriumSolver::State& s, const Node& node,
+                              const ActiveRows& rows) const;
+  /// The shortest (dx, dlambda, dp) of (1) for a right-hand side, in the units of `linear`.
+  [[nodiscard]] static Eigen::VectorXd solution(const Linear& all, const Eigen::VectorXd& normal,
+                                                const Eigen::VectorXd& right, double across);
+  [[nodiscard]] Eigen::VectorXd positions(const Eigen::VectorXd& x) const;
+  /// By the symmetries that the frame keeps: columns.
+  [[nodiscard]] Eigen::MatrixXd displacements(const Eigen::VectorXd& x) const;
+  void find_symmetries();
+  /// The largest of what is left of R1 and R2, in the units of `linear`.
+  [[nodiscard]] static double unbalanced(const EquilibriumSolver::State& s, const ActiveRows& rows,
+                                         const Linear& all);
   void finish(const Here& here, const EquilibriumSolver::State& s, Node& node) const;
+
+  std::optional<Symmetries> symmetries_{};
+  Eigen::MatrixXd kept_{};  // coefficients of those that the frame keeps, columns
 };
 
 }  // namespace dalembert

@@ -9,6 +9,7 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <span>
 
 namespace dalembert {
 
@@ -23,7 +24,14 @@ constexpr double exact = 1e-14;
 /// other are the same, as sqrt(1 - 0.8^2) < 0.8 is left for all others.
 constexpr double same_shape = 0.8;
 constexpr int most_divisions = 10;
+/// Half the interval in which a branch is interpolated, in steps: two zeros of one eigenvalue halve it.
+constexpr double widest = 0.1, narrowest = 1e-3;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Whether an eigenvalue is 0 as exactly as a position is known, beside itself elsewhere.
+bool is_none_beside(double value, double other) {
+  return other != 0.0 && std::abs(value) <= std::sqrt(rank_threshold) * std::abs(other);
+}
 
 /// The place in b of what is most alike to both ends of a pair.
 Index place_of(const Node& at, const Node& a, const Node& b, std::pair<Index, Index> pair) {
@@ -42,16 +50,45 @@ double determinant(const Node& at, const Node& unit) {
   return at.stiffness.negative ? -size : size;
 }
 
-/// The Lagrange polynomials of some nodes at x.
-template <std::size_t N>
-std::array<double, N> weights(const std::array<double, N>& nodes, double x) {
-  std::array<double, N> w;
-  for (std::size_t i = 0; i < N; ++i) {
-    w[i] = 1.0;
-    for (std::size_t j = 0; j < N; ++j)
-      if (j != i) w[i] *= (x - nodes[j]) / (nodes[i] - nodes[j]);
-  }
+/// The Lagrange polynomials of some places at x.
+VectorXd weights(std::span<const double> places, double x) {
+  VectorXd w = VectorXd::Ones(std::ssize(places));
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t j = 0; j < places.size(); ++j)
+      if (j != i) w[static_cast<Index>(i)] *= (x - places[j]) / (places[i] - places[j]);
   return w;
+}
+
+/// Points on a branch and their places along a chord, between which it is a polynomial.
+struct Polynomial {
+  std::vector<double> places{};
+  std::vector<Node> nodes{};
+
+  void add(double place, Node node) {
+    places.push_back(place);
+    nodes.push_back(std::move(node));
+  }
+  /// To be corrected.
+  [[nodiscard]] Node at(double x) const {
+    const VectorXd w = weights(places, x);
+    Node sum = nodes.front();
+    sum.x.setZero();
+    std::ranges::fill(sum.lambda, 0.0);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const double share = w[static_cast<Index>(k)];
+      sum.x += share * nodes[k].x;
+      for (std::size_t r = 0; r < sum.lambda.size(); ++r) sum.lambda[r] += share * nodes[k].lambda[r];
+    }
+    return sum;
+  }
+};
+
+/// The middle of an interval along the chord, about `way` if it lies within the range of the parameter.
+double within_range(const Node& a, const Node& b, double way, double width) {
+  const double slope = b.fraction() - a.fraction();
+  if (slope == 0.0) return way;
+  const auto [first, last] = std::minmax({-a.fraction() / slope, (1.0 - a.fraction()) / slope});
+  return last - first > 2.0 * width ? std::clamp(way, first + width, last - width) : 0.5 * (first + last);
 }
 
 /// Two vibrations of an undamped scene that meet: half of their distance squared, and their frequency; < 0
@@ -169,30 +206,81 @@ void SingularPoints::zeros(const Node* before, const Node& a, const Node& b, int
   }
   followed.pair_the_rest();
   bool left = a.stiffness.negative != b.stiffness.negative;  // a change of the determinant's sign
+  const auto add = [&](std::optional<Zero> zero, bool certain) {
+    found.missed = found.missed || (certain && !zero);
+    if (zero) found.zeros.push_back(std::move(*zero));
+  };
   for (const Pair& pair : followed.pairs) {
-    if ((a.stiffness.values[pair.first] < 0.0) == (b.stiffness.values[pair.second] < 0.0)) continue;
-    left = !left;
-    if (auto zero = locate(a, b, pair)) found.zeros.push_back(std::move(*zero));
+    const double at_a = a.stiffness.values[pair.first], at_b = b.stiffness.values[pair.second];
+    const bool changes = (at_a < 0.0) != (at_b < 0.0);
+    left = left != changes;
+    // One that is 0 at an end passes 0 there, or turns.
+    const bool at_an_end = is_none_beside(at_a, at_b) || is_none_beside(at_b, at_a);
+    if (changes || at_an_end) add(locate(a, b, pair), !at_an_end);
   }
-  if (!left) return;
-  if (auto zero = locate_determinant(a, b)) found.zeros.push_back(std::move(*zero));
+  if (left) add(locate_determinant(a, b), true);
 }
 
 /// First roughly, by points that are corrected. Close to the zero that fails: two branches may intersect
-/// there, and Newton's matrix is singular. So the branch is interpolated then.
-Node SingularPoints::nearest(const Node& a, const Node& b, const Function& value) const {
-  std::optional<Node> near;
+/// there, Newton's matrix is singular, and a residual of round-off leaves its root sideways. So the branch is
+/// interpolated then.
+std::optional<SingularPoints::Zero> SingularPoints::nearest(const Node& a, const Node& b,
+                                                            const Function& value) const {
   const auto on_way = [&](double way) {
-    auto next = on_chord(a, b, way);
-    if (!next) return 0.0;  // that ends the search with what there is
-    near = std::move(next);
-    const double there = value(*near);
+    const auto next = on_chord(a, b, way);
+    const double there = next ? value(*next) : 0.0;  // that ends the search
     return std::isnan(there) ? 0.0 : there;
   };
-  (void)root(on_way, 0.0, value(a), 1.0, value(b), exact);
-  if (!near) near = b;
-  if (auto better = interpolated(a, b, *near, value)) near = std::move(better);
-  return std::move(*near);
+  const double at_a = value(a), at_b = value(b);
+  double way = std::abs(at_a) < std::abs(at_b) ? 0.0 : 1.0;
+  if ((at_a < 0.0) != (at_b < 0.0)) way = root(on_way, 0.0, at_a, 1.0, at_b, exact);
+  for (double width = widest * step_; width > narrowest * step_; width *= 0.5)
+    if (auto zero = interpolated(a, b, way, width / (b.x - a.x).norm(), value)) return zero;
+  return std::nullopt;
+}
+
+/// Branches are analytic, also where they intersect: through points on both sides, at Chebyshev's places
+/// along the chord, the polynomial errs by (width/r)^8/128 if the next singularity is r away. Each point is
+/// sought where the others have it, from the ends to the middle, so that it is of the same branch.
+///
+/// With psi on the left of K's eigenvalue mu, a branch (x(s), p(s)) of R(x, p) = 0 satisfies
+///
+///   mu psi.x' + psi.R_p p' = 0                                                                        (1)
+///
+/// Where mu = 0 either p' is 0 and psi.R_p is not: a fold; or p' is not 0: psi.R_p is, and branches
+/// intersect.
+std::optional<SingularPoints::Zero> SingularPoints::interpolated(const Node& a, const Node& b, double way,
+                                                                 double width, const Function& value) const {
+  constexpr int count = 8;
+  const VectorXd chord = b.x - a.x, along = chord.normalized();
+  const double centre = within_range(a, b, way, width);
+  Polynomial branch{{0.0, 1.0}, {a, b}}, near{std::vector<double>(count), std::vector<Node>(count)};
+  VectorXd values(count), slopes(count);
+  for (int k = 0; k < count; ++k) {
+    const int place = k % 2 == 0 ? k / 2 : count - 1 - k / 2;
+    const double at = centre + width * std::cos((place + 0.5) / count * std::numbers::pi);
+    if (at == 0.0 || at == 1.0) return std::nullopt;
+    const Node guess = branch.at(at);
+    auto next = corrector_->correct(guess, along);
+    if (!next || (next->x - guess.x).norm() > width * chord.norm()) return std::nullopt;
+    values[place] = value(*next);
+    if (std::isnan(values[place])) return std::nullopt;
+    slopes[place] = corrector_->parameter_slope(*next, along);
+    branch.add(at, *next);
+    near.places[static_cast<std::size_t>(place)] = at;
+    near.nodes[static_cast<std::size_t>(place)] = std::move(*next);
+  }
+  const auto is_negative = [&](Index k) { return values[k] < 0.0; };
+  int changes = 0;
+  for (Index k = 1; k < count; ++k) changes += is_negative(k - 1) != is_negative(k);
+  const auto eigenvalue = [&](double x) { return weights(near.places, x).dot(values); };
+  const double low = centre - width, high = centre + width, below = eigenvalue(low), above = eigenvalue(high);
+  if (changes > 1 || (below < 0.0) == (above < 0.0)) return std::nullopt;
+  const double zero = root(eigenvalue, low, below, high, above, exact * width);
+  auto found = corrector_->finished(near.at(zero));
+  if (!found) return std::nullopt;
+  const double slope = weights(near.places, zero).dot(slopes);
+  return Zero{std::move(*found), std::abs(slope) <= std::sqrt(rank_threshold) * slopes.cwiseAbs().maxCoeff()};
 }
 
 std::optional<SingularPoints::Zero> SingularPoints::locate(const Node& a, const Node& b, Pair pair) const {
@@ -201,21 +289,28 @@ std::optional<SingularPoints::Zero> SingularPoints::locate(const Node& a, const 
     if (&node == &b) return b.stiffness.values[pair.second];
     return node.stiffness.values.size() > 0 ? node.stiffness.values[place_of(node, a, b, pair)] : unknown;
   };
-  Node near = nearest(a, b, eigenvalue);
-  if (near.stiffness.values.size() == 0) return locate_determinant(a, b);
-  const Index place = place_of(near, a, b, pair);
+  auto zero = nearest(a, b, eigenvalue);
+  if (!zero || zero->at.stiffness.values.size() == 0) return locate_determinant(a, b);
   // Where points on the way are of another branch an eigenvalue jumps, and is 0 nowhere.
   constexpr double jump = 0.1;
   const double size =
       std::max(std::abs(a.stiffness.values[pair.first]), std::abs(b.stiffness.values[pair.second]));
-  if (std::abs(near.stiffness.values[place]) > jump * size) return std::nullopt;
-  return Zero{std::move(near), place};
+  if (std::abs(eigenvalue(zero->at)) > jump * size) return std::nullopt;
+  const auto none = [size](const Node& node) {
+    return std::ranges::count_if(node.stiffness.values,
+                                 [size](double value) { return is_none_beside(value, size); });
+  };
+  zero->count = std::max<std::ptrdiff_t>(1, none(zero->at) - std::min(none(a), none(b)));
+  return zero;
 }
 
 /// Where two eigenvalues are 0 so close to each other that they are complex before it. There they have one
 /// shape, to round-off that of either where both are real: they are as far from 0 there as its root.
 std::optional<SingularPoints::Zero> SingularPoints::locate_determinant(const Node& a, const Node& b) const {
-  Node near = nearest(a, b, [&](const Node& node) { return determinant(node, a); });
+  if (a.stiffness.negative == b.stiffness.negative) return std::nullopt;
+  auto zero = nearest(a, b, [&](const Node& node) { return determinant(node, a); });
+  if (!zero) return std::nullopt;
+  Node& near = zero->at;
   Node beside = b.stiffness.values.size() > a.stiffness.values.size() ? b : a;
   if (near.stiffness.values.size() < beside.stiffness.values.size()) {
     for (double way = 0.5; way > std::sqrt(exact); way *= 0.5) {
@@ -228,48 +323,7 @@ std::optional<SingularPoints::Zero> SingularPoints::locate_determinant(const Nod
     near.stiffness = beside.stiffness;
   }
   if (near.stiffness.values.size() == 0) return std::nullopt;
-  Index place = 0;
-  (void)near.stiffness.values.cwiseAbs().minCoeff(&place);
-  return Zero{std::move(near), place};
-}
-
-/// Branches are analytic, also where they intersect: through points on both sides, at Chebyshev's places
-/// along the chord, the polynomial errs by (width/r)^8/128 if the next singularity is r away.
-std::optional<Node> SingularPoints::interpolated(const Node& a, const Node& b, const Node& near,
-                                                 const Function& value) const {
-  constexpr std::size_t count = 8;
-  const VectorXd along = (b.x - a.x).normalized();
-  const double width = 0.1 * step_;
-  std::array<double, count> ways, values;
-  std::array<Node, count> nodes;
-  for (std::size_t k = 0; k < count; ++k) {
-    ways[k] = std::cos((static_cast<double>(k) + 0.5) / count * std::numbers::pi);
-    Node guess = near;
-    guess.x += width * ways[k] * along;
-    if (guess.fraction() < 0.0 || guess.fraction() > 1.0) return std::nullopt;
-    auto next = corrector_->correct(guess, along);
-    if (!next || (next->x - near.x).norm() > 2.0 * width) return std::nullopt;
-    nodes[k] = std::move(*next);
-    values[k] = value(nodes[k]);
-    if (std::isnan(values[k])) return std::nullopt;
-  }
-  const auto eigenvalue = [&](double way) {
-    const auto w = weights(ways, way);
-    double sum = 0.0;
-    for (std::size_t k = 0; k < count; ++k) sum += w[k] * values[k];
-    return sum;
-  };
-  if ((values[0] > 0.0) == (values[count - 1] > 0.0)) return std::nullopt;
-  const auto w =
-      weights(ways, root(eigenvalue, ways[0], values[0], ways[count - 1], values[count - 1], exact));
-  Node found = near;
-  found.x.setZero();
-  std::ranges::fill(found.lambda, 0.0);
-  for (std::size_t k = 0; k < count; ++k) {
-    found.x += w[k] * nodes[k].x;
-    for (std::size_t r = 0; r < found.lambda.size(); ++r) found.lambda[r] += w[k] * nodes[k].lambda[r];
-  }
-  return corrector_->finished(std::move(found));
+  return zero;
 }
 
 /// A pair of real eigenvalues becomes one vibration without a change of stability, and might hide one: where

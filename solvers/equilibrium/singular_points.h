@@ -3,6 +3,7 @@
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/equilibrium/continuation.h>
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -19,10 +20,11 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// gives more than `same_shape` of the other; where that tells too little the step is divided.
 class SingularPoints {
  public:
-  /// A real eigenvalue that is 0 at a point, by its place in Node::stiffness.
+  /// A point where a real eigenvalue is 0, for each that is found to be.
   struct Zero {
     Node at;
-    Eigen::Index place;
+    bool turns;                ///< the branch turns back there: a fold
+    std::ptrdiff_t count = 1;  ///< how many eigenvalues are 0 there, but not beside it
   };
   struct Flutter {
     Node at;
@@ -63,8 +65,8 @@ class SingularPoints {
   using Function = std::function<double(const Node&)>;
   [[nodiscard]] std::optional<Zero> locate(const Node& a, const Node& b, Pair pair) const;
   [[nodiscard]] std::optional<Zero> locate_determinant(const Node& a, const Node& b) const;
-  [[nodiscard]] Node nearest(const Node& a, const Node& b, const Function& value) const;
-  [[nodiscard]] std::optional<Node> interpolated(const Node& a, const Node& b, const Node& near,
+  [[nodiscard]] std::optional<Zero> nearest(const Node& a, const Node& b, const Function& value) const;
+  [[nodiscard]] std::optional<Zero> interpolated(const Node& a, const Node& b, double way, double width,
                                                  const Function& value) const;
   [[nodiscard]] std::optional<Flutter> locate_flutter(const Node& a, const Node& b, std::size_t rank,
                                                       bool& missed) const;

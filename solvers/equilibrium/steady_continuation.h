@@ -16,8 +16,9 @@ class SteadyCorrector final : public Corrector {
   [[nodiscard]] std::optional<Node> correct(const Node& guess, const Eigen::VectorXd& normal) const override;
   [[nodiscard]] std::optional<Node> finished(Node guess) const override;
   [[nodiscard]] std::optional<Eigen::VectorXd> tangent(const Node& node) const override;
+  [[nodiscard]] double parameter_slope(const Node&, const Eigen::VectorXd&) const override { return 1.0; }
   /// Eigenvalues of K decide nothing here.
-  [[nodiscard]] std::optional<double> range_defect(const Node&, Eigen::Index) const override { return {}; }
+  [[nodiscard]] bool is_singular(const Node&, Eigen::Index) const override { return false; }
 
  private:
   [[nodiscard]] Node point(double fraction, std::span<const double> beside) const;

@@ -99,7 +99,7 @@ void Symmetries::add_parts(const Problem& problem, const Start& start) {
     for (int i = 0; i < d; ++i) {
       Generator x{{n, n}, VectorXd::Zero(n), false, false};
       for (const auto& p : layout.particles)
-        if (part_of(p.coordinate) == part) x.b[p.coordinate + i] = 1.0;
+        if (part_of(p.coordinate) == part) x.b[p.coordinate + i] = start.scales.length;  // as by a radian
       generators_.push_back(std::move(x));
     }
     for (const Vector3d& axis : axes_of_rotation(d)) {
@@ -233,11 +233,18 @@ UniformMotion Symmetries::motion(const VectorXd& y) const {
 }
 
 MatrixXd Symmetries::commuting(const VectorXd& q, const VectorXd& y) const {
-  const UniformMotion all = motion(y);
-  const VectorXd v = all.A * q + all.b, a = all.A * v;
-  const MatrixXd X = fields(q), Av = images(v), AX = all.A * X, AAv = all.A * Av, Aa = images(a);
+  return commuting(q, RotatingFrame(motion(y)));
+}
+
+MatrixXd Symmetries::commuting(const VectorXd& q, const RotatingFrame& frame) const {
+  const RotatingFrame::Sparse& A = frame.matrix();
+  VectorXd v(q.size());
+  frame.velocity({q.data(), static_cast<std::size_t>(q.size())},
+                 {v.data(), static_cast<std::size_t>(q.size())});
+  const VectorXd a = A * v;
+  const MatrixXd X = fields(q), Av = images(v), AX = A * X, AAv = A * Av, Aa = images(a);
   MatrixXd value = dense::below(Av - AX, Aa - AAv);
-  const RotatingFrame::Sparse size_of_A = all.A.cwiseAbs();
+  const RotatingFrame::Sparse size_of_A = A.cwiseAbs();
   const MatrixXd X1 = dense::sizes(X), Av1 = dense::sizes(Av), Aa1 = dense::sizes(Aa);
   const MatrixXd terms = dense::below(Av1 + size_of_A * X1, Aa1 + size_of_A * Av1);
   // Rows of one kind have one unit: a row of round-off is measured by the largest.
@@ -279,6 +286,16 @@ MatrixXd Symmetries::turning() const {
   for (Index k = 0; k < all.rows(); ++k)
     if (generators_[static_cast<std::size_t>(k)].turns) all.row(k) = basis_.row(k);
   return all;
+}
+
+MatrixXd orthonormal_span(MatrixXd columns) {
+  Index count = 0;
+  for (Index k = 0; k < columns.cols(); ++k)
+    if (const double length = columns.col(k).norm(); length > 0.0)
+      columns.col(count++) = (columns.col(k) / length).eval();
+  if (count == 0) return {columns.rows(), 0};
+  columns.conservativeResize(Eigen::NoChange, count);
+  return dense::orthonormal(columns, count - dense::kernel(columns, rank_threshold).cols());
 }
 
 }  // namespace dalembert

@@ -35,6 +35,8 @@ class Symmetries {
   ///
   ///   A_k v = A X_k(q),   A_k A v = A A_k v,   v = A q + b.                                          (3)
   [[nodiscard]] Eigen::MatrixXd commuting(const Eigen::VectorXd& q, const Eigen::VectorXd& y) const;
+  /// The same of a frame, which need not be a symmetry.
+  [[nodiscard]] Eigen::MatrixXd commuting(const Eigen::VectorXd& q, const RotatingFrame& frame) const;
   /// X(q) of some coefficients, columns, with 0 for what is no more than `rank_threshold` of its terms.
   [[nodiscard]] Eigen::MatrixXd displacements(const Eigen::VectorXd& q, const Eigen::MatrixXd& some) const;
   /// X_k(q) and A_k x of each, columns.
@@ -57,5 +59,8 @@ class Symmetries {
   std::vector<Generator> generators_;
   Eigen::MatrixXd basis_;
 };
+
+/// An orthonormal basis of what some columns span, each of any length.
+[[nodiscard]] Eigen::MatrixXd orthonormal_span(Eigen::MatrixXd columns);
 
 }  // namespace dalembert

@@ -2,6 +2,7 @@
 
 #include <dalembert/core/analysis/rank.h>
 #include <dalembert/solvers/equilibrium/first_order.h>
+#include <dalembert/solvers/equilibrium/symmetries.h>
 #include <dalembert/solvers/equilibrium/tangent.h>
 #include <dalembert/solvers/linear/dense.h>
 
@@ -132,15 +133,36 @@ Decomposed decomposed(const Tangent& t) {
   return {std::move(values), std::move(right), std::move(left)};
 }
 
-/// The part of it along which nonholonomic rows let something move.
-Tangent along_velocities(Tangent t) {
-  if (t.B.isZero(0.0)) return t;
-  const Matrix P = orthogonal_complement(t.B.transpose());
+/// Its part along the columns of P.
+Tangent restricted(Tangent t, const Matrix& P) {
   t.shapes = dense::product(t.shapes, P);
   t.metric = dense::product(t.metric, P);
   t.K = dense::restricted(P, t.K);
   t.K_terms = dense::restricted(dense::sizes(P), t.K_terms);
   return t;
+}
+
+/// The part of it along which nonholonomic rows let something move.
+Tangent along_velocities(Tangent t) {
+  return t.B.isZero(0.0) ? t : restricted(t, orthogonal_complement(t.B.transpose()));
+}
+
+/// Orthonormal displacements by symmetries, as z, that all rows admit. K is 0 along them, as exactly as a
+/// position is known.
+Matrix symmetric_within(const System& system, const Tangent& t, const Matrix& symmetric) {
+  const Matrix none(t.K.rows(), 0);
+  const double known = std::sqrt(rank_threshold);
+  Vector root(t.metric.rows());
+  for (Index i = 0; i < root.size(); ++i)
+    root[i] = std::sqrt(system.masses()[t.coordinates[static_cast<std::size_t>(i)]]);
+  const Matrix own = orthonormal_span(root.asDiagonal() * symmetric(t.coordinates, Eigen::all));
+  if (own.cols() == 0) return none;
+  const Matrix N = root.cwiseInverse().asDiagonal() * t.metric, z = dense::transposed_product(N, own),
+               admitted = dense::product(z, dense::kernel_within(own - dense::product(N, z), known));
+  if (admitted.cols() == 0) return none;
+  const double left = dense::product(t.K, admitted).cwiseAbs().maxCoeff(),
+               terms = dense::product(t.K_terms, dense::sizes(admitted)).maxCoeff();
+  return left <= known * terms ? admitted : none;
 }
 
 /// A real eigenvalue of K, in the coordinates of the scene.
@@ -150,9 +172,14 @@ struct RealShape {
 };
 
 /// Those of one part; what belongs to all eigenvalues goes into `sum`.
-void append_real(const Tangent& whole, std::vector<RealShape>& found, TangentStiffness& sum) {
+void append_real(const System& system, const Tangent& whole, const Matrix& symmetric,
+                 std::vector<RealShape>& found, TangentStiffness& sum) {
   if (whole.K.rows() == 0) return;
-  const Tangent t = along_velocities(whole);
+  Tangent t = along_velocities(whole);
+  if (const Matrix free = symmetric_within(system, t, symmetric); free.cols() > 0) {
+    sum.least = std::min(sum.least, 0.0);
+    t = restricted(std::move(t), orthogonal_complement(free));
+  }
   const Decomposed K = decomposed(t);
   const auto all = static_cast<Index>(t.all);
   for (Index k = 0; k < K.values.size(); ++k) {
@@ -202,10 +229,10 @@ std::vector<Vibration> all_vibrations(const System& system, const LinearTerms& t
   return found;
 }
 
-TangentStiffness tangent_stiffness(const System& system, const LinearTerms& terms) {
+TangentStiffness tangent_stiffness(const System& system, const LinearTerms& terms, const Matrix& symmetric) {
   std::vector<RealShape> real;
   TangentStiffness found;
-  for (const Tangent& t : tangents(system, terms)) append_real(t, real, found);
+  for (const Tangent& t : tangents(system, terms)) append_real(system, t, symmetric, real, found);
   std::ranges::stable_sort(real, {}, &RealShape::value);
   const auto n = static_cast<Index>(system.coordinates()), count = static_cast<Index>(real.size());
   found.values.resize(count);

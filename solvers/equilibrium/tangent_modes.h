@@ -28,17 +28,20 @@ inline constexpr std::size_t most_dense = 600;
 /// K on the tangent space (with nonholonomic rows: of what may move), of each uncoupled part separately: its
 /// real eigenvalues, increasing, their shapes u = M^-1/2 N z of |z| = 1 as columns, and the covectors that
 /// give 1 for their own shape and 0 for the others. Where circulatory forces make K unsymmetric others may be
-/// complex.
+/// complex. Of displacements by symmetries, along which K is 0, they are left out.
 struct TangentStiffness {
   Eigen::VectorXd values;
   Eigen::MatrixXd shapes, duals;
-  double least = std::numeric_limits<double>::infinity();  ///< the smallest real part of all eigenvalues
+  /// The smallest real part of all eigenvalues, of symmetries too.
+  double least = std::numeric_limits<double>::infinity();
   /// The logarithm of |det K|, of the product of all eigenvalues that are not 0, and whether it is negative.
   /// Where two real eigenvalues become complex close to 0, the determinant still passes 0 with a slope.
   double log_determinant = 0.0;
   bool negative = false;
 };
-[[nodiscard]] TangentStiffness tangent_stiffness(const System& system, const LinearTerms& terms);
+/// `symmetric`: displacements by symmetries, as columns.
+[[nodiscard]] TangentStiffness tangent_stiffness(const System& system, const LinearTerms& terms,
+                                                 const Eigen::MatrixXd& symmetric);
 
 /// The eigenvalue of a vibration, Im s > 0 (or of a motion that does not vibrate), and the error to which it
 /// is known.

@@ -39,6 +39,20 @@ TEST(Steady, ConicalPendulumTurnsAtTheRateOfItsHeight) {
   EXPECT_NEAR(modes.frequency(1), std::sqrt(Omega2 * (1.0 + 3.0 * 0.64)), 10 * rounding);
 }
 
+TEST(Steady, OfAConicalPendulumIsTheSameInAnyUnitOfLength) {
+  // Nothing is kept: which of its states is found is up to the least correction, and that to no unit.
+  const auto height = [](double unit) {
+    Scene<3> scene("conical");
+    scene.add(UniformGravity<3>{{0.0, 0.0, -g * unit}});
+    const auto bob = scene.add_particle(
+        {.mass = 2.0, .position = {0.6 * unit, 0.0, -0.8 * unit}, .velocity = {0.0, 2.0 * unit, 0.0}});
+    scene.add(Distance{Fixed<3>{}, bob, unit});
+    const auto found = steady(scene);
+    return found.sample().position(bob).z() / unit;
+  };
+  for (const double unit : {1e-9, 1e-3, 1e6}) EXPECT_NEAR(height(unit), height(1.0), rounding) << unit;
+}
+
 TEST(Steady, PrecessionOfATopIsARootOfItsQuadratic) {
   models::HeavyTop top{.lean = 0.5, .spin = 300.0};
   for (const double p : top.steady_precessions()) {
