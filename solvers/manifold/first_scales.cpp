@@ -73,11 +73,12 @@ void set_length(const System& system, const Instant& at, const System::Evaluatio
   const double radius = smallest_radius(system, at, e);
   const double v = largest_of_lengths(at.v, scales.is_angle);
   const double a = largest_of_lengths(forced_acceleration(system, e), scales.is_angle);
-  const double reach = v * duration + a * duration * duration;
+  const double reach = std::isinf(duration) ? radius : v * duration + a * duration * duration;
   scales.length = reach > 0.0 ? std::min(radius, reach) : std::isfinite(radius) ? radius : 1.0;
-  scales.length_from_path =
-      !system.compliant() && scales.length < radius && std::ranges::count(scales.is_angle, 0) > 0;
+  scales.length_from_path = !system.compliant() && (scales.length < radius || std::isinf(scales.length)) &&
+                            std::ranges::count(scales.is_angle, 0) > 0;
   if (std::isinf(radius) && v > 0.0 && a > 0.0) scales.length = v * v / a;
+  if (std::isinf(scales.length)) scales.length = v + a > 0.0 ? v + a : 1.0;
   if (scales.length_from_path) {
     const double rounding = epsilon * scales.length;
     scales.length = std::min(scales.length, std::max(nearest_contact, rounding));
@@ -93,7 +94,7 @@ double time_scale(const System& system, const System::Evaluation& e, const Start
   double time = duration;
   if (v > 0.0) time = std::min(time, 1.0 / v);
   if (a > 0.0) time = std::min(time, 1.0 / std::sqrt(a));
-  return time;
+  return std::isinf(time) ? 1.0 : time;
 }
 
 }  // namespace dalembert
