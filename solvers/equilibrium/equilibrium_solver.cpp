@@ -63,8 +63,8 @@ EquilibriumSolver::EquilibriumSolver(const Problem& problem, std::span<const dou
   require_bilateral(system);
   std::vector<double> v(guess.size());
   frame_.velocity(guess, v);
-  // A duration for scenes without a length only; a radian of rotation, where there is one.
-  const double duration = frame_.rotates() ? 1.0 / frame_.rate() : 1.0;
+  // No run begins here; the time of a radian of rotation, where there is one.
+  const double duration = frame_.rotates() ? 1.0 / frame_.rate() : std::numeric_limits<double>::infinity();
   Start start =
       consistent_start(problem, guess, v, {.t_end = time + duration, .t_start = time, .assemble = true});
   q0_ = std::move(start.q);
@@ -157,7 +157,9 @@ ActiveRows EquilibriumSolver::rows_at(const State& s) const {
 /// Each coordinate has a shift of its own, a part of the stiffest spring on it, and where there is none of
 /// the stiffest in its uncoupled part of the scene: what is soft is not held by what is stiff elsewhere. The
 /// least that K's round-off allows serves where something is soft beside something stiff on the same
-/// coordinate. Round-off of the rates of a motion that no force bends is neither a stiffness nor a force.
+/// coordinate. Round-off of the rates of a motion that no force bends is neither a stiffness nor a force. Far
+/// from the origin the forces have more round-off, and the shift is larger in proportion: what moves freely
+/// is displaced by as little.
 void EquilibriumSolver::measure_stiffness(const State& s) {
   const LinearTerms terms = linear_terms(*system_, frame_, {time_, s.q, s.v}, s.lambda);
   const Islands& parts = problem_.islands();
@@ -176,6 +178,7 @@ void EquilibriumSolver::measure_stiffness(const State& s) {
     const double rounding = 10.0 * epsilon * std::max(scales_.unit(column), std::abs(s.q[column]));
     least_force_[row] += std::abs(entry.value()) * rounding / residual_tolerance;
   }
+  const double none = std::min(1.0, constants.no_stiffness * scales_.roundings_of_difference(s.q));
   stiffest_.resize(s.q.size());
   shift_.resize(s.q.size());
   least_shift_.resize(s.q.size());
@@ -184,7 +187,7 @@ void EquilibriumSolver::measure_stiffness(const State& s) {
     const double rounding = 10.0 * epsilon * turning * turning;
     least_force_[i] += rounding * system_->masses()[i] * scales_.unit(i) / residual_tolerance;
     stiffest_[i] = part > rounding ? part : 1.0 / (scales_.time * scales_.time);
-    shift_[i] = constants.no_stiffness * (own[i] > rounding ? own[i] : stiffest_[i]);
+    shift_[i] = none * (own[i] > rounding ? own[i] : stiffest_[i]);
     least_shift_[i] = roundings * epsilon / constants.no_stiffness * shift_[i];
   }
   share_along_rows(terms.w);

@@ -22,6 +22,7 @@ using Vector = Eigen::VectorXd;
 /// The equations (1) of the header, and for each number the size of the terms that it is the sum of.
 struct FirstOrder {
   Matrix P, matrix, size;
+  double known;  ///< the part of that to which it is known
 };
 
 FirstOrder first_order(const Tangent& t) {
@@ -44,22 +45,22 @@ FirstOrder first_order(const Tangent& t) {
   size.topRows(d) = dense::beside(lifted_terms, p);
   size.bottomRows(c) = dense::beside(
       dense::transposed_product(p, dense::product(C, lifted_terms) + t.K_terms), dense::restricted(p, C));
-  return {std::move(P), std::move(matrix), std::move(size)};
+  return {std::move(P), std::move(matrix), std::move(size), t.known()};
 }
 
 /// A basis of A x = 0, as far as can be told: each row is measured by what its numbers are sums of, as a row
 /// of round-off would look like any other by its own length.
-Matrix kernel(const Matrix& A, const Matrix& size) {
+Matrix kernel(const Matrix& A, const Matrix& size, double known) {
   Vector scale = size.rowwise().maxCoeff();
   for (double& x : scale) x = x > 0.0 ? 1.0 / x : 1.0;
-  return dense::kernel_within(scale.asDiagonal() * A, round_off_of_a_sum);
+  return dense::kernel_within(scale.asDiagonal() * A, known);
 }
 
 /// A basis of the states at rest: P^T K z = 0, E z = 0.
 Matrix states_at_rest(const Tangent& t, const FirstOrder& f) {
   const Matrix p = dense::sizes(f.P);
   return kernel(dense::below(dense::transposed_product(f.P, t.K), t.E),
-                dense::below(dense::transposed_product(p, t.K_terms), t.E_terms));
+                dense::below(dense::transposed_product(p, t.K_terms), t.E_terms), t.known());
 }
 
 /// Orthonormal bases of the span of independent columns, and of its complement.
@@ -78,7 +79,7 @@ struct Deflated {
     std::tie(zeros, rest) = split(at_rest);
     for (Index last = at_rest.cols(); last > 0 && rest.cols() > 0;) {
       const Matrix further =
-          kernel(dense::restricted(rest, f.matrix), dense::restricted(dense::sizes(rest), f.size));
+          kernel(dense::restricted(rest, f.matrix), dense::restricted(dense::sizes(rest), f.size), f.known);
       last = std::min(further.cols(), last);
       const auto [steady, others] = split(further.leftCols(last));
       zeros = dense::beside(zeros, dense::product(rest, steady));
@@ -193,17 +194,16 @@ void steady_by_momenta(const Tangent& t, std::vector<Solution>& all) {
 
 bool has_energy(const Tangent& t) {
   if (!t.symmetric || (t.E.size() > 0 && t.E.cwiseAbs().maxCoeff() > t.zero_of_rows())) return false;
-  Matrix D = onto(Matrix::Identity(t.C.rows(), t.C.rows()), t.C);
+  Matrix D = onto(Matrix::Identity(t.C.rows(), t.C.rows()), t.C, t.known());
   D = ((D + D.transpose()) / 2).eval();
-  D = (D.array().abs() > round_off_of_a_sum * (t.C.cwiseAbs() + t.C.transpose().cwiseAbs()).array())
-          .select(D, 0.0);
+  D = (D.array().abs() > t.known() * (t.C.cwiseAbs() + t.C.transpose().cwiseAbs()).array()).select(D, 0.0);
   Vector scale(D.rows());
   for (Index i = 0; i < D.rows(); ++i) {
     if (D(i, i) < 0.0 || (D(i, i) == 0.0 && !D.row(i).isZero(0.0))) return false;
     scale[i] = D(i, i) > 0.0 ? 1.0 / std::sqrt(D(i, i)) : 0.0;
   }
   const Vector shares = dense::symmetric_eigen(scale.asDiagonal() * D * scale.asDiagonal()).values;
-  return D.rows() == 0 || shares.minCoeff() >= -round_off_of_a_sum;
+  return D.rows() == 0 || shares.minCoeff() >= -t.known();
 }
 
 Solutions solutions(Tangent t) {
@@ -219,7 +219,7 @@ Solutions solutions(Tangent t) {
   if (A.size() == 0) return found;
   const auto [values, right] = dense::complex_eigen(A);
   const Eigen::MatrixXcd left = dense::inverse(right);
-  const double change = backward * static_cast<double>(A.rows()) * epsilon * f.size.norm();
+  const double change = backward * static_cast<double>(A.rows()) * t.roundings * epsilon * f.size.norm();
   for (Index k = 0; k < A.rows(); ++k) {
     const std::complex<double> s = values[k];
     if (s.imag() < 0.0) continue;
@@ -231,7 +231,7 @@ Solutions solutions(Tangent t) {
     const double kinetic = std::norm(s) * z.squaredNorm();
     const double energy = kinetic + z.dot(dense::product(t.K, z)).real();
     const Vector size = z.cwiseAbs();
-    const double unknown = round_off_of_a_sum * size.dot(dense::product(t.K_terms, size));
+    const double unknown = t.known() * size.dot(dense::product(t.K_terms, size));
     found.others.push_back({s, error, z, energy > rank_threshold * kinetic + unknown});
   }
   steady_by_momenta(t, found.others);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <numbers>
 #include <sstream>
@@ -90,12 +91,24 @@ void require_return(const Record& motion) {
   throw NoEquilibrium(text.str());
 }
 
+/// Positions a period later: those of now, with the whole turns that rotors have made.
+std::vector<double> positions_later(const Record& motion, std::span<const double> now) {
+  constexpr double full_turn = 2.0 * std::numbers::pi;
+  const FlatSample first = motion.sample(0), last = motion.sample(motion.times.size() - 1);
+  std::vector<double> q(now.begin(), now.end());
+  for (const auto& rotor : motion.layout->rotors) {
+    const auto i = static_cast<std::size_t>(rotor.coordinate);
+    q[i] += full_turn * std::round((last.q[i] - first.q[i]) / full_turn);
+  }
+  return q;
+}
+
 /// Throws unless the equations are the same a period later, in the same state of motion.
 void require_same_equations(const System& system, const Record& motion, const FlatSample& now,
                             double period) {
   auto e = system.evaluation(), later = e;
   system.evaluate({now.time, now.q, now.v}, e);
-  system.evaluate({now.time + period, now.q, now.v}, later);
+  system.evaluate({now.time + period, positions_later(motion, now.q), now.v}, later);
   const double length = motion.statistics.length;
   std::vector<double> lengths(now.q.size(), 1.0);
   for (const auto& rotor : system.layout()->rotors)
@@ -135,8 +148,10 @@ void require_period(const System& system, const Record& motion, const ActiveRows
   require_same_response(system, {system, rows, first, period}, {system, rows, last, period}, 0.0, period);
   for (std::size_t i = 0; i < motion.times.size(); ++i) {
     const FlatSample now = motion.sample(i);
+    const std::vector<double> q = positions_later(motion, now.q);
     FlatSample later = now;
     later.time += period;
+    later.q = q;
     require_same_equations(system, motion, now, period);
     require_same_response(system, {system, rows, now, period}, {system, rows, later, period}, now.time,
                           period);
@@ -150,18 +165,28 @@ class Monodromy {
   Monodromy(const System& system, const Record& motion, const ActiveRows& rows, double period)
       : system_(&system), motion_(&motion), rows_(&rows), period_(period) {}
 
-  [[nodiscard]] MatrixXd matrix() {
+  struct Map {
+    MatrixXd matrix;
+    double error;  ///< of it, as a norm
+    int steps;
+  };
+  [[nodiscard]] Map map() {
     const Step whole = steps({{0.0, 1.0}}).front();
     if (whole.start.basis.cols() == 0) return {};
-    const MatrixXd c = refined(whole, 0);
-    return whole.start.basis.transpose() * whole.nodes.back().basis * c;
+    refine(whole, 0);
+    const auto [c, error] = product();
+    return {whole.start.basis.transpose() * whole.nodes.back().basis * c, error,
+            2 * static_cast<int>(maps_.size())};
   }
-  [[nodiscard]] int taken() const { return taken_; }
 
  private:
   /// Fractions of the period.
   struct Part {
     double from, to;
+  };
+  struct PartMap {
+    MatrixXd matrix;
+    double error;
   };
   struct Step {
     Part part;
@@ -195,39 +220,87 @@ class Monodromy {
   }
   /// Two halves err by 1/(2^9 - 1) of their difference from the whole; the motion, and with it every rate, is
   /// known to `known` of itself.
-  [[nodiscard]] MatrixXd refined(const Step& whole, int halvings) {
+  void refine(const Step& whole, int halvings) {
     const auto [from, to] = whole.part;
     const double middle = 0.5 * (from + to);
     const auto halves = steps({{from, middle}, {middle, to}});
-    const MatrixXd both = halves[1].map * halves[0].map;
+    MatrixXd both = halves[1].map * halves[0].map;
     double rate = 1.0;
     for (const FreeDisturbances& node : whole.nodes) rate = std::max(rate, node.rate.norm());
     const double allowed = known * (to - from) * rate * std::max(1.0, both.norm());
     if ((both - whole.map).norm() <= (std::exp2(radau_order) - 1.0) * allowed) {
-      taken_ += 2;
-      return both;
+      maps_.push_back({std::move(both), allowed});
+      return;
     }
     if (halvings == most_step_halvings)
       throw NoEquilibrium("Floquet multipliers of scene \"" + motion_->layout->scene +
                           "\" do not converge: its motion is not smooth at t = " +
                           std::to_string(middle * period_) + ", or the period too long");
-    const MatrixXd first = refined(halves[0], halvings + 1);
-    return refined(halves[1], halvings + 1) * first;
+    refine(halves[0], halvings + 1);
+    refine(halves[1], halvings + 1);
+  }
+  /// Of all maps: M_n ... M_1, and the sum of |M_n ... M_k+1| e_k |M_k-1 ... M_1|.
+  struct Product {
+    MatrixXd matrix;
+    double error;
+  };
+  [[nodiscard]] Product product() const {
+    const Index d = maps_.front().matrix.cols();
+    std::vector<double> before;
+    MatrixXd all = MatrixXd::Identity(d, d), after = all;
+    for (const PartMap& one : maps_) {
+      before.push_back(all.norm());
+      all = one.matrix * all;
+    }
+    double error = 0.0;
+    for (std::size_t k = maps_.size(); k-- > 0;) {
+      error += after.norm() * maps_[k].error * before[k];
+      after = after * maps_[k].matrix;
+    }
+    return {std::move(all), error};
   }
 
   const System* system_;
   const Record* motion_;
   const ActiveRows* rows_;
   double period_;
-  int taken_ = 0;
+  std::vector<PartMap> maps_{};  // of the parts of the period, in order
 };
+
+/// The eigenvalues of a map that is known to `error`, each with its own, see the header.
+Floquet multipliers_of(const MatrixXd& map, double error, int steps) {
+  const auto [values, right] = dense::complex_eigen(map);
+  const Eigen::MatrixXcd left = dense::inverse(right);
+  struct Multiplier {
+    std::complex<double> value;
+    double error;
+  };
+  const auto d = static_cast<double>(values.size());
+  const double most = std::pow(2.0 * map.norm() + error, 1.0 - 1.0 / d) * std::pow(error, 1.0 / d);
+  std::vector<Multiplier> all;
+  for (Index k = 0; k < values.size(); ++k) {
+    const double own = d * error * left.row(k).norm() * right.col(k).norm();
+    all.push_back({values[k], own < most ? own : most});
+  }
+  std::ranges::stable_sort(all, std::greater{}, [](const Multiplier& m) { return std::abs(m.value); });
+  Floquet found{{}, steps, {}};
+  for (const Multiplier& m : all) {
+    found.multipliers.push_back(m.value);
+    found.errors.push_back(m.error);
+  }
+  return found;
+}
 
 }  // namespace
 
 Stability Floquet::stability() const {
-  const double rounding = std::sqrt(known);  // a double multiplier is known to the square root
-  if (growth() > 1.0 + rounding) return Stability::unstable;
-  return growth() < 1.0 - rounding ? Stability::stable : Stability::undecided;
+  bool all_decay = true;
+  for (std::size_t k = 0; k < multipliers.size(); ++k) {
+    const double beyond = std::abs(multipliers[k]) - 1.0, error = k < errors.size() ? errors[k] : 0.0;
+    if (beyond > error) return Stability::unstable;
+    all_decay = all_decay && beyond < -error;
+  }
+  return all_decay ? Stability::stable : Stability::undecided;
 }
 
 Floquet find_multipliers(const std::function<System()>& system, std::span<const double> q,
@@ -247,13 +320,9 @@ Floquet find_multipliers(const std::function<System()>& system, std::span<const 
   own.evaluate({start.time, start.q, start.v}, e);
   const ActiveRows rows = independent_rows(own, e.w);
   require_period(own, *motion, rows, period);
-  Monodromy monodromy(own, *motion, rows, period);
-  const MatrixXd matrix = monodromy.matrix();
+  const auto [matrix, error, steps] = Monodromy(own, *motion, rows, period).map();
   if (matrix.size() == 0) return {};  // nothing can move
-  const Eigen::VectorXcd all = dense::eigenvalues(matrix);
-  Floquet found{{all.data(), all.data() + all.size()}, monodromy.taken()};
-  std::ranges::stable_sort(found.multipliers, std::greater{}, [](auto m) { return std::abs(m); });
-  return found;
+  return multipliers_of(matrix, error, steps);
 }
 
 }  // namespace dalembert

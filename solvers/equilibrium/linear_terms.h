@@ -28,6 +28,9 @@ struct LinearTerms {
   Entries stiffness, damping;  ///< K and C; places may repeat, their entries add
   std::vector<double> w;       ///< W, in the system's pattern
   std::vector<double> e;       ///< E, in the same, for the nonholonomic rows
+  /// Roundings of themselves to which the numbers are known: as many as a position far from the origin has
+  /// of the scene's length, as they are made of differences of positions; or one.
+  double roundings = 1.0;
 };
 
 /// Throws EquationFault.

@@ -80,7 +80,8 @@ Sparse circulatory(const LinearTerms& terms, std::size_t coordinates) {
   const VectorXd own = VectorXd(size.diagonal()).cwiseSqrt();
   Sparse skew = K - Sparse(K.transpose());
   skew.prune([&](Index i, Index j, double value) {
-    return std::abs(value) > epsilon * (roundings_of_a_sum * size.coeff(i, j) + cancelled * own[i] * own[j]);
+    return std::abs(value) >
+           epsilon * terms.roundings * (roundings_of_a_sum * size.coeff(i, j) + cancelled * own[i] * own[j]);
   });
   return skew;
 }

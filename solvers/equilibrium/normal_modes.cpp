@@ -308,7 +308,8 @@ Modes find_modes(const System& system, const FlatSample& at, const UniformRotati
                                            : EquilibriumSolver(problem, at.q, at.time, turning);
   require_equilibrium(balance, at);
   require_smooth(system, balance, at);
-  const LinearTerms terms = linear_terms(system, balance.frame(), {at.time, at.q, at.v}, at.lambda);
+  LinearTerms terms = linear_terms(system, balance.frame(), {at.time, at.q, at.v}, at.lambda);
+  terms.roundings = balance.scales().roundings_of_difference(at.q);
   require_constant(system, balance, at, terms);
   std::optional<ReversibleMotion> reversible;
   if (motion != nullptr) reversible.emplace(problem, at, *motion);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dalembert {
 
@@ -96,8 +97,9 @@ bool ReversibleMotion::decided() const {
 
 bool ReversibleMotion::find(std::size_t part) const try {
   const System& system = problem_.system();
-  const Start start = consistent_start(problem_, at_.q, at_.v,
-                                       {.t_end = at_.time + 1.0, .t_start = at_.time, .assemble = true});
+  const Start start = consistent_start(
+      problem_, at_.q, at_.v,
+      {.t_end = std::numeric_limits<double>::infinity(), .t_start = at_.time, .assemble = true});
   const auto mirrors = reversors(problem_, start, at_.time, part);
   if (mirrors.empty()) return false;
   const Symmetries symmetries(problem_, start, at_.time);

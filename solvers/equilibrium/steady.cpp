@@ -174,6 +174,14 @@ class SteadySearch {
     return slope;
   }
 
+  /// The most that a kept quantity changes by in a unit of the scene.
+  [[nodiscard]] double change(const FlatKept& one) const {
+    Eigen::RowVectorXd slope = gradient(one).cwiseAbs();
+    for (Index i = 0; i < slope.size(); ++i)
+      slope[i] *= i < q_.size() ? scales_.unit(static_cast<std::size_t>(i)) : 1.0 / scales_.time;
+    return slope.size() > 0 ? slope.maxCoeff() : 0.0;
+  }
+
   [[nodiscard]] FoundSteady finished() const {
     // What moves by less than round-off of a position in the scene's time rests.
     const bool rests = (symmetries_.fields(q_) * y_).cwiseAbs().maxCoeff() <=
@@ -196,7 +204,8 @@ class SteadySearch {
     const VectorXd v = vector_of(s.v);
     for (std::size_t k = 0; k < kept_.size(); ++k) {
       const double now = value((*keep_)[k], q_, v);
-      if (std::abs(now - kept_[k]) > equilibrium_tolerance * std::max(1.0, std::abs(kept_[k])))
+      if (std::abs(now - kept_[k]) >
+          equilibrium_tolerance * std::max(change((*keep_)[k]), std::abs(kept_[k])))
         refuse("\"" + (*keep_)[k].name + "\" cannot be kept");
     }
     return {balance.record(s), std::move(motion)};
@@ -230,13 +239,14 @@ void require_suited_to_steady(const System& system) {
 }  // namespace
 
 FoundSteady find_steady(System system, std::span<const double> q, std::span<const double> v, double time,
-                        const std::vector<FlatKept>& keep, std::span<const double> beside) {
+                        const std::vector<FlatKept>& keep, std::span<const double> beside, double longest) {
   if (!std::isfinite(time)) throw InvalidArgument("Option time of a steady motion must be finite");
   require_suited_to_steady(system);
   try {
     const Problem problem(std::move(system));
     const auto start_at = [&](std::span<const double> at, std::span<const double> rates) {
-      return consistent_start(problem, at, rates, {.t_end = time + 1.0, .t_start = time, .assemble = true});
+      return consistent_start(problem, at, rates,
+                              {.t_end = time + longest, .t_start = time, .assemble = true});
     };
     const Start stated = start_at(q, v);
     if (beside.empty()) return SteadySearch(problem, stated, stated, time, keep).find();

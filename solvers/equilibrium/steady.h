@@ -3,6 +3,7 @@
 #include <dalembert/solvers/equilibrium/equilibrium.h>
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -33,10 +34,12 @@ struct FoundSteady {
   std::shared_ptr<const UniformMotion> motion;
 };
 /// Throws like `steady`. What is kept has its value in the statement (q, v), from which the search begins
-/// after `beside` is added: (dq, dv), or nothing.
+/// after `beside` is added: (dq, dv), or nothing. The scene's time is at most `longest`: along a branch a
+/// motion that comes to rest is measured by the others.
 [[nodiscard]] FoundSteady find_steady(System system, std::span<const double> q, std::span<const double> v,
                                       double time, const std::vector<FlatKept>& keep,
-                                      std::span<const double> beside = {});
+                                      std::span<const double> beside = {},
+                                      double longest = std::numeric_limits<double>::infinity());
 
 namespace detail {
 

@@ -2,29 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
 namespace dalembert {
 
-namespace {
-
-/// Of units for positions: they are compared with each other only.
-std::vector<double> units_of(const PosedSystem& posed) {
-  const Start start = consistent_start(Problem(posed.system), posed.guess, posed.speeds,
-                                       {.t_end = posed.time + 1.0, .t_start = posed.time, .assemble = true});
-  std::vector<double> units;
-  for (std::size_t i = 0; i < start.q.size(); ++i) units.push_back(start.scales.unit(i));
-  return units;
-}
-
-}  // namespace
-
 SteadyCorrector::SteadyCorrector(std::function<PosedSystem(double)> pose_at, const BranchOptions& options)
     : Corrector(std::move(pose_at), options) {
   const PosedSystem posed = pose(options.from);
   if (!std::isfinite(posed.time)) throw InvalidArgument("Option time of a steady motion must be finite");
-  scale_ = units_of(posed);
+  const Start start = consistent_start(
+      Problem(posed.system), posed.guess, posed.speeds,
+      {.t_end = std::numeric_limits<double>::infinity(), .t_start = posed.time, .assemble = true});
+  for (std::size_t i = 0; i < start.q.size(); ++i) scale_.push_back(start.scales.unit(i));
+  time_ = start.scales.time;
   begin_ = point(0.0, {});
 }
 
@@ -35,7 +27,7 @@ Node SteadyCorrector::point(double fraction, std::span<const double> beside) con
     throw InvalidScene("Branches of scene \"" + posed.system->layout()->scene +
                        "\": for another value of the parameter it has other points");
   const FoundSteady found =
-      find_steady(*posed.system, posed.guess, posed.speeds, posed.time, posed.keep, beside);
+      find_steady(*posed.system, posed.guess, posed.speeds, posed.time, posed.keep, beside, time_);
   const FlatSample at = found.state->sample(0);
   Node node;
   node.x.resize(static_cast<Eigen::Index>(n) + 1);

@@ -54,7 +54,9 @@ MatrixXd spin_weights(const MatrixXd& arms, const Vector3d& axis) {
 
 }  // namespace
 
-Symmetries::Symmetries(const Problem& problem, const Start& start, double time) {
+Symmetries::Symmetries(const Problem& problem, const Start& start, double time)
+    : units_(static_cast<Index>(start.q.size())) {
+  for (Index i = 0; i < units_.size(); ++i) units_[i] = start.scales.unit(static_cast<std::size_t>(i));
   add_parts(problem, start);
   add_bodies(problem.system(), start);
   // Generic states: each gives as many conditions as the scene is free. The first at rest, where fast spins
@@ -77,11 +79,15 @@ Symmetries::Symmetries(const Problem& problem, const Start& start, double time) 
   if (basis_.cols() > 0) basis_ = orthogonal_complement(orthogonal_complement(basis_));
 }
 
+Symmetries::Generator Symmetries::generator(const Start& start, bool turns, bool rotates) {
+  const auto n = static_cast<Index>(start.q.size());
+  return {{n, n}, VectorXd::Zero(n), Eigen::Map<const VectorXd>(start.q.data(), n), turns, rotates};
+}
+
 void Symmetries::add_parts(const Problem& problem, const Start& start) {
   const System& system = problem.system();
   const Layout& layout = *system.layout();
   const Islands& parts = problem.islands();
-  const auto n = static_cast<Index>(system.coordinates());
   const int d = layout.dimension;
   const auto part_of = [&](int coordinate) {
     return parts.of_coordinate[static_cast<std::size_t>(coordinate)];
@@ -97,20 +103,23 @@ void Symmetries::add_parts(const Problem& problem, const Start& start) {
     if (many == 0.0) continue;
     centre /= many;
     for (int i = 0; i < d; ++i) {
-      Generator x{{n, n}, VectorXd::Zero(n), false, false};
+      Generator x = generator(start, false, false);
       for (const auto& p : layout.particles)
+<<<<<<< HEAD
         if (part_of(p.coordinate) == part) x.b[p.coordinate + i] = start.scales.length;  // as by a radian
+=======
+        if (part_of(p.coordinate) == part) x.b[p.coordinate + i] = start.scales.length;
+>>>>>>> modes49
       generators_.push_back(std::move(x));
     }
     for (const Vector3d& axis : axes_of_rotation(d)) {
-      Generator x{{n, n}, VectorXd::Zero(n), true, true};
+      Generator x = generator(start, true, true);
       const Eigen::Matrix3d cross = cross_matrix(axis);
-      const Vector3d drift = -cross * centre;
       Triplets entries;
       for (const auto& p : layout.particles) {
         if (part_of(p.coordinate) != part) continue;
         for (int i = 0; i < d; ++i) {
-          x.b[p.coordinate + i] = drift[i];
+          x.c[p.coordinate + i] = centre[i];
           for (int k = 0; k < d; ++k)
             if (cross(i, k) != 0.0) entries.emplace_back(p.coordinate + i, p.coordinate + k, cross(i, k));
         }
@@ -120,14 +129,13 @@ void Symmetries::add_parts(const Problem& problem, const Start& start) {
     }
   }
   for (const auto& rotor : layout.rotors) {
-    Generator x{{n, n}, VectorXd::Zero(n), false, true};
+    Generator x = generator(start, false, true);
     x.b[rotor.coordinate] = 1.0;
     generators_.push_back(std::move(x));
   }
 }
 
 void Symmetries::add_bodies(const System& system, const Start& start) {
-  const auto n = static_cast<Index>(system.coordinates());
   const int d = system.layout()->dimension;
   for (const BodyParticles& body : bodies(system)) {
     const auto count = static_cast<Index>(body.size());
@@ -153,7 +161,8 @@ void Symmetries::add_bodies(const System& system, const Start& start) {
           }
         }
       }
-      Generator x{{n, n}, VectorXd::Zero(n), false, true};
+      Generator x = generator(start, false, true);
+      for (const Layout::Particle* p : body) x.c.segment(p->coordinate, d) = centre.head(d);
       x.A.setFromTriplets(entries.begin(), entries.end());
       generators_.push_back(std::move(x));
     };
@@ -199,7 +208,7 @@ MatrixXd Symmetries::conditions(const Problem& problem, const Start& start, doub
   MatrixXd value(m + N.cols(), count), size = value;
   for (Index k = 0; k < count; ++k) {
     const Generator& g = generators_[static_cast<std::size_t>(k)];
-    const VectorXd X = to.cwiseProduct(g.A * at + g.b), u = to.cwiseProduct(g.A * speed),
+    const VectorXd X = to.cwiseProduct(g.at(at)), u = to.cwiseProduct(g.A * speed),
                    w = to.cwiseProduct(g.A * acceleration);
     value.col(k) << product(W_h, X), product(E, X) + product(W_v, u),
         -product(N_t, VectorXd(product(metric.K, X) + product(metric.C, u) + w));
@@ -210,7 +219,7 @@ MatrixXd Symmetries::conditions(const Problem& problem, const Start& start, doub
   // What no force acts on has accelerations of round-off: they tell nothing.
   const Scales& scales = start.scales;
   const double least =
-      roundings_of_a_sum * epsilon * to.maxCoeff() * scales.length / (scales.time * scales.time);
+      roundings_of_a_sum * epsilon * to.cwiseProduct(units_).maxCoeff() / (scales.time * scales.time);
   for (Index r = 0; r < value.rows(); ++r) {
     const double most = size.row(r).maxCoeff();
     value.row(r) *= most > (r < m ? 0.0 : least) ? 1.0 / most : 0.0;
@@ -226,7 +235,7 @@ UniformMotion Symmetries::motion(const VectorXd& y) const {
     const Generator& g = generators_[static_cast<std::size_t>(k)];
     if (c[k] == 0.0) continue;
     sum.A += c[k] * g.A;
-    sum.b += c[k] * g.b;
+    sum.b += c[k] * (g.b - g.A * g.c);
     if (g.rotates) sum.rate = std::max(sum.rate, std::abs(c[k]));
   }
   return sum;
@@ -247,19 +256,25 @@ MatrixXd Symmetries::commuting(const VectorXd& q, const RotatingFrame& frame) co
   const RotatingFrame::Sparse size_of_A = A.cwiseAbs();
   const MatrixXd X1 = dense::sizes(X), Av1 = dense::sizes(Av), Aa1 = dense::sizes(Aa);
   const MatrixXd terms = dense::below(Av1 + size_of_A * X1, Aa1 + size_of_A * Av1);
-  // Rows of one kind have one unit: a row of round-off is measured by the largest.
+  // Rows of one kind are compared in units of the scene: a row of round-off is measured by the largest.
+  const VectorXd per_unit = units_.cwiseInverse();
   for (const Index first : {Index{0}, q.size()}) {
-    const double most = q.size() > 0 && size() > 0 ? terms.middleRows(first, q.size()).maxCoeff() : 0.0;
-    if (most > 0.0) value.middleRows(first, q.size()) /= most;
+    auto own = value.middleRows(first, q.size());
+    const MatrixXd sizes = per_unit.asDiagonal() * terms.middleRows(first, q.size());
+    own = (per_unit.asDiagonal() * own).eval();
+    if (const double most = sizes.size() > 0 ? sizes.maxCoeff() : 0.0; most > 0.0) own /= most;
   }
   return dense::kernel_within(value, rank_threshold);
 }
 
 MatrixXd Symmetries::displacements(const VectorXd& q, const MatrixXd& some) const {
   const MatrixXd X = dense::product(fields(q), some), coefficients = dense::product(basis_, some);
+  // Differences are known to round-off of the positions.
+  const double rounding = roundings_of_a_sum * epsilon / rank_threshold;
   VectorXd sizes = VectorXd::Zero(q.size());
   for (const Generator& g : generators_)
-    sizes += RotatingFrame::Sparse(g.A.cwiseAbs()) * q.cwiseAbs() + g.b.cwiseAbs();
+    sizes += RotatingFrame::Sparse(g.A.cwiseAbs()) * ((q - g.c).cwiseAbs() + rounding * q.cwiseAbs()) +
+             g.b.cwiseAbs();
   MatrixXd least = MatrixXd::Zero(X.rows(), X.cols());
   for (Index k = 0; k < X.cols(); ++k)
     least.col(k) = rank_threshold * coefficients.col(k).cwiseAbs().maxCoeff() * sizes;
@@ -269,8 +284,7 @@ MatrixXd Symmetries::displacements(const VectorXd& q, const MatrixXd& some) cons
 MatrixXd Symmetries::fields(const VectorXd& q) const {
   MatrixXd all(q.size(), static_cast<Index>(generators_.size()));
   for (Index k = 0; k < all.cols(); ++k) {
-    const Generator& g = generators_[static_cast<std::size_t>(k)];
-    all.col(k) = g.A * q + g.b;
+    all.col(k) = generators_[static_cast<std::size_t>(k)].at(q);
   }
   return dense::product(all, basis_);
 }

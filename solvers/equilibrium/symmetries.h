@@ -11,10 +11,14 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// The motions that carry every motion of a scene into another: X(q) = A q + b of the sums of
+/// The motions that carry every motion of a scene into another: X(q) = A (q - c) + b of the sums of
 ///
 ///   translations and rotations of each part that nothing couples to others, turns of rotors, and spins of
 ///   bodies in themselves (a body's particles are an affine basis of it: a constant matrix)           (1)
+///
+/// about c, the centre of each at the start, as differences of positions do not depend on where the origin
+/// is. A translation is by the scene's length, as the others are by a radian: in any unit of length their
+/// coefficients are comparable.
 ///
 /// that leave the equations as they are. At states close to the start, on the constraint manifold, with
 /// accelerations a and N a basis of W u = 0,
@@ -48,16 +52,21 @@ class Symmetries {
  private:
   struct Generator {
     RotatingFrame::Sparse A;
-    Eigen::VectorXd b;
-    bool turns = false, rotates = false;  // a part of the scene; anything, by an angle
+    Eigen::VectorXd b, c;
+    bool turns, rotates;  // a part of the scene; anything, by an angle
+
+    [[nodiscard]] Eigen::VectorXd at(const Eigen::VectorXd& q) const { return A * (q - c) + b; }
   };
   void add_parts(const Problem& problem, const Start& start);
   void add_bodies(const System& system, const Start& start);
+  /// Of nothing yet.
+  [[nodiscard]] static Generator generator(const Start& start, bool turns, bool rotates);
   [[nodiscard]] Eigen::MatrixXd conditions(const Problem& problem, const Start& start, double time,
                                            int sample) const;
 
   std::vector<Generator> generators_;
   Eigen::MatrixXd basis_;
+  Eigen::VectorXd units_;  // of the coordinates
 };
 
 /// An orthonormal basis of what some columns span, each of any length.

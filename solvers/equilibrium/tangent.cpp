@@ -29,20 +29,22 @@ Tangent tangent(const System& system, const LinearTerms& terms, std::vector<std:
   const MatrixXd N = orthogonal_complement(metric.W.topRows(metric.holonomic).transpose());
   MatrixXd skew = MatrixXd(circulatory(terms, system.coordinates()));
   skew = skew(coordinates, coordinates).eval();
-  skew = onto(N, metric.root.asDiagonal() * skew * metric.root.asDiagonal());
+  const double known = round_off_of_a_sum * terms.roundings;
+  skew = onto(N, metric.root.asDiagonal() * skew * metric.root.asDiagonal(), known);
   const Index velocity_rows = metric.W.rows() - metric.holonomic;
   const MatrixXd E = metric.E.bottomRows(velocity_rows);
   Tangent t{system.coordinates(),
             std::move(coordinates),
             metric.root.asDiagonal() * N,
             dense::restricted(N, metric.K),
-            onto(N, metric.C),  // 0 where a guide takes up Coriolis forces
+            onto(N, metric.C, known),  // 0 where a guide takes up Coriolis forces
             dense::product(metric.W.bottomRows(velocity_rows), N),
             dense::product(E, N),
             skew.isZero(0.0),
             metric.root.cwiseInverse().asDiagonal() * N,
             summed(N, metric.K),
-            dense::product(dense::sizes(E), dense::sizes(N))};
+            dense::product(dense::sizes(E), dense::sizes(N)),
+            terms.roundings};
   // What a force sums by itself is not seen: nothing is known better than to round-off of the largest.
   t.K_terms = t.K_terms.cwiseMax(largest_of(t.K)).eval();
   t.E_terms = t.E_terms.cwiseMax(largest_of(t.E)).eval();
@@ -74,9 +76,9 @@ void fix(const UniformMotion& motion, Tangent& t) {
 
 }  // namespace
 
-MatrixXd onto(const MatrixXd& N, const MatrixXd& X) {
+MatrixXd onto(const MatrixXd& N, const MatrixXd& X, double known) {
   const MatrixXd Y = dense::restricted(N, X), size = summed(N, X);
-  return (Y.array().abs() > round_off_of_a_sum * size.array()).select(Y, MatrixXd::Zero(Y.rows(), Y.cols()));
+  return (Y.array().abs() > known * size.array()).select(Y, MatrixXd::Zero(Y.rows(), Y.cols()));
 }
 
 double Tangent::scale_time() {

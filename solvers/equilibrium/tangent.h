@@ -29,9 +29,12 @@ struct Tangent {
   bool symmetric;                    ///< K
   Eigen::MatrixXd metric;            ///< M^1/2 N
   Eigen::MatrixXd K_terms, E_terms;  ///< what K and E are sums of, without signs
+  double roundings;                  ///< to which these are known, see LinearTerms
   /// z -> beta z by symmetries that leave the state as it is, see UniformMotion::fixing.
   std::vector<Eigen::MatrixXd> fixing{};
 
+  /// To which part of its terms a sum is known.
+  [[nodiscard]] double known() const { return round_off_of_a_sum * roundings; }
   /// Round-off of K and of E.
   [[nodiscard]] double zero() const { return round_off_of(K_terms); }
   [[nodiscard]] double zero_of_rows() const { return round_off_of(E_terms); }
@@ -39,8 +42,8 @@ struct Tangent {
   double scale_time();
 
  private:
-  static double round_off_of(const Eigen::MatrixXd& terms) {
-    return terms.size() > 0 ? round_off_of_a_sum * terms.maxCoeff() : 0.0;
+  [[nodiscard]] double round_off_of(const Eigen::MatrixXd& terms) const {
+    return terms.size() > 0 ? known() * terms.maxCoeff() : 0.0;
   }
 };
 
@@ -50,7 +53,7 @@ struct Tangent {
 [[nodiscard]] std::vector<Tangent> tangents(const System& system, const LinearTerms& terms,
                                             const UniformMotion* motion = nullptr);
 
-/// N^T X N, with 0 for what is round-off of the summed terms.
-[[nodiscard]] Eigen::MatrixXd onto(const Eigen::MatrixXd& N, const Eigen::MatrixXd& X);
+/// N^T X N, with 0 for what is no more than a part `known` of the summed terms.
+[[nodiscard]] Eigen::MatrixXd onto(const Eigen::MatrixXd& N, const Eigen::MatrixXd& X, double known);
 
 }  // namespace dalembert

@@ -103,7 +103,8 @@ bool is_positive(const Tangent& t) {
 /// Those of one part, see `vibrations`.
 void append_vibrations(Tangent t, std::vector<Vibration>& found) {
   if (t.K.rows() == 0) return;
-  const bool gyroscopic = !onto(Matrix::Identity(t.C.rows(), t.C.rows()), t.C - t.C.transpose()).isZero(0.0);
+  const bool gyroscopic =
+      !onto(Matrix::Identity(t.C.rows(), t.C.rows()), t.C - t.C.transpose(), t.known()).isZero(0.0);
   if (t.B.rows() == 0 && has_energy(t) && (!gyroscopic || is_positive(t))) return;
   if (t.B.rows() == 0 && t.C.isZero(0.0)) {
     for (const std::complex<double> square : dense::eigenvalues(-t.K)) {

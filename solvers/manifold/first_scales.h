@@ -18,11 +18,13 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// or curve the radius of curvature, unless it does not move that far. What is free or on something nearly
 /// flat has no length but that of its path, of which the first instant gives a guess. (On a compliant
 /// constraint that guess must do: an explicit step would show the vibration of the spring.) It does not lead
-/// through a contact.
+/// through a contact. Of a state that no run begins with, t_end is infinite: a radius of curvature is then
+/// the length however slow the motion.
 void set_length(const System& system, const Instant& at, const System::Evaluation& e, const Options& options,
                 double nearest_contact, Scales& scales);
 
-/// The shortest time in which the scene's speeds, forces or accelerations move a coordinate by its unit.
+/// The shortest time in which the scene's speeds, forces or accelerations move a coordinate by its unit, or
+/// the duration; where there is none of these any time serves.
 [[nodiscard]] double time_scale(const System& system, const System::Evaluation& e, const Start& start,
                                 double duration);
 

@@ -14,6 +14,14 @@ double Scales::largest_rounding(std::span<const double> q) const {
   return epsilon * farthest;
 }
 
+double Scales::roundings_of_difference(std::span<const double> q) const {
+  if (length_from_path) return 1.0;
+  double farthest = length;
+  for (std::size_t i = 0; i < q.size(); ++i)
+    if (!is_angle[i]) farthest = std::max(farthest, std::abs(q[i]));
+  return farthest / length;
+}
+
 double Scales::rounding(std::span<const double> q) const { return 10.0 * largest_rounding(q); }
 
 std::vector<double> Scales::lengths() const {

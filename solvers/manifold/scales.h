@@ -59,6 +59,9 @@ struct Scales {
   void adopt(const PathExtent& next);
   /// A rounding of the coordinate farthest from 0.
   [[nodiscard]] double largest_rounding(std::span<const double> q) const;
+  /// Roundings of a difference of positions, at least one: far from the origin as many as these are farther
+  /// off than `length`.
+  [[nodiscard]] double roundings_of_difference(std::span<const double> q) const;
   /// How far from its constraints round-off alone may leave a state.
   [[nodiscard]] double rounding(std::span<const double> q) const;
 };

@@ -20,7 +20,8 @@ struct Start {
 };
 
 /// Checks the given state against the constraints, or with options.assemble moves it onto them,
-/// and finds accelerations and multipliers. A contact that is not among the constraints may be as near as
+/// and finds accelerations and multipliers. options.t_end is infinite for a state that no run begins with. A
+/// contact that is not among the constraints may be as near as
 /// `nearest_contact`. Throws InconsistentStart, naming the constraint.
 [[nodiscard]] Start consistent_start(const Problem& problem, std::span<const double> q,
                                      std::span<const double> v, const Options& options,

@@ -86,5 +86,79 @@ TEST(Floquet, FiftyCoordinatesConserveVolume) {
   EXPECT_NEAR(std::abs(product - 1.0), 0.0, 1e-8);  // 100 factors known to 1e-10
 }
 
+/// Of a pendulum of length l that begins at rest: 2 pi over the arithmetic-geometric mean of 1 and
+/// cos(angle/2), of the root of g/l.
+double period_of(double amplitude, double omega) {
+  double a = 1.0, b = std::cos(0.5 * amplitude);
+  for (int k = 0; k < 30; ++k) {
+    const double mean = 0.5 * (a + b);
+    b = std::sqrt(a * b);
+    a = mean;
+  }
+  return 2.0 * pi / (omega * a);
+}
+
+TEST(Floquet, LargeVibrationIsNotUnstable) {
+  // As in any natural vibration the multipliers are 1 and 1, in a Jordan block: what the map errs by moves
+  // them apart by its root, and by the more the more the period changes with the amplitude.
+  for (const double amplitude : {0.3, 1.0, 2.0, 2.5, 2.8, 3.0, 3.1}) {
+    for (const double length : {1e-6, 1.0, 1e6}) {
+      for (const double omega : {1e-3, 3.0, 1e5}) {
+        Scene<2> scene("pendulum");
+        scene.add(UniformGravity<2>{{0.0, -omega * omega * length}});
+        const auto bob = scene.add_particle(
+            {.mass = 1.0, .position = {length * std::sin(amplitude), -length * std::cos(amplitude)}});
+        scene.add(Distance{Fixed<2>{}, bob, length});
+        const auto found = floquet(scene, period_of(amplitude, omega));
+        EXPECT_EQ(found.stability(), Stability::undecided) << amplitude << ' ' << length << ' ' << omega;
+        ASSERT_EQ(found.errors.size(), 2U);
+        for (std::size_t k = 0; k < 2; ++k) {
+          EXPECT_LE(std::abs(found.multipliers[k] - 1.0), found.errors[k]) << amplitude;
+        }
+      }
+    }
+  }
+}
+
+TEST(Floquet, WhatFallsSlowlyInAPeriodIsUnstable) {
+  // Upside down at rest: exp(+-omega T), far beyond the root of what the map is known to.
+  for (const double part : {1e-3, 1e-4, 1.0}) {
+    for (const double omega : {1e-3, 3.0, 1e5}) {
+      Scene<2> scene("pendulum");
+      scene.add(UniformGravity<2>{{0.0, -omega * omega}});
+      const auto bob = scene.add_particle({.mass = 1.0, .position = {0.0, 1.0}});
+      scene.add(Distance{Fixed<2>{}, bob, 1.0});
+      const auto found = floquet(scene, part / omega);
+      EXPECT_EQ(found.stability(), Stability::unstable) << part << ' ' << omega;
+      EXPECT_NEAR(found.growth(), std::exp(part), found.errors[0]) << part << ' ' << omega;
+    }
+  }
+}
+
+TEST(Floquet, MotorThatTurnsRoundHasThePeriodOfATurn) {
+  // A pendulum l on a crank r that a motor turns at a uniform rate, without gravity: it vibrates about the
+  // radius with the rate times the root of r/l.
+  constexpr double r = 0.3, l = 0.5;
+  for (const double rate : {4.0, -4.0, 1e5}) {
+    for (const int turns : {1, 2}) {
+      Scene<2> scene("crank");
+      const auto crank = add_body(scene, {.mass = 1.0, .inertia = 0.1, .angular_velocity = rate}, "crank");
+      const auto hinge = add_joint(scene, Revolute{Ground<2>{}, crank, Vec<2>(0.0, 0.0)});
+      const auto armature = scene.add_rotor({.inertia = 0.01, .angular_velocity = rate}, "armature");
+      scene.add(AngleDrive{hinge, armature, [rate](auto t) { return rate * t; }});
+      const auto bob =
+          scene.add_particle({.mass = 1.0, .position = {r + l, 0.0}, .velocity = {0.0, rate * (r + l)}});
+      scene.add(Distance{crank.point({r, 0.0}), bob, l});
+      const double turn = 2.0 * pi / std::abs(rate);
+      const auto found = floquet(scene, turns * turn);
+      ASSERT_EQ(found.multipliers.size(), 2U);
+      EXPECT_NEAR(found.multipliers[0].real(), std::cos(2.0 * pi * turns * std::sqrt(r / l)),
+                  found.errors[0]);
+      EXPECT_EQ(found.stability(), Stability::undecided);
+      EXPECT_THROW((void)floquet(scene, 0.5 * turn), NoEquilibrium);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::floquet_periods_test
