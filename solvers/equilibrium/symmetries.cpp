@@ -105,11 +105,7 @@ void Symmetries::add_parts(const Problem& problem, const Start& start) {
     for (int i = 0; i < d; ++i) {
       Generator x = generator(start, false, false);
       for (const auto& p : layout.particles)
-<<<<<<< HEAD
-        if (part_of(p.coordinate) == part) x.b[p.coordinate + i] = start.scales.length;  // as by a radian
-=======
         if (part_of(p.coordinate) == part) x.b[p.coordinate + i] = start.scales.length;
->>>>>>> modes49
       generators_.push_back(std::move(x));
     }
     for (const Vector3d& axis : axes_of_rotation(d)) {
