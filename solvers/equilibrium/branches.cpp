@@ -46,8 +46,7 @@ class Follower {
       if (b < most_branches)
         follow_branch(starts_[b]);
       else
-        found_.branches.push_back(
-            {{point(starts_[b].node)}, starts_[b].origin, BranchEnd::lost, not_followed()});
+        list_branch(starts_[b]);
     }
     return std::move(found_);
   }
@@ -104,8 +103,13 @@ class Follower {
     if (branch.end == BranchEnd::lost) branch.why += why_lost(last);
     found_.branches.push_back(std::move(branch));
   }
-  static std::string not_followed() {
-    return "it is not followed: " + std::to_string(most_branches) + " others were";
+  void list_branch(const Start& start) {
+    std::ostringstream text;
+    text << "it is not followed: " << most_branches << " others were";
+    Branch<FlatEquilibrium>& branch = found_.branches.emplace_back();
+    branch.points.push_back(point(start.node));
+    branch.origin = start.origin;
+    branch.why = text.str();
   }
   [[nodiscard]] std::string why_lost(const Node& last) const {
     std::ostringstream text;
