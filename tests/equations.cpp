@@ -4,7 +4,17 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 namespace dalembert {
+
+ActiveRows all_rows(const System& system) {
+  ActiveRows rows{std::vector<std::size_t>(system.rows()), system.holonomic_rows()};
+  std::iota(rows.rows.begin(), rows.rows.end(), std::size_t{0});
+  return rows;
+}
+
+Eigen::MatrixXd masses(const System& system) { return vector(system.masses()).asDiagonal(); }
 
 Eigen::MatrixXd by_rows(const System& system, std::span<const double> w) {
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(index(system.rows()), index(system.coordinates()));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/core/analysis/rank.h>
 #include <dalembert/core/scene/system.h>
 
 #include <Eigen/Core>
@@ -25,6 +26,10 @@ inline Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); 
 inline Eigen::VectorXd vector(std::span<const double> x) {
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
 }
+
+ActiveRows all_rows(const System& system);
+
+Eigen::MatrixXd masses(const System& system);
 
 Eigen::MatrixXd by_rows(const System& system, std::span<const double> w);
 

@@ -18,18 +18,14 @@ constexpr double g = 10.0;
 /// What a few solves of a few unknowns leave of forces up to 100.
 constexpr double rounding = 1e-11;
 
-class ContactShares : public testing::TestWithParam<std::tuple<Stepper, double>> {
+class ContactShares : public testing::TestWithParam<StepperAt> {
  protected:
   [[nodiscard]] static Options options(double t_end, int samples) {
     const auto [stepper, tolerance] = GetParam();
     return {.t_end = t_end, .samples = samples, .tolerance = tolerance, .stepper = stepper};
   }
 };
-INSTANTIATE_TEST_SUITE_P(BothSteppers, ContactShares,
-                         testing::Combine(both_steppers, testing::Values(1e-6, 1e-9, 1e-12)),
-                         [](const auto& info) {
-                           return std::string(name(std::get<0>(info.param))) + std::to_string(info.index);
-                         });
+INSTANTIATE_TEST_SUITE_P(BothSteppers, ContactShares, both_steppers_at({1e-6, 1e-9, 1e-12}), tolerance_name);
 
 /// A beam on three props at -1, 0 and 1.
 struct Beam {
@@ -260,7 +256,7 @@ TEST_P(ContactShares, TableSlidesStraightWhateverItsShares) {
       legs.push_back(scene.add(unilateral(OnSurface{foot, Plane<3>{}})));
       frictions.push_back(scene.add(coulomb(legs.back(), Slip{foot, Plane<3>{}}, mu, 1.2 * mu)));
     }
-  const double tolerance = std::get<1>(GetParam());
+  const double tolerance = GetParam().tolerance;
   const auto run = simulate(scene, options(2.0 * rests, 5));
   ASSERT_EQ(run.events().size(), 4u);
   for (const EventRecord& one : run.events()) {
@@ -409,7 +405,7 @@ TEST_P(ContactShares, ShareEndsWhereTheBeamTips) {
   beam.add_couple([](auto t) { return 10.0 * t; });
   const auto run = simulate(beam.scene, options(0.6, 3));
   ASSERT_EQ(run.events().size(), 2U);
-  const double tolerance = std::get<1>(GetParam());
+  const double tolerance = GetParam().tolerance;
   for (const auto& event : run.events()) {
     EXPECT_EQ(event.kind, EventKind::opened);
     EXPECT_NEAR(event.time, 0.5, 10.0 * tolerance);
@@ -437,7 +433,7 @@ TEST_P(ContactShares, WallAboveAFloorBounces) {
   Options own = options(2.0, 2);
   own.times = {begins + flight / 2.0, 2.0};  // the top of the fifth flight
   const auto run = simulate(scene, own);
-  const double height = a * flight * flight / 8.0, error = 1000.0 * std::get<1>(GetParam());
+  const double height = a * flight * flight / 8.0, error = 1000.0 * GetParam().tolerance;
   EXPECT_NEAR(d - run.position(bead, 0).x(), height, error * d);
   EXPECT_NEAR(run.position(bead, 1).x(), d, error * d);
   EXPECT_EQ(run.events().back().kind, EventKind::rested);

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <tuple>
 #include <vector>
 
 /// Where the direction or the mode of Coulomb's friction changes: impacts, users' changes, prescribed slips,
@@ -19,28 +18,22 @@ using testing::ThrowsMessage;
 
 constexpr double g = 9.81;
 
-class CoulombChanges : public testing::TestWithParam<std::tuple<Stepper, double>> {
+class CoulombChanges : public testing::TestWithParam<StepperAt> {
  protected:
-  [[nodiscard]] static double tolerance() { return std::get<1>(GetParam()); }
+  [[nodiscard]] static double tolerance() { return GetParam().tolerance; }
   /// A run of a few seconds errs by some tens of its tolerance, and so do the times at which it gets
   /// anywhere.
   [[nodiscard]] static double bound() { return 200.0 * tolerance(); }
   /// Leaving rest by a force that grows, u = c t^2/2 turns at a rate 1/u: of the explicit stepper's steps the
   /// integral of that takes the inverse root of the slowest u that is followed, 1000 tolerances.
   [[nodiscard]] static double most_steps() {
-    return 500.0 + (std::get<0>(GetParam()) == Stepper::erk ? 5.0 / std::sqrt(1000.0 * tolerance()) : 0.0);
+    return 500.0 + (GetParam().stepper == Stepper::erk ? 5.0 / std::sqrt(1000.0 * tolerance()) : 0.0);
   }
   [[nodiscard]] static Options options(double t_end) {
-    return {.t_end = t_end, .samples = 11, .tolerance = tolerance(), .stepper = std::get<0>(GetParam())};
+    return {.t_end = t_end, .samples = 11, .tolerance = tolerance(), .stepper = GetParam().stepper};
   }
 };
-INSTANTIATE_TEST_SUITE_P(Runs, CoulombChanges,
-                         testing::Combine(both_steppers, testing::Values(1e-5, 1e-7, 1e-10)),
-                         [](const auto& its) {
-                           return std::string(name(std::get<0>(its.param))) + "_1em" +
-                                  std::to_string(
-                                      static_cast<int>(std::lround(-std::log10(std::get<1>(its.param)))));
-                         });
+INSTANTIATE_TEST_SUITE_P(Runs, CoulombChanges, both_steppers_at({1e-5, 1e-7, 1e-10}), tolerance_name);
 
 /// A block of mass 2 on a floor, or a belt.
 struct Block {

@@ -2,6 +2,7 @@
 #include <dalembert/core/autodiff/branches.h>
 #include <dalembert/core/autodiff/functions.h>
 #include <dalembert/dalembert.h>
+#include <dalembert/tests/solvers/flight.h>
 
 #include <gmock/gmock.h>
 
@@ -64,27 +65,6 @@ TEST(Branches, ComparisonsAreRecordedOnlyWhileSomebodyListens) {
 Options explicitly(double t_end, double tolerance) {
   return {.t_end = t_end, .samples = 11, .tolerance = tolerance, .stepper = Stepper::erk};
 }
-
-/// A particle along x, kept there by a table that bears nothing.
-struct OnALine {
-  Scene<2> scene{"line"};
-  Particle<2> body;
-
-  OnALine(double x, double v)
-      : body(scene.add_particle({.mass = 1.0, .position = {x, 0.0}, .velocity = {v, 0.0}}, "body")) {
-    scene.add(OnCurve{body, Plane<2>{}}, "table");
-  }
-  template <class Law>
-  void push(Law law, const char* label) {
-    scene.add(force_law(points(body),
-                        [law](const auto& t, const auto& r, const auto& v) {
-                          auto force = (0.0 * t * v).eval();
-                          force[0] += law(t, r[0], v[0]);
-                          return force;
-                        }),
-              label);
-  }
-};
 
 class Kinks : public testing::TestWithParam<double> {};
 // A power of ten apart and in between, where steps of other lengths meet the kink elsewhere.

@@ -11,7 +11,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <tuple>
 
 /// Events whose functions vary faster than the motion, and those at the end of a run.
 namespace dalembert::fast_events_test {
@@ -21,20 +20,15 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-class FastEvents : public testing::TestWithParam<std::tuple<Stepper, double>> {
+class FastEvents : public testing::TestWithParam<StepperAt> {
  protected:
-  [[nodiscard]] static double tolerance() { return std::get<1>(GetParam()); }
+  [[nodiscard]] static double tolerance() { return GetParam().tolerance; }
   [[nodiscard]] static Options options(double t_end) {
-    return {.t_end = t_end, .samples = 2, .tolerance = tolerance(), .stepper = std::get<0>(GetParam())};
+    return {.t_end = t_end, .samples = 2, .tolerance = tolerance(), .stepper = GetParam().stepper};
   }
 };
-INSTANTIATE_TEST_SUITE_P(InBothSteppers, FastEvents,
-                         testing::Combine(both_steppers, testing::Values(1e-4, 1e-6, 1e-8, 1e-10, 1e-12)),
-                         [](const auto& its) {
-                           return std::string(name(std::get<0>(its.param))) + "_1e" +
-                                  std::to_string(
-                                      static_cast<int>(-std::round(std::log10(std::get<1>(its.param)))));
-                         });
+INSTANTIATE_TEST_SUITE_P(InBothSteppers, FastEvents, both_steppers_at({1e-4, 1e-6, 1e-8, 1e-10, 1e-12}),
+                         tolerance_name);
 
 /// Free fall at 1 m/s along x.
 struct Fall {

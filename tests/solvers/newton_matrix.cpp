@@ -9,16 +9,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 namespace dalembert::newton_matrix_test {
 namespace {
-
-ActiveRows all_rows(const System& system) {
-  ActiveRows rows{std::vector<std::size_t>(system.rows()), system.holonomic_rows()};
-  std::iota(rows.rows.begin(), rows.rows.end(), std::size_t{0});
-  return rows;
-}
 
 /// The Jacobian of (R1, R2, R3, R4) in (q, v, lambda, mu) with q' = c q + ..., v' = c v + ..., block
 /// by block as in the header of NewtonMatrix, at mu = 0. Its blocks come from System, which other

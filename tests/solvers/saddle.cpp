@@ -12,17 +12,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 
 namespace dalembert::saddle_test {
 namespace {
-
-ActiveRows all_rows(const System& system) {
-  ActiveRows rows{std::vector<std::size_t>(system.rows()), system.holonomic_rows()};
-  std::iota(rows.rows.begin(), rows.rows.end(), std::size_t{0});
-  return rows;
-}
 
 /// A truss of rods in a row of triangles, masses from 0.1 to 10: S has fill and no natural order.
 Scene<2> truss(int triangles) {

@@ -6,6 +6,7 @@
 #include <dalembert/core/scene/scene.h>
 #include <dalembert/solvers/simulation.h>
 #include <dalembert/tests/both_steppers.h>
+#include <dalembert/tests/solvers/flight.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +14,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <tuple>
 
 /// Comparisons in equations: what lies between two switches is seen whatever the step.
 namespace dalembert::switches_test {
@@ -25,11 +25,11 @@ using testing::ThrowsMessage;
 
 constexpr double g = 9.81;
 
-class Switches : public testing::TestWithParam<std::tuple<Stepper, double>> {
+class Switches : public testing::TestWithParam<StepperAt> {
  protected:
-  [[nodiscard]] static double tolerance() { return std::get<1>(GetParam()); }
+  [[nodiscard]] static double tolerance() { return GetParam().tolerance; }
   [[nodiscard]] static Options options(double t_end) {
-    return {.t_end = t_end, .samples = 11, .tolerance = tolerance(), .stepper = std::get<0>(GetParam())};
+    return {.t_end = t_end, .samples = 11, .tolerance = tolerance(), .stepper = GetParam().stepper};
   }
   /// The scenes have some metres and seconds: each step may err by the tolerance in position and velocity,
   /// and both grow with the few seconds that follow.
@@ -37,36 +37,8 @@ class Switches : public testing::TestWithParam<std::tuple<Stepper, double>> {
     return 5.0 * static_cast<double>(run.statistics().steps) * tolerance();
   }
 };
-INSTANTIATE_TEST_SUITE_P(InBothSteppers, Switches,
-                         testing::Combine(both_steppers, testing::Values(1e-4, 1e-6, 1e-8, 1e-10, 1e-12)),
-                         [](const auto& its) {
-                           return std::string(name(std::get<0>(its.param))) + "_1e" +
-                                  std::to_string(
-                                      static_cast<int>(-std::round(std::log10(std::get<1>(its.param)))));
-                         });
-
-/// A particle of 1 kg.
-struct Flight {
-  Scene<2> scene{"flight"};
-  Particle<2> body;
-
-  Flight(double x, double v)
-      : body(scene.add_particle({.mass = 1.0, .position = {x, 0.0}, .velocity = {v, 0.0}}, "body")) {}
-  template <class V>
-  void in_potential(V potential_of) {
-    scene.add(potential(points(body), [potential_of](auto r) { return potential_of(r[0]); }), "V");
-  }
-  template <class Law>
-  void push(Law law, const char* label) {
-    scene.add(force_law(points(body),
-                        [law](const auto& t, const auto& r, const auto& v) {
-                          auto force = (0.0 * t * v).eval();
-                          force[0] += law(t, r[0], v[0]);
-                          return force;
-                        }),
-              label);
-  }
-};
+INSTANTIATE_TEST_SUITE_P(InBothSteppers, Switches, both_steppers_at({1e-4, 1e-6, 1e-8, 1e-10, 1e-12}),
+                         tolerance_name);
 
 /// x of a motion from speed v at x = 0 back to there with the force f against it.
 double thrown(double v, double f, double t) { return v * t - 0.5 * f * t * t; }

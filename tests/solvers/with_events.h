@@ -7,30 +7,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <string>
 
 /// Shared by the tests of events, contacts and friction, which hold of either stepper at any tolerance:
 /// `INSTANTIATE_TEST_SUITE_P(Runs, Mine, at_tolerances, tolerance_name)`.
 namespace dalembert {
 
-struct OfRun {
-  Stepper stepper;
-  double tolerance;
-  operator Stepper() const { return stepper; }  // NOLINT(google-explicit-constructor)
-};
-
 /// For what is no question of the tolerance.
-inline const auto at_usual_tolerance =
-    testing::Values(OfRun{Stepper::ida, usual_tolerance}, OfRun{Stepper::erk, usual_tolerance});
-inline const auto at_tolerances = testing::Values(
-    OfRun{Stepper::ida, 1e-5}, OfRun{Stepper::ida, usual_tolerance}, OfRun{Stepper::ida, 1e-12},
-    OfRun{Stepper::ida, 1e-13}, OfRun{Stepper::erk, 1e-5}, OfRun{Stepper::erk, usual_tolerance},
-    OfRun{Stepper::erk, 1e-12}, OfRun{Stepper::erk, 1e-13});
-
-inline std::string tolerance_name(const testing::TestParamInfo<OfRun>& info) {
-  return name(info.param.stepper) + ("_" + std::to_string(-std::lround(std::log10(info.param.tolerance))));
-}
+inline const auto at_usual_tolerance = both_steppers_at({usual_tolerance});
+inline const auto at_tolerances = both_steppers_at({1e-5, usual_tolerance, 1e-12, 1e-13});
 
 /// What a run of many steps may err by, as it says itself, relative to its length: of `ida` at tight
 /// tolerances more than `bound`, as its steps, which err by a twentieth of the tolerance each, are thousands.
@@ -40,7 +24,7 @@ template <class Run>
   return std::max(bound, most * run.statistics().accuracy);
 }
 
-class WithEvents : public testing::TestWithParam<OfRun> {
+class WithEvents : public testing::TestWithParam<StepperAt> {
  protected:
   WithEvents() { set(GetParam().tolerance); }
   ~WithEvents() override { set(usual_tolerance); }
