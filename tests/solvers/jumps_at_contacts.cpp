@@ -1,4 +1,4 @@
-#include "../both_steppers.h"
+#include <dalembert/tests/both_steppers.h>
 #include <dalembert/dalembert.h>
 
 #include <gtest/gtest.h>
@@ -33,8 +33,7 @@ class JumpsAtContacts : public testing::TestWithParam<Stepper> {
   /// Motions are polynomials, which steps follow to the tolerance; a few dozen of them.
   static constexpr double error = 100.0 * tolerance;
 };
-INSTANTIATE_TEST_SUITE_P(BothSteppers, JumpsAtContacts, both_steppers,
-                         [](const auto& info) { return std::string(name(info.param)); });
+INSTANTIATE_TEST_SUITE_P(BothSteppers, JumpsAtContacts, both_steppers, stepper_name);
 
 TEST_P(JumpsAtContacts, LiftWhatRests) {
   add_force(0.0, 30.0);
