@@ -24,6 +24,9 @@ struct Benchmark {
                                std::span<const models::Observation<D>> reference) const;
 };
 
+template <int D>
+Benchmark(models::Model<D>, Methods<D>) -> Benchmark<D>;  // clang 14 deduces none for aggregates
+
 extern template struct Benchmark<2>;
 extern template struct Benchmark<3>;
 

@@ -72,13 +72,11 @@ Add running(Result (*run)(const Options&), std::type_identity_t<void (*)(CLI::Ap
     const auto options = std::make_shared<Options>();
     add_options(command, *options);
     if constexpr (requires { options->report; }) add_report(command, options->report);
-    command.callback([=, &wrong] {
-      if constexpr (std::is_void_v<Result>) {
-        run(*options);
-      } else {
-        wrong = run(*options);
-      }
-    });
+    if constexpr (std::is_void_v<Result>) {
+      command.callback([=] { run(*options); });
+    } else {
+      command.callback([=, &wrong] { wrong = run(*options); });
+    }
   };
 }
 
