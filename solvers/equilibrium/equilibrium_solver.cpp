@@ -56,7 +56,7 @@ EquilibriumSolver::EquilibriumSolver(const Problem& problem, std::span<const dou
     : EquilibriumSolver(problem, guess, time, frame_of(time, turning, *problem.system().layout())) {}
 
 EquilibriumSolver::EquilibriumSolver(const Problem& problem, std::span<const double> guess, double time,
-                                     RotatingFrame frame)
+                                     RotatingFrame frame, double longest)
     : problem_(problem), system_(&problem_.system()), time_(time), frame_(std::move(frame)) {
   const System& system = *system_;
   require_frictionless(system);
@@ -64,7 +64,7 @@ EquilibriumSolver::EquilibriumSolver(const Problem& problem, std::span<const dou
   std::vector<double> v(guess.size());
   frame_.velocity(guess, v);
   // No run begins here; the time of a radian of rotation, where there is one.
-  const double duration = frame_.rotates() ? 1.0 / frame_.rate() : std::numeric_limits<double>::infinity();
+  const double duration = frame_.rotates() ? 1.0 / frame_.rate() : longest;
   Start start =
       consistent_start(problem, guess, v, {.t_end = time + duration, .t_start = time, .assemble = true});
   q0_ = std::move(start.q);

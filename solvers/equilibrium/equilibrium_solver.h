@@ -8,6 +8,7 @@
 #include <dalembert/solvers/manifold/manifold.h>
 #include <dalembert/solvers/manifold/start.h>
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,7 +41,9 @@ class EquilibriumSolver {
   /// Projects the guess onto the constraint manifold. Throws InconsistentStart, NoEquilibrium.
   EquilibriumSolver(const Problem& problem, std::span<const double> guess, double time,
                     const UniformRotation<3>& turning);
-  EquilibriumSolver(const Problem& problem, std::span<const double> guess, double time, RotatingFrame frame);
+  /// The scene's time is at most `longest`, if the frame does not rotate.
+  EquilibriumSolver(const Problem& problem, std::span<const double> guess, double time, RotatingFrame frame,
+                    double longest = std::numeric_limits<double>::infinity());
 
   /// v, R1, R2 and relative residual of a state's q and lambda. Throws EquationFault.
   void evaluate(State& s) const;

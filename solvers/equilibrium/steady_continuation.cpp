@@ -16,7 +16,7 @@ SteadyCorrector::SteadyCorrector(std::function<PosedSystem(double)> pose_at, con
       Problem(posed.system), posed.guess, posed.speeds,
       {.t_end = std::numeric_limits<double>::infinity(), .t_start = posed.time, .assemble = true});
   for (std::size_t i = 0; i < start.q.size(); ++i) scale_.push_back(start.scales.unit(i));
-  time_ = start.scales.time;
+  scales_ = start.scales;
   begin_ = point(0.0, {});
 }
 
@@ -27,7 +27,7 @@ Node SteadyCorrector::point(double fraction, std::span<const double> beside) con
     throw InvalidScene("Branches of scene \"" + posed.system->layout()->scene +
                        "\": for another value of the parameter it has other points");
   const FoundSteady found =
-      find_steady(*posed.system, posed.guess, posed.speeds, posed.time, posed.keep, beside, time_);
+      find_steady(*posed.system, posed.guess, posed.speeds, posed.time, posed.keep, beside, scales_.time);
   const FlatSample at = found.state->sample(0);
   Node node;
   node.x.resize(static_cast<Eigen::Index>(n) + 1);
@@ -39,10 +39,10 @@ Node SteadyCorrector::point(double fraction, std::span<const double> beside) con
   node.x[static_cast<Eigen::Index>(n)] = fraction;
   node.lambda.assign(at.lambda.begin(), at.lambda.end());
   node.state = {found.state, {}, found.motion};
-  node.vibrations = all_vibrations(
-      *posed.system,
-      linear_terms(*posed.system, RotatingFrame(*found.motion), {at.time, at.q, at.v}, at.lambda),
-      *found.motion);
+  LinearTerms terms =
+      linear_terms(*posed.system, RotatingFrame(*found.motion), {at.time, at.q, at.v}, at.lambda);
+  terms.roundings = scales_.roundings_of_difference(at.q);
+  node.vibrations = all_vibrations(*posed.system, terms, *found.motion);
   node.stiffness.least = node.vibrations.empty() ? 0.0 : -node.vibrations.front().s.real();
   return node;
 }

@@ -23,7 +23,7 @@ class SteadyCorrector final : public Corrector {
  private:
   [[nodiscard]] Node point(double fraction, std::span<const double> beside) const;
 
-  double time_;  // of the scene where the branch begins
+  Scales scales_{};  // where the branch begins
 };
 
 }  // namespace dalembert

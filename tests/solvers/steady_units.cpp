@@ -136,20 +136,39 @@ TEST(Steady, ADiskRollsAsFastAnywhereInAnyUnits) {
   }
 }
 
+/// Chaplygin's: (J + m a^2) w' = -m a v w. Nothing but its speed gives it a time.
+Scene<2> sleigh(double v, const Vec<2>& at) {
+  Scene<2> scene("sleigh");
+  const auto body = add_body(
+      scene, {.mass = 1.0, .inertia = 0.2, .centre = at + Vec<2>(0.3, 0.0), .velocity = Vec<2>(v, 0.0)},
+      "sleigh");
+  scene.add(nonholonomic(points(body.point({-0.3, 0.0}), body.point({0.7, 0.0})),
+                         [](auto r, auto ahead, auto u, auto) {
+                           const auto along = ahead - r;
+                           return along.x() * u.y() - along.y() * u.x();
+                         }));
+  return scene;
+}
+
 TEST(Steady, ASleighIsAsUnstableHoweverSlow) {
-  // Chaplygin's: (J + m a^2) w' = -m a v w. Nothing but its speed gives it a time.
   for (const double v : {-1e3, -1e-3, -1e-9, -1e-20}) {
-    Scene<2> scene("sleigh");
-    const auto body =
-        add_body(scene, {.mass = 1.0, .inertia = 0.2, .centre = {0.3, 0.0}, .velocity = {v, 0.0}}, "sleigh");
-    scene.add(nonholonomic(points(body.point({-0.3, 0.0}), body.point({0.7, 0.0})),
-                           [](auto r, auto ahead, auto u, auto) {
-                             const auto along = ahead - r;
-                             return along.x() * u.y() - along.y() * u.x();
-                           }));
+    const auto scene = sleigh(v, {0.0, 0.0});
     const auto modes = normal_modes(scene, steady(scene));
     EXPECT_EQ(modes.stability(), Stability::unstable) << v;
     EXPECT_NEAR(modes.eigenvalue(modes.size() - 1).real() / v, -0.3 / 0.29, rounding) << v;
+  }
+}
+
+TEST(Steady, ASleighLosesItsStabilityAtRestInAnyUnits) {
+  for (const double off : {0.0, 1e3, 1e5}) {
+    for (const double unit : {1e-6, 1.0, 1e6}) {
+      const auto diagram =
+          follow_steady<2>([=](double v) { return PosedSteady<2>{sleigh(v, off * Vec<2>(1.0, -0.6))}; },
+                           {.from = -2.0 * unit, .to = 2.1 * unit});
+      EXPECT_EQ(diagram.branches.at(0).why, "") << off << ' ' << unit;
+      ASSERT_EQ(diagram.bifurcations.size(), 1U) << off << ' ' << unit;
+      EXPECT_NEAR(diagram.bifurcations[0].parameter / unit, 0.0, rounding) << off << ' ' << unit;
+    }
   }
 }
 
