@@ -154,10 +154,8 @@ void require_told_from_zero(const System& system, const Modes& found) {
       "and does not act on them, or make it rigid");
 }
 
-void require_smooth(const System& system, const EquilibriumSolver& balance, const FlatSample& at) {
-  if (system.coordinates() > most_dense ||
-      !is_singular_position(system, balance.frame(), {at.time, at.q, at.v}))
-    return;
+void require_smooth(const System& system, const FlatSample& at) {
+  if (system.coordinates() > most_dense || !is_singular_position(system, {at.time, at.q, at.v})) return;
   throw InvalidScene(
       "Normal modes of scene \"" + system.layout()->scene +
       "\": the equilibrium is a singular position, where the constraints are linearly dependent but not "
@@ -307,7 +305,7 @@ Modes find_modes(const System& system, const FlatSample& at, const UniformRotati
   const EquilibriumSolver balance = motion ? EquilibriumSolver(problem, at.q, at.time, RotatingFrame(*motion))
                                            : EquilibriumSolver(problem, at.q, at.time, turning);
   require_equilibrium(balance, at);
-  require_smooth(system, balance, at);
+  require_smooth(system, at);
   LinearTerms terms = linear_terms(system, balance.frame(), {at.time, at.q, at.v}, at.lambda);
   terms.roundings = balance.scales().roundings_of_difference(at.q);
   require_constant(system, balance, at, terms);

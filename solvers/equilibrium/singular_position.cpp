@@ -1,6 +1,6 @@
 #include "dalembert/solvers/equilibrium/singular_position.h"
 
-#include <dalembert/solvers/equilibrium/linear_terms.h>
+#include <dalembert/core/analysis/rank.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,22 +14,24 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// -sum lambda g_qq and all that does not depend on lambda, in the mass metric.
-MatrixXd stiffness(const System& system, const RotatingFrame& frame, const Instant& at,
-                   std::span<const double> lambda) {
-  const LinearTerms terms = linear_terms(system, frame, at, lambda);
+/// -sum mu g_qq in the mass metric. (Of the constraints alone: as a difference of stiffnesses it would be
+/// known to round-off of that of the forces, which has another unit.)
+MatrixXd curvature_by(const System& system, const Instant& at, std::span<const double> mu) {
+  auto slopes = system.linearisation();
+  system.linearise_constraints(at, mu, slopes);
   const auto n = static_cast<Index>(system.coordinates());
   MatrixXd K = MatrixXd::Zero(n, n);
-  for (const auto& k : terms.stiffness) {
-    const double masses = system.masses()[k.row()] * system.masses()[k.col()];
-    K(static_cast<Index>(k.row()), static_cast<Index>(k.col())) += k.value() / std::sqrt(masses);
+  for (std::size_t k = 0; k < system.stiffness_of_constraints(); ++k) {
+    const auto [row, column] = system.stiffness_pattern()[k];
+    K(static_cast<Index>(row), static_cast<Index>(column)) -=
+        slopes.stiffness[k] / std::sqrt(system.masses()[row] * system.masses()[column]);
   }
   return K;
 }
 
 }  // namespace
 
-bool is_singular_position(const System& system, const RotatingFrame& frame, const Instant& at) {
+bool is_singular_position(const System& system, const Instant& at) {
   auto e = system.evaluation();
   system.evaluate(at, e);
   if (independent_rows(system, e.w).size() == system.rows()) return false;
@@ -48,12 +50,11 @@ bool is_singular_position(const System& system, const RotatingFrame& frame, cons
   }
   const MatrixXd N = orthogonal_complement(W.transpose()), dependences = orthogonal_complement(W);
   std::vector<double> mu(system.rows(), 0.0);
-  const MatrixXd without = stiffness(system, frame, at, mu);
   Eigen::VectorXd curvature(W.rows());  // of each row of unit length
   for (Index k = 0; k < W.rows(); ++k) {
     double& own = mu[rigid[static_cast<std::size_t>(k)]];
     own = 1.0 / length[k];
-    curvature[k] = (stiffness(system, frame, at, mu) - without).norm();
+    curvature[k] = curvature_by(system, at, mu).norm();
     own = 0.0;
   }
   // Positions are known to rank_threshold at best, and so is the residue of a sum that is 0; dependences are
@@ -61,8 +62,7 @@ bool is_singular_position(const System& system, const RotatingFrame& frame, cons
   const double known = std::sqrt(rank_threshold);
   for (const auto dependence : dependences.colwise()) {
     for (Index k = 0; k < W.rows(); ++k) mu[rigid[static_cast<std::size_t>(k)]] = dependence[k] / length[k];
-    const MatrixXd K = stiffness(system, frame, at, mu) - without;
-    const MatrixXd left = N.transpose() * K * N;
+    const MatrixXd left = N.transpose() * curvature_by(system, at, mu) * N;
     if (left.norm() > known * dependence.cwiseAbs().cwiseMax(rank_threshold).dot(curvature)) return true;
   }
   return false;

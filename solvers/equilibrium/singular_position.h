@@ -2,7 +2,6 @@
 
 #include <dalembert/core/scene/system.h>
 #include <dalembert/solvers/base/hidden.h>
-#include <dalembert/solvers/equilibrium/rotating_frame.h>
 
 namespace DALEMBERT_HIDDEN dalembert {
 
@@ -12,6 +11,6 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// Linearly dependent rows, mu^T W = 0, may be redundant, or singular. Along every motion u with W u = 0 the
 /// constraints require u . (sum mu g_qq) u = 0 in second order: redundant ones satisfy that identically.
 /// (Then the distribution of forces among them does not change K either, elsewhere it does.)
-[[nodiscard]] bool is_singular_position(const System& system, const RotatingFrame& frame, const Instant& at);
+[[nodiscard]] bool is_singular_position(const System& system, const Instant& at);
 
 }  // namespace dalembert

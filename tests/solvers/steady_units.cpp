@@ -172,6 +172,30 @@ TEST(Steady, ASleighLosesItsStabilityAtRestInAnyUnits) {
   }
 }
 
+TEST(NormalModes, ADoorInTwoHingesVibratesInAnyUnits) {
+  // Beside a stiff spring, in number, the second hinge's rows were not known to be redundant.
+  std::vector<double> found;
+  for (const auto& [L, T, off] :
+       std::vector<Place>{{1, 1, 0}, {1, 1e-6, 0}, {1, 1e6, 0}, {1e-6, 1, 0}, {1e6, 1e-6, 0}}) {
+    const Vec<3> axis(0.0, 0.6, 0.8);
+    Scene<3> scene("door");
+    scene.add(UniformGravity<3>{L / (T * T) * Vec<3>(1.0, -2.0, -9.81)});
+    const auto door = add_body(
+        scene,
+        BodyState<3>{
+            .mass = 20.0, .inertia = L * L * Vec<3>(7.0, 5.4, 1.7), .centre = L * Vec<3>(0.5, -0.3, 0.1)},
+        "door");
+    const auto hinge = add_joint(scene, Revolute{Ground<3>{}, door, Vec<3>(0.0, 0.0, 0.0), axis});
+    scene.add(Revolute{Ground<3>{}, door, Vec<3>(1.5 * L * axis), axis});
+    scene.add(TorsionSpring{hinge, 50.0 * L * L / (T * T), 0.3});
+    const auto modes = normal_modes(scene, equilibrium(scene));
+    ASSERT_EQ(modes.size(), 1U) << L << ' ' << T;
+    EXPECT_EQ(modes.stability(), Stability::stable);
+    found.push_back(modes.frequency(0) * T);
+    EXPECT_NEAR(found.back(), found.front(), rounding) << L << ' ' << T;
+  }
+}
+
 TEST(NormalModes, AConicalPendulumFarAwayTurnsFreely) {
   // The height's frequency is Omega sqrt(1 + 3 cos^2(theta)), and the angle about the axis is free.
   for (const double off : {0.0, 1e3, 3e3, 1e5}) {
