@@ -38,7 +38,8 @@ void pull_back_block_by(std::span<const PointMap> maps, const double* block, dou
 ///   U <- U max_p |u_p| / |U|        (Frobenius norms)                                            (2)
 ///
 /// so that |U^T lambda| is the force at one point, the most loaded one if the others feel less. It is the
-/// same in whatever units, by whatever equations and with whatever fixed points the constraint is stated.
+/// same by whatever equations and with whatever fixed points the constraint is stated; in whatever unit of
+/// length, too, unless some of its rows are forces and others torques.
 /// `w`, `U`: by rows; `coordinates`: the places in q of the constraint's own; `lengths`: of each place in q.
 void forces_at_points(std::span<const PointMap> maps, int rows, const double* w,
                       std::span<const int> coordinates, std::span<const double> lengths, double* U);
