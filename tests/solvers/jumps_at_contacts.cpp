@@ -1,5 +1,5 @@
-#include <dalembert/tests/both_steppers.h>
 #include <dalembert/dalembert.h>
+#include <dalembert/tests/both_steppers.h>
 
 #include <gtest/gtest.h>
 
