@@ -238,10 +238,12 @@ TEST(SharedImpacts, StrikeEveryLegAndEndTogether) {
     for (const double vx : {0.0, 0.1, 0.2}) {
       Scene<3> scene;
       scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
-      const auto table = add_body(scene, BodyState<3>{.mass = 4.0,
-                                                      .inertia = {0.3, 0.4, 0.6},
-                                                      .centre = {0.0, 0.0, 0.7 + H},
-                                                      .velocity = {vx, 0.1, 0.0}});
+      const auto table = add_body(scene,
+                                  BodyState<3>{.mass = 4.0,
+                                               .inertia = {0.3, 0.4, 0.6},
+                                               .centre = {0.0, 0.0, 0.7 + H},
+                                               .velocity = {vx, 0.1, 0.0}},
+                                  "table");
       for (const double x : {-0.4, 0.4})
         for (const double y : {-0.3, 0.3})
           scene.add(unilateral(OnSurface{table.point({x, y, -0.7}), Plane<3>{}}, {.restitution = e}));
