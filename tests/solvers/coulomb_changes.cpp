@@ -338,9 +338,10 @@ TEST_P(CoulombChanges, KickAlongAnInclineIsNoImpact) {
                           .function = [](const auto& now) { return now.time() - 0.2; },
                           .change =
                               [=](Scene<2>& changed) {
-                                auto state = changed.particle(block);
-                                state.velocity += kick * vec(c, -s);
-                                changed.replace(block, state);
+                                const auto q = changed.initial_positions(), v = changed.initial_velocities();
+                                changed.replace(block, {.mass = 1.0,
+                                                        .position = {q[0], q[1]},
+                                                        .velocity = {v[0] + kick * c, v[1] - kick * s}});
                               }};
     const auto run = simulate(scene, options(0.5), {kicked});
     const double v = 2.0 + 0.5 * a + kick;
