@@ -65,7 +65,7 @@ void Auditor::follow(double time, const LedgerKeeper::Read& read) {
 }
 
 void Auditor::jump(const Jump& jump, const FlatSample& after) {
-  judge([&](const Claim& claim, Findings& found) { impacts_.check(jump, claim, found); });
+  judge([&](const Claim& claim, Findings& found) { impacts_.check(jump, !started_, claim, found); });
   instant(after);
   if (ledger_) {
     const double given = stated_->kinetic_energy(jump.v_before);

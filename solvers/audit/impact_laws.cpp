@@ -20,7 +20,7 @@ ImpactLaws::ImpactLaws(std::shared_ptr<const System> stated, const Claim& claim)
       before_(stated_->evaluation()),
       after_(stated_->evaluation()) {}
 
-void ImpactLaws::check(const Jump& jump, const Claim& claim, Findings& findings) {
+void ImpactLaws::check(const Jump& jump, bool at_start, const Claim& claim, Findings& findings) {
   limits_.set(claim);
   const auto carries = [&](std::size_t number) {
     const auto own = stated_->layout()->constraints[number].own_rows().in(jump.impulses);
@@ -32,7 +32,7 @@ void ImpactLaws::check(const Jump& jump, const Claim& claim, Findings& findings)
   acting.evaluate({jump.time, jump.q, jump.v_before}, before_);
   acting.evaluate({jump.time, jump.q, jump.v_after}, after_);
   check_momentum(acting, jump, findings);
-  check_carriers(jump, findings);
+  check_carriers(jump, at_start, findings);
   check_restitution(jump, findings);
   check_energy(acting, jump, findings);
 }
@@ -61,8 +61,9 @@ void ImpactLaws::check_momentum(const System& acting, const Jump& jump, Findings
 }
 
 /// An impulse of the accuracy of momenta is none. Where impacts accumulate, what brings their remainder to
-/// rest also makes up for the impulses of other forces until then: it has no sign.
-void ImpactLaws::check_carriers(const Jump& jump, Findings& findings) const {
+/// rest also makes up for the impulses of other forces until then: it has no sign. What touches at the start
+/// may do so in rounded numbers.
+void ImpactLaws::check_carriers(const Jump& jump, bool at_start, Findings& findings) const {
   const double most = largest(jump.impulses), limit = limits_.relative(most);
   if (most == 0.0) return;
   const bool accumulated = happened(jump, EventKind::rested);
@@ -78,7 +79,8 @@ void ImpactLaws::check_carriers(const Jump& jump, Findings& findings) const {
       double near = limits_.by_time(jump.time, before_.psi[r]);
       for (const std::size_t k : stated_->row(r))
         near += std::abs(after_.w[k]) *
-                limits_.position(stated_->w_columns()[k], jump.q[stated_->w_columns()[k]]);
+                (limits_.position(stated_->w_columns()[k], jump.q[stated_->w_columns()[k]]) +
+                 (at_start ? start_tolerance * limits_.unit(stated_->w_columns()[k]) : 0.0));
       findings.weigh(Law::impulse_carrier, {Subject::Kind::row, r}, jump.time, std::abs(after_.g[r]), near);
     }
   }

@@ -31,13 +31,13 @@ class ImpactLaws {
   explicit ImpactLaws(std::shared_ptr<const System> stated, const Claim& claim);
 
   /// Throws EquationFault.
-  void check(const Jump& jump, const Claim& claim, Findings& findings);
+  void check(const Jump& jump, bool at_start, const Claim& claim, Findings& findings);
   /// W at the last jump that was checked, of what has carried impulses.
   [[nodiscard]] std::span<const double> w() const { return after_.w; }
 
  private:
   void check_momentum(const System& acting, const Jump& jump, Findings& findings) const;
-  void check_carriers(const Jump& jump, Findings& findings) const;
+  void check_carriers(const Jump& jump, bool at_start, Findings& findings) const;
   void check_restitution(const Jump& jump, Findings& findings) const;
   void check_energy(const System& acting, const Jump& jump, Findings& findings) const;
   [[nodiscard]] double speed_limit(const System& acting, std::size_t r, const Jump& jump) const;

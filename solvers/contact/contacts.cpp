@@ -150,9 +150,12 @@ double Contacts::rate(std::size_t contact, const FlatSample& now) const {
   return (rate - gap / since) / since;
 }
 
-double Contacts::unit(std::size_t contact) const {
+/// With an acceleration of the scene's own, a = L/T^2, the gap appears at a rate of sqrt(2 a rounding).
+double Contacts::unit(std::size_t contact, const FlatSample& now) const {
   const Contact& c = contacts_[contact];
-  return c.closed ? 0.0 : scales_.speed() * c.gradient;
+  if (c.closed || !c.opened_at) return 0.0;
+  const double appears = std::sqrt(2.0 * scales_.rounding(now.q) / scales_.length) * scales_.speed();
+  return appears * c.gradient / accuracy_.of_forces();
 }
 
 /// Contacts that have fallen, that have no gap, that have just reached 0, and those that will within the

@@ -67,8 +67,10 @@ class Contacts {
   [[nodiscard]] double switching(std::size_t contact, const FlatSample& now) const;
   /// Its derivative by time while the contact is open; NaN where it is not known.
   [[nodiscard]] double rate(std::size_t contact, const FlatSample& now) const;
-  /// The unit of its values: of an open one a speed; 0 for a force.
-  [[nodiscard]] double unit(std::size_t contact) const;
+  /// The unit of its values, of which a part is known that forces are known to: of one that has opened a
+  /// speed, 0 of others. Where the gap appears out of its rounding the function jumps, from the rate to half
+  /// of it.
+  [[nodiscard]] double unit(std::size_t contact, const FlatSample& now) const;
   /// Notes which open contacts have separated where a step ends, or a change. Throws StepFailure, naming it,
   /// if one has been penetrated unnoticed.
   void require_open(const FlatSample& now);
@@ -123,10 +125,10 @@ class Contacts {
   [[nodiscard]] std::shared_ptr<const System> only(const std::vector<std::size_t>& in_force) const;
   void solve_impact(const Coupling& coupling, const std::vector<std::size_t>& touching, double t,
                     Eigen::VectorXd& U, Change& change) const;
-  /// Of the impacts that accumulate in an island, and the last interval between two.
+  /// Of the impacts that accumulate in an island; the time since which each contact of them was struck.
   struct Limit {
     std::size_t island;
-    double time, interval, uncertain;
+    double time, since, uncertain;
   };
   [[nodiscard]] std::vector<Limit> limits_of_impacts(const Change& change, const Instant& at);
   void rest(const Coupling& coupling, const std::vector<std::size_t>& touching,

@@ -88,7 +88,7 @@ std::vector<Contacts::Limit> Contacts::limits_of_impacts(const Change& change, c
     if (!ends) bouncing.insert(c.island);
     if (!std::isfinite(impacts.limit()) || !ends) continue;
     auto limit = std::ranges::find(limits, c.island, &Limit::island);
-    if (limit == limits.end()) limit = limits.insert(limit, {c.island, t, impacts.interval(), 0.0});
+    if (limit == limits.end()) limit = limits.insert(limit, {c.island, t, t - impacts.interval(), 0.0});
     limit->time = std::max(limit->time, impacts.limit());
     limit->uncertain = std::max(limit->uncertain, impacts.uncertainty());
   }
@@ -113,7 +113,7 @@ void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& to
     P(island) = dense::least_squares(coupling.S(island), -rates(island), rank_threshold);
     U(island).setZero();
     for (const std::size_t i : its)
-      if (!contacts_[i].closed)
+      if (contacts_[i].impacts.last() >= limit->since)
         change.events.push_back({contacts_[i].number, limit->time, EventKind::rested, limit->uncertain});
   }
   std::ranges::sort(change.events, {}, &EventRecord::source);
@@ -192,8 +192,7 @@ Change Contacts::resolve(const Instant& at, const std::vector<std::size_t>& trig
     if (const auto limits = limits_of_impacts(change, at); !limits.empty()) {
       for (std::size_t i = 0; i < contacts_.size(); ++i) {
         const auto limit = std::ranges::find(limits, contacts_[i].island, &Limit::island);
-        if (limit != limits.end() && contacts_[i].impacts.last() >= at.t - limit->interval &&
-            !among(touched, i))
+        if (limit != limits.end() && contacts_[i].impacts.last() >= limit->since && !among(touched, i))
           touched.push_back(i);
       }
       const Instant struck{at.t, at.q, change.v};

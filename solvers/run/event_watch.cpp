@@ -58,7 +58,7 @@ std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
       forget_behind(e, from_);
       if (beginning.before != nullptr) before = first_side(e, value(e, *beginning.before));
     } else {
-      largest_[e] = unit_(e);
+      largest_[e] = unit_(e, beginning.start);
     }
     at_from_.push_back(value(e, beginning.start));
     side_.push_back(e < asked_for_ ? first_side(e, at_from_.back()) : at_from_.back() < 0.0 ? -1 : 1);

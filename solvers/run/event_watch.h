@@ -46,7 +46,7 @@ class EventWatch {
   using Rate = std::function<double(std::size_t event, const FlatSample& at)>;
   /// The unit of such an event's values, which changes with what is closed and sticks; 0 if that is the size
   /// of the values themselves.
-  using Unit = std::function<double(std::size_t event)>;
+  using Unit = std::function<double(std::size_t event, const FlatSample& at)>;
 
   /// Of a run at this tolerance; `rate` and `unit` may be empty if there are no contacts. Throws
   /// InvalidArgument for an event without function.

@@ -25,7 +25,7 @@ class ContactShares : public testing::TestWithParam<StepperAt> {
     return {.t_end = t_end, .samples = samples, .tolerance = tolerance, .stepper = stepper};
   }
 };
-INSTANTIATE_TEST_SUITE_P(BothSteppers, ContactShares, both_steppers_at({1e-6, 1e-9, 1e-12}), tolerance_name);
+INSTANTIATE_TEST_SUITE_P(BothSteppers, ContactShares, both_steppers_at({1e-6, 1e-9}), tolerance_name);
 
 /// A beam on three props at -1, 0 and 1.
 struct Beam {
@@ -403,15 +403,18 @@ TEST_P(ContactShares, SharesBalanceAVaryingCouple) {
 TEST_P(ContactShares, ShareEndsWhereTheBeamTips) {
   Beam beam(1.0, 0.0);
   beam.add_couple([](auto t) { return 10.0 * t; });
-  const auto run = simulate(beam.scene, options(0.6, 3));
-  ASSERT_EQ(run.events().size(), 2U);
-  const double tolerance = GetParam().tolerance;
-  for (const auto& event : run.events()) {
-    EXPECT_EQ(event.kind, EventKind::opened);
-    EXPECT_NEAR(event.time, 0.5, 10.0 * tolerance);
+  for (const double tolerance : {GetParam().tolerance, 1e-12}) {
+    Options own = options(0.6, 3);
+    own.tolerance = tolerance;
+    const auto run = simulate(beam.scene, own);
+    ASSERT_EQ(run.events().size(), 2U);
+    for (const auto& event : run.events()) {
+      EXPECT_EQ(event.kind, EventKind::opened);
+      EXPECT_NEAR(event.time, 0.5, 10.0 * tolerance);
+    }
+    // The angle stays below 1.2e-3, of which the equation neglects the square.
+    EXPECT_NEAR(angular_velocity(run.sample(2), beam.body), -10.0 * 0.1 * 0.1 / 3.0, 1e-6);
   }
-  // The angle stays below 1.2e-3, of which the equation neglects the square.
-  EXPECT_NEAR(angular_velocity(run.sample(2), beam.body), -10.0 * 0.1 * 0.1 / 3.0, 1e-6);
 }
 
 // A bead slides along a floor without restitution and bounces off a wall that leans over it, so that both are
