@@ -37,7 +37,7 @@ EventWatch::Rate rates_of_switching(std::size_t asked_for, const ConditionalCons
 
 EventWatch::Unit units_of_switching(std::size_t asked_for, const ConditionalConstraints* conditional) {
   if (conditional == nullptr) return {};
-  return [=](std::size_t event, const FlatSample& now) { return conditional->unit(event - asked_for, now); };
+  return [=](std::size_t event) { return conditional->unit(event - asked_for); };
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ double ConditionalConstraints::rate(std::size_t function, const FlatSample& now)
                                      : std::numeric_limits<double>::quiet_NaN();
 }
 
-double ConditionalConstraints::unit(std::size_t function, const FlatSample& now) const {
-  return function < contacts_.size() ? contacts_.unit(function, now)
+double ConditionalConstraints::unit(std::size_t function) const {
+  return function < contacts_.size() ? contacts_.unit(function)
                                      : friction_.unit(function - contacts_.size());
 }
 

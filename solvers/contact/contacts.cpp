@@ -150,12 +150,9 @@ double Contacts::rate(std::size_t contact, const FlatSample& now) const {
   return (rate - gap / since) / since;
 }
 
-/// With an acceleration of the scene's own, a = L/T^2, the gap appears at a rate of sqrt(2 a rounding).
-double Contacts::unit(std::size_t contact, const FlatSample& now) const {
+double Contacts::unit(std::size_t contact) const {
   const Contact& c = contacts_[contact];
-  if (c.closed || !c.opened_at) return 0.0;
-  const double appears = std::sqrt(2.0 * scales_.rounding(now.q) / scales_.length) * scales_.speed();
-  return appears * c.gradient / accuracy_.of_forces();
+  return c.closed || c.parted ? 0.0 : scales_.speed() * c.gradient;
 }
 
 /// Contacts that have fallen, that have no gap, that have just reached 0, and those that will within the

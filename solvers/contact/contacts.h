@@ -67,10 +67,10 @@ class Contacts {
   [[nodiscard]] double switching(std::size_t contact, const FlatSample& now) const;
   /// Its derivative by time while the contact is open; NaN where it is not known.
   [[nodiscard]] double rate(std::size_t contact, const FlatSample& now) const;
-  /// The unit of its values, of which a part is known that forces are known to: of one that has opened a
-  /// speed, 0 of others. Where the gap appears out of its rounding the function jumps, from the rate to half
-  /// of it.
-  [[nodiscard]] double unit(std::size_t contact, const FlatSample& now) const;
+  /// The unit of its values: of one that has opened, but not left its surface yet by more than a step errs, a
+  /// speed. (That error over the time in which forces hardly change is what is known of it, see Accuracy.) 0
+  /// of others: their own size.
+  [[nodiscard]] double unit(std::size_t contact) const;
   /// Notes which open contacts have separated where a step ends, or a change. Throws StepFailure, naming it,
   /// if one has been penetrated unnoticed.
   void require_open(const FlatSample& now);

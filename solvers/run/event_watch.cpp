@@ -29,6 +29,7 @@ EventWatch::EventWatch(std::vector<FlatEvent> events, Rate rate, Unit unit, cons
       unit_(std::move(unit)),
       accuracy_(tolerance),
       largest_(events_.size()),
+      units_(events_.size()),
       largest_before_(events_.size()),
       seen_(events_.size()),
       at_root_(events_.size()),
@@ -58,7 +59,8 @@ std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
       forget_behind(e, from_);
       if (beginning.before != nullptr) before = first_side(e, value(e, *beginning.before));
     } else {
-      largest_[e] = unit_(e, beginning.start);
+      largest_[e] = 0.0;
+      units_[e] = unit_(e);
     }
     at_from_.push_back(value(e, beginning.start));
     side_.push_back(e < asked_for_ ? first_side(e, at_from_.back()) : at_from_.back() < 0.0 ? -1 : 1);
@@ -96,7 +98,7 @@ void EventWatch::chatters(std::size_t event, double t) const {
 /// it, the way back from c may be lost in round-off. Up to the time that is looked at terms of third order
 /// are round-off.
 EventWatch::Departure EventWatch::departure(std::size_t event, const Beginning& beginning) {
-  const double t = beginning.start.time, noise = std::max(round_off() * largest_[event], at_root_[event]);
+  const double t = beginning.start.time, noise = std::max(round_off() * size(event), at_root_[event]);
   const double far_above = 16.0 * noise, longest = std::cbrt(16.0 * round_off()) * beginning.time;
   const auto moved = [&](double h) { return value(event, beginning.ahead(t + h)) - at_from_[event]; };
   try {
@@ -123,7 +125,7 @@ void EventWatch::depart(std::size_t event, const Beginning& beginning) {
 
 /// After a change a function may stay at 0, to round-off.
 int EventWatch::first_side(std::size_t event, double value) const {
-  return std::abs(value) > std::max(round_off() * largest_[event], at_root_[event]) ? sign(value) : 0;
+  return std::abs(value) > std::max(round_off() * size(event), at_root_[event]) ? sign(value) : 0;
 }
 
 double EventWatch::value(std::size_t event, const FlatSample& at) {
@@ -166,10 +168,9 @@ std::vector<EventWatch::Place> EventWatch::places(std::size_t event, const Read&
       if (side != 0 && (from_zero || side == sign(f_a)) && side * p.slope(j - 1) < 0.0 &&
           side * p.slope(j) > 0.0) {
         const double t = p.turn(a, b, side);
-        const double high =
-            from_zero ? -round_off() * largest_[event] : std::min(std::abs(f_a), std::abs(f_b));
+        const double high = from_zero ? -round_off() * size(event) : std::min(std::abs(f_a), std::abs(f_b));
         const double f_t = side * p(t) < high ? value(event, read(t)) : f_b;
-        const bool touches = event < asked_for_ && std::abs(f_t) <= round_off() * largest_[event];
+        const bool touches = event < asked_for_ && std::abs(f_t) <= round_off() * size(event);
         if (f_t != f_b && !touches) places.push_back({t, f_t});
       }
       places.push_back({b, f_b});
@@ -180,7 +181,7 @@ std::vector<EventWatch::Place> EventWatch::places(std::size_t event, const Read&
 
 /// A function that is 0 to round-off where the run ends has crossed 0 if it was not before.
 int EventWatch::side_at_end(std::size_t event, const Place& before, const Place& end) const {
-  const double zero = round_off() * largest_[event];
+  const double zero = round_off() * size(event);
   return std::abs(end.value) <= zero && std::abs(before.value) > zero ? 0 : sign(end.value);
 }
 
@@ -223,7 +224,7 @@ bool EventWatch::shows(std::size_t event, const Values& values) const {
   for (const double value : values.whole.values) least = std::min(least, value);
   const double length = values.whole.nodes.back() - values.whole.nodes.front();
   return fastest * length < least ||
-         agrees_in_slope(values.whole, values.rates, accuracy_.of_forces() * largest_[event]);
+         agrees_in_slope(values.whole, values.rates, accuracy_.of_forces() * size(event));
 }
 
 /// The interpolants that show a function. Those of contacts are known as forces are.
@@ -242,7 +243,7 @@ std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& ste
     parts.push_back(part);
     return false;
   };
-  if (!resolve(function, values.whole, values.at_checks, known * largest_[event], most_parts, collect)) {
+  if (!resolve(function, values.whole, values.at_checks, known * size(event), most_parts, collect)) {
     const std::string& name = events_[event].name;
     throw StepFailure{(event < asked_for_ ? "Event \"" + name + '"' : name) +
                           " varies faster than it can be followed within a step of " +
@@ -256,6 +257,7 @@ std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& ste
 
 std::vector<EventWatch::Found> EventWatch::locate(const Step& step) {
   largest_before_ = largest_;
+  for (std::size_t e = asked_for_; e < events_.size(); ++e) units_[e] = unit_(e);
   for (auto& values : seen_) values.clear();
   const int degree = resolved_ > 0 ? std::max(step.degree, least_degree) : step.degree;
   std::vector<Values> all(events_.size());

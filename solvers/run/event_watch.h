@@ -6,6 +6,7 @@
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/run/interpolant.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -46,7 +47,7 @@ class EventWatch {
   using Rate = std::function<double(std::size_t event, const FlatSample& at)>;
   /// The unit of such an event's values, which changes with what is closed and sticks; 0 if that is the size
   /// of the values themselves.
-  using Unit = std::function<double(std::size_t event, const FlatSample& at)>;
+  using Unit = std::function<double(std::size_t event)>;
 
   /// Of a run at this tolerance; `rate` and `unit` may be empty if there are no contacts. Throws
   /// InvalidArgument for an event without function.
@@ -84,6 +85,8 @@ class EventWatch {
     double t, value;
   };
   [[nodiscard]] double value(std::size_t event, const FlatSample& at);
+  /// What its values are measured by.
+  [[nodiscard]] double size(std::size_t event) const { return std::max(largest_[event], units_[event]); }
   [[nodiscard]] int first_side(std::size_t event, double value) const;
   /// How a function leaves the 0 that it begins with.
   struct Departure {
@@ -118,7 +121,8 @@ class EventWatch {
   std::size_t resolved_ = 0;              ///< the first of them may be faster than the motion
   std::vector<double> at_from_;           ///< of each event its value where the last step ended,
   std::vector<int> side_;                 ///< its sign there or before, if it is 0; 0 if it never had one,
-  std::vector<double> largest_;           ///< and the largest value so far, or its unit;
+  std::vector<double> largest_;           ///< and the largest value so far;
+  std::vector<double> units_;             ///< of events of contacts, as they are in this step;
   std::vector<double> largest_before_;    ///< before the last step,
   std::vector<std::vector<Place>> seen_;  ///< and the sizes of the values since;
   std::vector<double> at_root_;           ///< what it may still be where it was found to be 0,
