@@ -275,7 +275,7 @@ struct Struck {
   [[nodiscard]] std::vector<Law> laws() const {
     ImpactLaws impacts(system, claim);
     Findings findings;
-    impacts.check({0.0, q, before, after, P, {}}, claim, findings);
+    impacts.check({0.0, q, before, after, P, {}}, false, claim, findings);
     return broken(findings, *system);
   }
   Scene<2> scene{"struck"};
