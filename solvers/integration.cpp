@@ -66,7 +66,8 @@ std::unique_ptr<Integration::Segment> Integration::make_segment(const Problem& p
     // What slides may be other batches than before.
     Comparisons::Behind behind = *behind_;
     behind.sides.resize(std::min(behind.sides.size(), problem.system().stated_batches()));
-    return make_segment(problem, std::move(start), t, by, Comparisons(problem, start, tolerance, behind));
+    Comparisons there(problem, start, tolerance, behind);
+    return make_segment(problem, std::move(start), t, by, std::move(there));
   }
   Comparisons comparisons(problem, start, t, tolerance);
   if (comparisons.chosen()) {

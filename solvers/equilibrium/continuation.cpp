@@ -219,7 +219,7 @@ EquilibriumCorrector::Linear EquilibriumCorrector::linear(const Here& here, cons
   const LinearTerms terms =
       linear_terms(*here.system, here.balance.frame(), {here.balance.time(), s.q, s.v}, s.lambda);
   Eigen::MatrixXd X = displacements(node.x);
-  for (Index i = 0; i < X.rows(); ++i) X.row(i) /= scale_[static_cast<std::size_t>(i)];
+  for (Index i = 0; X.cols() > 0 && i < X.rows(); ++i) X.row(i) /= scale_[static_cast<std::size_t>(i)];
   X = orthonormal_span(std::move(X));
   const auto n = static_cast<Index>(s.q.size()), m = static_cast<Index>(rows.size());
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n + m + X.cols(), n + m + 1);

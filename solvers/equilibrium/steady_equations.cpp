@@ -98,7 +98,7 @@ void SteadyEquations::divide_row(Index i, double by) {
   r_terms_[i] /= by;
   J_.row(i) /= by;
   J_terms_.row(i) /= by;
-  L_.row(i) /= by;
+  if (L_.cols() > 0) L_.row(i) /= by;  // else it has no memory
 }
 
 /// Forces over the roots of the masses, other rows of length 1. Along symmetries that commute with the motion

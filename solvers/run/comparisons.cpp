@@ -40,15 +40,11 @@ Comparisons::Comparisons(const Problem& problem, const Start& start, double t, d
       lambda_(start.lambda.size()),
       a_(start.q.size()),
       from_(t) {
-  const auto make_manifold = [&] {
-    if (!manifold_) manifold_.emplace(problem, start.rows, start.scales.lengths());
-  };
-  if (system_->has_multiplier_forces()) make_manifold();
+  if (system_->has_multiplier_forces()) start_listening(problem, start);
   if (!record_comparisons({t, start.q, start.v}, nullptr, recorded_)) recorded_.clear();
   any_ = std::ranges::any_of(recorded_, [](const auto& batch) { return !batch.empty(); });
   if (!any_) return;
-  make_manifold();
-  conditional_ = system_->conditional_rows();
+  start_listening(problem, start);
   held_ = recorded_;
   choose_sides(start);
   list_margins();
@@ -56,12 +52,18 @@ Comparisons::Comparisons(const Problem& problem, const Start& start, double t, d
 
 Comparisons::Comparisons(const Problem& problem, const Start& start, double tolerance, const Behind& behind)
     : Comparisons(problem, start, behind.t, tolerance) {
+  start_listening(problem, start);  // though nothing that is in force may compare anything
   any_ = true;
   chosen_ = false;
   held_.resize(std::max(held_.size(), behind.sides.size()));
   std::ranges::copy(behind.sides, held_.begin());
   from_ = behind.checked;
   list_margins();
+}
+
+void Comparisons::start_listening(const Problem& problem, const Start& start) {
+  if (!manifold_) manifold_.emplace(problem, start.rows, start.scales.lengths());
+  conditional_ = system_->conditional_rows();
 }
 
 /// Between two sides, at a corner of an equation, a motion goes to where the accelerations lead in an

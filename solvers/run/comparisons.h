@@ -85,6 +85,7 @@ class Comparisons {
     double a, f_a, b, f_b;
     std::size_t margin;
   };
+  void start_listening(const Problem& problem, const Start& start);
   void choose_sides(const Start& start);
   [[nodiscard]] bool record_comparisons(const Instant& at, const Branches::Sides* held, Branches::Sides& out);
   [[nodiscard]] bool accelerate(Motion& at, const Branches::Sides& held);
