@@ -212,7 +212,7 @@ double TwoRuns::error_of_time(std::size_t k) const {
   const Certainty& its = events_[k];
   if (!is_known(its)) return unknown;
   const double apart = std::abs(run_->events[k].time - reference_->events[its.counterpart].time);
-  return std::max(bound_ * apart, round_off_of_time(k)) + run_->events[k].uncertain;
+  return std::max({bound_ * apart, round_off_of_time(k), run_->events[k].uncertain});
 }
 
 }  // namespace dalembert
