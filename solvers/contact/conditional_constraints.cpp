@@ -27,8 +27,7 @@ double ConditionalConstraints::rate(std::size_t function, const FlatSample& now)
 }
 
 double ConditionalConstraints::unit(std::size_t function) const {
-  return function < contacts_.size() ? contacts_.unit(function)
-                                     : friction_.unit(function - contacts_.size());
+  return function < contacts_.size() ? contacts_.unit(function) : friction_.unit(function - contacts_.size());
 }
 
 /// Where contacts are as they are now.
