@@ -56,15 +56,8 @@ Opening open_run(const std::shared_ptr<const System>& stated, std::span<const do
     return {nullptr, {}, problem, std::move(start), scales};
   }
   require_no_force_reads(*stated);
-  // Of a lone particle: what lies within round-off of its own motion touches, where it is as close as that to
-  // the origin, too.
-  const Problem always(stated->without(numbers));
-  double nearest = std::numeric_limits<double>::infinity();
-  Start free = first_start(always, q, v, options, nearest);
-  if (free.scales.length_from_path) {
-    nearest = nearest_contact(*stated, {options.t_start, q, v}, start_tolerance * free.scales.length);
-    free = first_start(always, q, v, options, nearest);
-  }
+  const double nearest = nearest_contact(*stated, {options.t_start, q, v});
+  const Start free = first_start(Problem(stated->without(numbers)), q, v, options, nearest);
   const Instant at{options.t_start, free.q, free.v};
   auto conditional = std::make_unique<ConditionalConstraints>(stated, free.scales, options.tolerance, at);
   Change change = conditional->resolve_start(at);

@@ -50,7 +50,7 @@ std::vector<double> gradients(const System& stated, const std::vector<std::size_
 
 }  // namespace
 
-double nearest_contact(const System& stated, const Instant& at, double touching) {
+double nearest_contact(const System& stated, const Instant& at) {
   std::vector<double> g(stated.rows()), rates(stated.rows());
   stated.gaps(at, g, rates);
   const std::vector<double> ones(stated.coordinates(), 1.0);
@@ -62,8 +62,7 @@ double nearest_contact(const System& stated, const Instant& at, double touching)
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const double gradient = lengths_of_gradients[i];
     const double gap = std::abs(g[stated.layout()->constraints[contacts[i]].own_rows().front()]);
-    if (gap > std::max(round_off() * farthest, touching) * gradient)
-      nearest = std::min(nearest, gap / gradient);
+    if (gap > round_off() * farthest * gradient) nearest = std::min(nearest, gap / gradient);
   }
   return nearest;
 }

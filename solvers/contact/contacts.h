@@ -19,9 +19,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 
 class Coupling;
 
-/// The distance to the nearest one-sided constraint that is open, no closer than `touching`; infinite if
-/// there is none.
-[[nodiscard]] double nearest_contact(const System& stated, const Instant& at, double touching);
+/// The distance to the nearest one-sided constraint that is open; infinite if there is none.
+[[nodiscard]] double nearest_contact(const System& stated, const Instant& at);
 
 /// The one-sided constraints of a run: which of them are closed, and what happens where that changes.
 ///

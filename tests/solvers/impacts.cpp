@@ -274,7 +274,7 @@ TEST(SharedImpacts, EndInTheRestOfWhatBounced) {
   EXPECT_NEAR(run.multiplier(floor, 2), g, bound);
 }
 
-// From either side of an impact of a lone ball, which has no length but that of its path.
+// From either side of an impact of a ball that has gone some way along the floor.
 TEST(SharedImpacts, AreWhereAnotherRunMayBegin) {
   const Ball ball(0.5);
   for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
