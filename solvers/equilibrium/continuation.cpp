@@ -57,7 +57,7 @@ EquilibriumCorrector::EquilibriumCorrector(std::function<PosedSystem(double)> po
 /// its range: without a load a scene has more. They are sought from a state beside the first: columns in line
 /// and rods in a plane have dependent rows. Where a scene has no such states none are known.
 void EquilibriumCorrector::find_symmetries() {
-  constexpr double inside = 0.618, beside = 0.02;
+  constexpr double inside = 0.618, beside = 0.02;  // 0.31 and 0.77, 0.005 and 0.08 find the same
   try {
     const PosedSystem posed = pose(value(inside));
     if (posed.system->coordinates() != scale_.size()) return;
