@@ -47,6 +47,15 @@ TEST_P(JumpsAtContacts, LiftWhatRests) {
   EXPECT_NEAR(run.position(block_, 2).y(), (30.0 / m - g) / 2.0, error);
 }
 
+TEST_P(JumpsAtContacts, AreReadBetweenSamplesAndKeptInALedger) {
+  add_force(0.0, 30.0);
+  Options own = options(2.0);
+  own.dense = own.ledger = true;  // every step is audited
+  const auto run = simulate(scene_, own);
+  EXPECT_NEAR(run.at({0.5}).multiplier(floor_, 0), m * g, error);
+  EXPECT_NEAR(run.at({1.5}).position(block_, 0).y(), (30.0 / m - g) / 8.0, error);
+}
+
 TEST_P(JumpsAtContacts, PressWhatRests) {
   add_force(0.0, -30.0);
   const auto run = simulate(scene_, options(2.0));
@@ -96,6 +105,43 @@ TEST_P(JumpsAtContacts, LetSlideOnABeltThatReverses) {
   EXPECT_EQ(run.events()[1].kind, EventKind::sticks);
   EXPECT_NEAR(run.events()[1].time, 1.0 + 2.0 / (mu * g), error);
   EXPECT_NEAR(run.velocity(block, 2).x(), -1.0, error);
+}
+
+/// A beam on three props, whose shares of its weight nothing determines.
+struct Beam {
+  Scene<2> scene;
+  RigidBody<2> body;
+
+  Beam(double mu, double x, double y) {
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    body = add_body(scene, BodyState<2>{.mass = 1.0, .inertia = 2.0}, "beam");
+    for (const double at : {-1.0, 0.0, 1.0}) {
+      const auto foot = body.point_at({at, 0.0});
+      const auto prop = scene.add(unilateral(OnCurve{foot, Plane<2>{}}));
+      if (mu > 0.0) scene.add(coulomb(prop, Slip{foot, Plane<2>{}}, mu));
+    }
+    scene.add(force_law(points(body.point({0.0, 0.0})), [x, y](auto t, auto, auto) {
+      if (t < 1.0) return vec(0.0 * t, 0.0 * t);
+      return vec(x + 0.0 * t, y + 0.0 * t);
+    }));
+  }
+  [[nodiscard]] Vec<2> centre(const Trajectory<2>& run) const {
+    return run.position(body.point_at({0.0, 0.0}), run.size() - 1);
+  }
+};
+
+TEST_P(JumpsAtContacts, LiftABeamOffAllItsProps) {
+  const Beam beam(0.0, 0.0, 12.0);
+  const auto run = simulate(beam.scene, options(2.0));
+  EXPECT_EQ(run.events().size(), 3U);
+  EXPECT_LT((beam.centre(run) - vec(0.0, (12.0 - g) / 2.0)).norm(), error);
+}
+
+TEST_P(JumpsAtContacts, LetABeamSlideOnAllItsProps) {
+  const Beam beam(0.3, 5.0, 0.0);
+  const auto run = simulate(beam.scene, options(2.0));
+  EXPECT_EQ(run.events().size(), 3U);
+  EXPECT_LT((beam.centre(run) - vec((5.0 - 0.3 * g) / 2.0, 0.0)).norm(), error);
 }
 
 /// A floor that moves with this velocity from t = 1 on, and the block on it.
