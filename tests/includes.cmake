@@ -4,7 +4,7 @@
 # solvers know a constraint, and where a header that users include needs Eigen, or one of SUNDIALS, SuiteSparse or
 # of the solvers' own.
 
-set(rooms core core/autodiff core/points core/equations core/forces core/results core/scene core/analysis core/lagrange
+set(rooms core core/autodiff core/points core/equations core/forces core/results core/scene core/linear core/analysis core/lagrange
           constraints/geometry constraints constraints/bodies constraints/joints
           solvers/base solvers/audit solvers/linear solvers/manifold solvers/contact solvers/run solvers/ida solvers/erk solvers solvers/certificate solvers/equilibrium solvers/lagrange view sweep testing)
 set(public "solvers/base/options|solvers/integrator|solvers/simulation|solvers/certificate/(certificate|largest_errors|report|simulate_to|two_runs|work_precision)|solvers/equilibrium/(branches|equilibrium|floquet|normal_modes|steady|steady_branches|uniform_rotation)|solvers/lagrange/(cross_check|lagrangian_simulation)|view/write_(gltf|html)|sweep/(parameters|runs|sweep|write_hdf5)")
@@ -26,7 +26,7 @@ foreach(room IN LISTS rooms)
       if(for_users AND line MATCHES "[<\"](${theirs})")
         message(SEND_ERROR "${file}: users do not have ${line}")
       endif()
-      if(file MATCHES "^(core|constraints)/.*\\.h$|^(${public})\\.h$" AND NOT file STREQUAL "core/analysis/rank.h"
+      if(file MATCHES "^(core|constraints)/.*\\.h$|^(${public})\\.h$" AND NOT file MATCHES "^core/(analysis/rank|linear/dense)\\.h$"
          AND line MATCHES "<Eigen/")
         message(SEND_ERROR "${file}: Eigen costs each of a user's files half a second; include it in a .cpp: ${line}")
       endif()

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <dalembert/constraints/distance.h>
+#include <dalembert/core/scene/scene.h>
+
+#include <string>
 
 namespace dalembert {
 
@@ -10,5 +13,20 @@ template <int D>
 struct BodyRod : Distance<Particle<D>, Particle<D>> {
   static constexpr bool internal = true;
 };
+
+/// The names of a body's particles and rods, counted from 0.
+inline std::string particle_of(const std::string& body, int i) { return body + ".p" + std::to_string(i + 1); }
+inline std::string rod_of(const std::string& body, int i, int j) {
+  return body + ".rod" + std::to_string(i + 1) + std::to_string(j + 1);
+}
+
+/// Throws InvalidScene if one of the names of a body's particles, and of the rods between each two of them,
+/// is taken: nothing of the body has been added then.
+template <int D>
+void require_free_names(const Scene<D>& scene, const std::string& body, int particles) {
+  for (int i = 0; i < particles; ++i) scene.require_free("particle", particle_of(body, i));
+  for (int i = 0; i < particles; ++i)
+    for (int j = i + 1; j < particles; ++j) scene.require_free("Distance", rod_of(body, i, j));
+}
 
 }  // namespace dalembert

@@ -3,6 +3,7 @@
 #include <dalembert/constraints/bodies/equimomental.h>
 #include <dalembert/constraints/bodies/orthonormal.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dalembert {
@@ -48,6 +49,7 @@ Lamina add_lamina(Scene<3>& scene, const LaminaState& s, const std::string& name
                 .rods = {},
                 .arms = {std::sqrt(s.inertia.y() / s.mass), std::sqrt(s.inertia.x() / s.mass)}};
   const Equimomental<2> set(lamina.arms);
+  require_free_names(scene, name, 3);
   std::array<Vec<3>, 3> arm;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec<2> place = set.place(static_cast<int>(i));
@@ -55,13 +57,13 @@ Lamina add_lamina(Scene<3>& scene, const LaminaState& s, const std::string& name
     lamina.particles[i] = scene.add_particle({.mass = s.mass * set.share(static_cast<int>(i)),
                                               .position = s.centre + arm[i],
                                               .velocity = s.velocity + s.angular_velocity.cross(arm[i])},
-                                             name + ".p" + std::to_string(i + 1));
+                                             particle_of(name, static_cast<int>(i)));
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
     lamina.rods[i] =
         scene.add(BodyRod<3>{{lamina.particles[i], lamina.particles[j], (arm[j] - arm[i]).norm()}},
-                  name + ".rod" + std::to_string(i + 1) + std::to_string(j + 1));
+                  rod_of(name, static_cast<int>(std::min(i, j)), static_cast<int>(std::max(i, j))));
   }
   return lamina;
 }

@@ -121,6 +121,7 @@ RigidBody<D> add_body(Scene<D>& scene, const BodyState<D>& state, const std::str
   require(detail::orthonormal(axes), name, "axes must be right-handed and of unit length");
   RigidBody<D> body;
   body.arms = arms_of(state, name);
+  require_free_names(scene, name, RigidBody<D>::particle_count);
   body.stated_centre = state.centre;
   body.stated_axes = axes;
   const Particles<D> set(body.arms);
@@ -128,9 +129,8 @@ RigidBody<D> add_body(Scene<D>& scene, const BodyState<D>& state, const std::str
     const Vec<D> arm = axes * set.place.col(i);
     const double mass = set.share[i] * state.mass;
     body.masses[static_cast<std::size_t>(i)] = mass;
-    body.particles[static_cast<std::size_t>(i)] =
-        scene.add_particle({mass, state.centre + arm, state.velocity + turning(state, arm)},
-                           name + ".p" + std::to_string(i + 1));
+    body.particles[static_cast<std::size_t>(i)] = scene.add_particle(
+        {mass, state.centre + arm, state.velocity + turning(state, arm)}, particle_of(name, i));
   }
   std::size_t rod = 0;
   for (int i = 0; i < RigidBody<D>::particle_count; ++i) {
@@ -138,7 +138,7 @@ RigidBody<D> add_body(Scene<D>& scene, const BodyState<D>& state, const std::str
       const double length = (set.place.col(j) - set.place.col(i)).norm();
       body.rods[rod++] = scene.add(BodyRod<D>{{body.particles[static_cast<std::size_t>(i)],
                                                body.particles[static_cast<std::size_t>(j)], length}},
-                                   name + ".rod" + std::to_string(i + 1) + std::to_string(j + 1));
+                                   rod_of(name, i, j));
     }
   }
   return body;

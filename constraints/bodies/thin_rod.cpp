@@ -38,13 +38,15 @@ ThinRod<D> add_thin_rod(Scene<D>& scene, const ThinRodState<D>& s, const std::st
     throw InvalidScene("Rod \"" + name +
                        "\": its ends must be finite and different; a rod of no length is a particle");
   }
+  for (int i = 0; i < 2; ++i) scene.require_free("particle", particle_of(name, i));
+  scene.require_free("Distance", name + ".rod");
   ThinRod<D> rod{.particles = {}, .distance = {}, .length = length};
   for (std::size_t i = 0; i < 2; ++i) {
     const double fraction = i == 0 ? 0.5 - arm : 0.5 + arm;
     rod.particles[i] = scene.add_particle({.mass = 0.5 * s.mass,
                                            .position = between(s.start, s.end, fraction),
                                            .velocity = between(s.start_velocity, s.end_velocity, fraction)},
-                                          name + ".p" + std::to_string(i + 1));
+                                          particle_of(name, static_cast<int>(i)));
   }
   rod.distance =
       scene.add(BodyRod<D>{{rod.particles[0], rod.particles[1], 2.0 * arm * length}}, name + ".rod");

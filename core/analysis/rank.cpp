@@ -1,6 +1,7 @@
 #include "dalembert/core/analysis/rank.h"
 
-#include <Eigen/QR>
+#include <dalembert/core/linear/dense.h>
+
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseQR>
 
@@ -17,14 +18,6 @@ namespace {
 constexpr Eigen::Index dense_entries = 100'000;
 
 using Columns = Eigen::SparseMatrix<double>;
-using DenseQr = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
-
-DenseQr dense_qr(const Eigen::MatrixXd& columns, double threshold) {
-  DenseQr qr(columns.rows(), columns.cols());
-  qr.setThreshold(threshold);
-  qr.compute(columns);
-  return qr;
-}
 
 /// How many rows to choose: what a threshold finds, or a number.
 struct Wanted {
@@ -91,9 +84,8 @@ bool clearly_independent(const Columns& rows) {
 }
 
 /// The first of an ordering, in increasing order.
-template <class Permutation>
-std::vector<std::size_t> first_of(const Permutation& permutation, Eigen::Index rank) {
-  std::vector<std::size_t> rows(permutation.indices().data(), permutation.indices().data() + rank);
+std::vector<std::size_t> first_of(std::span<const int> order, Eigen::Index rank) {
+  std::vector<std::size_t> rows(order.begin(), order.begin() + rank);
   std::ranges::sort(rows);
   return rows;
 }
@@ -101,15 +93,16 @@ std::vector<std::size_t> first_of(const Permutation& permutation, Eigen::Index r
 /// As many columns as are independent; of those that depend on each other the longer ones.
 std::vector<std::size_t> independent_columns(const Columns& columns, const Wanted& wanted) {
   const auto dense = [&] {
-    const DenseQr qr = dense_qr(columns, wanted.threshold);
-    return first_of(qr.colsPermutation(), wanted.count.value_or(qr.rank()));
+    const dense::OrthogonalDecomposition qr(columns, wanted.threshold);
+    return first_of(qr.order(), wanted.count.value_or(qr.rank()));
   };
   if (columns.rows() * columns.cols() <= dense_entries) return dense();
   Eigen::SparseQR<Columns, Eigen::COLAMDOrdering<int>> qr;
   qr.setPivotThreshold(wanted.threshold);
   qr.compute(columns);
   if (wanted.count && *wanted.count != qr.rank()) return dense();
-  return first_of(qr.colsPermutation(), qr.rank());
+  const auto& order = qr.colsPermutation().indices();
+  return first_of({order.data(), number(order.size())}, qr.rank());
 }
 
 /// Of the columns, those that depend neither on others of `columns` that are not `second`, nor on each other.
@@ -202,9 +195,8 @@ ActiveRows independent_rows(const System& system, std::span<const double> w, con
 Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& columns, double threshold) {
   const Eigen::Index n = columns.rows();
   if (columns.cols() == 0) return Eigen::MatrixXd::Identity(n, n);
-  const DenseQr qr = dense_qr(columns, threshold);
-  const Eigen::MatrixXd Q = qr.householderQ();
-  return Q.rightCols(n - qr.rank());
+  const dense::OrthogonalDecomposition qr(columns, threshold);
+  return qr.Q().rightCols(n - qr.rank());
 }
 
 }  // namespace dalembert

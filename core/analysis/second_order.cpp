@@ -1,7 +1,6 @@
 #include "dalembert/core/analysis/second_order.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
+#include <dalembert/core/linear/dense.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,14 +65,13 @@ Curvature curvature(const System& system, const Instant& at, const std::vector<d
 /// The part of a basis of velocities that Q does not hold: all of it unless Q has one sign there.
 MatrixXd left_free(const Curvature& its, const MatrixXd& basis) {
   if (basis.cols() == 0) return basis;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> of(basis.transpose() * its.Q * basis);
-  const VectorXd& values = of.eigenvalues();
+  const auto [values, vectors] = dense::symmetric_eigen(dense::restricted(basis, its.Q));
   const double none = std::sqrt(rank_threshold) * its.size;  // as positions and derivatives are known
   if (values.minCoeff() < -none && values.maxCoeff() > none) return basis;
   std::vector<Index> free;
   for (Index i = 0; i < values.size(); ++i)
     if (std::abs(values[i]) <= none) free.push_back(i);
-  return basis * of.eigenvectors()(Eigen::all, free);
+  return dense::product(basis, MatrixXd(vectors(Eigen::all, free)));
 }
 
 }  // namespace
@@ -86,13 +84,13 @@ std::size_t held_to_second_order(const System& system, double t, std::span<const
   const Instant at{t, q, at_rest};
   auto e = system.evaluation();
   system.evaluate(at, e);
-  const MatrixXd rows = MatrixXd(rows_in_mass_metric(system, e.w));
+  const MatrixXd rows = rows_in_mass_metric(system, e.w);
   MatrixXd used(rows.rows(), static_cast<Index>(independent.holonomic));
   for (Index j = 0; j < used.cols(); ++j)
     used.col(j) = rows.col(static_cast<Index>(independent.rows[static_cast<std::size_t>(j)]));
   MatrixXd basis = orthogonal_complement(used);
   const Index before = basis.cols();
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(used);
+  const dense::OrthogonalDecomposition qr(used, 0.0);
   const std::vector<double> length = lengths(system, e.w);
   for (const std::size_t r : implied) {
     const VectorXd share = qr.solve(rows.col(static_cast<Index>(r)));

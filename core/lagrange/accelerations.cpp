@@ -1,10 +1,7 @@
 #include "dalembert/core/lagrange/accelerations.h"
 
 #include <dalembert/core/analysis/rank.h>
-
-#include <Eigen/Core>
-#include <Eigen/LU>
-#include <Eigen/QR>
+#include <dalembert/core/linear/dense.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,18 +13,17 @@ namespace dalembert::detail {
 
 namespace {
 
-using SmallMatrix =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_coordinates, most_coordinates>;
-using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_coordinates, 1>;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
-SmallVector vector(std::span<const double> x) {
-  return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+VectorXd vector(std::span<const double> x) {
+  return Eigen::Map<const VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
 }
 /// The rows of constraints as columns.
-SmallMatrix columns_of(const ConstraintRows& rows, Eigen::Index coordinates) {
-  return Eigen::Map<const Eigen::MatrixXd>(rows.A.data(), coordinates, rows.count());
+MatrixXd columns_of(const ConstraintRows& rows, Eigen::Index coordinates) {
+  return Eigen::Map<const MatrixXd>(rows.A.data(), coordinates, rows.count());
 }
-Accelerations found(const SmallVector& a, bool determined, int sign) {
+Accelerations found(const VectorXd& a, bool determined, int sign) {
   Accelerations result{.a = {}, .determined = determined, .sign = sign};
   std::copy_n(a.data(), a.size(), result.a.begin());
   return result;
@@ -39,8 +35,8 @@ Accelerations found(const SmallVector& a, bool determined, int sign) {
 constexpr double elimination = 16.0 * std::numeric_limits<double>::epsilon();
 
 /// Of each coordinate the unit in which the inertia of its row is 1.
-SmallVector units(const SmallMatrix& M) {
-  SmallVector unit(M.rows());
+VectorXd units(const MatrixXd& M) {
+  VectorXd unit(M.rows());
   for (Eigen::Index i = 0; i < M.rows(); ++i) {
     const double inertia = M.row(i).cwiseAbs().maxCoeff();
     unit[i] = inertia > 0.0 ? 1.0 / std::sqrt(inertia) : 1.0;
@@ -53,67 +49,54 @@ SmallVector units(const SmallMatrix& M) {
 Accelerations accelerations(std::span<const double> inertia_of_all, std::span<const double> force,
                             const ConstraintRows& rows) {
   const auto n = static_cast<Eigen::Index>(force.size());
-  const SmallMatrix M = Eigen::Map<const Eigen::MatrixXd>(inertia_of_all.data(), n, n);
-  const SmallVector f = vector(force);
-  const SmallVector unit = units(M);
-  const SmallMatrix scaled = unit.asDiagonal() * M * unit.asDiagonal();
-  SmallMatrix Q = SmallMatrix::Identity(n, n);
-  SmallVector a = SmallVector::Zero(n);
+  const MatrixXd M = Eigen::Map<const MatrixXd>(inertia_of_all.data(), n, n);
+  const VectorXd f = vector(force);
+  const VectorXd unit = units(M);
+  const MatrixXd scaled = unit.asDiagonal() * M * unit.asDiagonal();
+  MatrixXd Q = MatrixXd::Identity(n, n);
+  VectorXd a = VectorXd::Zero(n);
   Eigen::Index rank = 0;
   if (rows.count() > 0) {
-    SmallMatrix columns = unit.asDiagonal() * columns_of(rows, n);
-    SmallVector bias = vector(rows.gamma);
+    MatrixXd columns = unit.asDiagonal() * columns_of(rows, n);
+    VectorXd bias = vector(rows.gamma);
     for (Eigen::Index r = 0; r < columns.cols(); ++r) {
       const double length = columns.col(r).norm();
       if (length == 0.0) continue;
       columns.col(r) /= length;
       bias[r] /= length;
     }
-    Eigen::ColPivHouseholderQR<SmallMatrix> qr(columns.rows(), columns.cols());
-    qr.setThreshold(rank_threshold);
-    qr.compute(columns);
+    const dense::OrthogonalDecomposition qr(columns, rank_threshold);
     rank = qr.rank();
-    Q = qr.householderQ();
-    const SmallVector first = -(qr.colsPermutation().transpose() * bias).head(rank);
-    a = Q.leftCols(rank) * qr.matrixR()
-                               .topLeftCorner(rank, rank)
-                               .transpose()
-                               .template triangularView<Eigen::Lower>()
-                               .solve(first);
+    Q = qr.Q();
+    a = -qr.solve_transposed(bias);
   }
   if (rank < n) {
-    const SmallMatrix Z = Q.rightCols(n - rank), inertia = Z.transpose() * scaled * Z;
-    Eigen::FullPivLU<SmallMatrix> lu(n - rank, n - rank);
-    lu.setThreshold(elimination * static_cast<double>(n));
-    lu.compute(inertia);
-    if (!lu.isInvertible()) {
-      const SmallMatrix kernel = lu.kernel();
-      const SmallVector direction = Z * kernel.col(0);
+    const MatrixXd Z = Q.rightCols(n - rank);
+    const dense::TriangularDecomposition inertia(dense::restricted(Z, scaled),
+                                                 elimination * static_cast<double>(n));
+    if (!inertia.regular()) {
+      const VectorXd direction = Z * inertia.kernel().col(0);
       return found(unit.asDiagonal() * direction, false, 0);
     }
-    const SmallVector rest = Z.transpose() * (unit.asDiagonal() * f - scaled * a);
-    const SmallVector z = lu.solve(rest);
-    a += Z * z;
-    return found(unit.asDiagonal() * a, true, lu.determinant() < 0.0 ? -1 : 1);
+    const VectorXd rest = unit.asDiagonal() * f - scaled * a;
+    a += Z * inertia.solve(Z.transpose() * rest);
+    return found(unit.asDiagonal() * a, true, inertia.determinant() < 0.0 ? -1 : 1);
   }
   return found(unit.asDiagonal() * a, true, 1);
 }
 
 SolvedMultipliers multipliers(const ConstraintRows& rows, std::span<const double> r) {
   if (rows.count() == 0) return {{}, 1.0, 0};
-  SmallMatrix columns = columns_of(rows, static_cast<Eigen::Index>(r.size()));
-  SmallVector length(rows.count());
+  MatrixXd columns = columns_of(rows, static_cast<Eigen::Index>(r.size()));
+  VectorXd length(rows.count());
   for (Eigen::Index k = 0; k < rows.count(); ++k) {
     length[k] = columns.col(k).norm();
     if (length[k] > 0.0) columns.col(k) /= length[k];
   }
-  Eigen::CompleteOrthogonalDecomposition<SmallMatrix> qr(columns.rows(), columns.cols());
-  qr.setThreshold(rank_threshold);
-  qr.compute(columns);
+  const dense::OrthogonalDecomposition qr(columns, rank_threshold);
   SolvedMultipliers solved{{}, 1.0, static_cast<int>(qr.rank())};
-  for (Eigen::Index k = 0; k < qr.rank(); ++k)
-    solved.sine = std::min(solved.sine, std::abs(qr.matrixQTZ()(k, k)));
-  const SmallVector lambda = qr.solve(vector(r));
+  for (Eigen::Index k = 0; k < qr.rank(); ++k) solved.sine = std::min(solved.sine, qr.pivot(k));
+  const VectorXd lambda = qr.solve(vector(r));
   for (Eigen::Index k = 0; k < rows.count(); ++k)
     solved.lambda.push_back(length[k] > 0.0 ? lambda[k] / length[k] : 0.0);
   return solved;

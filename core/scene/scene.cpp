@@ -53,16 +53,20 @@ std::string Scene<D>::Label::text() const {
 }
 
 template <int D>
+void Scene<D>::require_free(std::string_view kind, const std::string& name) const {
+  if (!names_.contains(name)) return;
+  throw InvalidScene(Label{kind, name}.text() + ": this name is taken in scene \"" + layout_.scene +
+                     "\"; names must differ");
+}
+
+template <int D>
 std::string Scene<D>::unique_name(std::string_view kind, const std::string& name, std::size_t number) const {
   if (name.empty()) {
     std::string own = std::string(kind) + std::to_string(number);
     while (names_.contains(own)) own = std::string(kind) + std::to_string(++number);
     return own;
   }
-  if (names_.contains(name)) {
-    throw InvalidScene(Label{kind, name}.text() + ": this name is taken in scene \"" + layout_.scene +
-                       "\"; names must differ");
-  }
+  require_free(kind, name);
   return name;
 }
 

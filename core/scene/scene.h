@@ -151,6 +151,10 @@ class Scene {
                   "force law also with their velocities, and for any scalar type");
   }
 
+  /// Throws InvalidScene if something has this name: what adds several elements asks for all of their names
+  /// before it adds the first. `kind` is what the error calls it, "particle".
+  void require_free(std::string_view kind, const std::string& name) const;
+
   /// As it was given.
   [[nodiscard]] const std::string& name() const { return layout_.scene; }
   /// Initial coordinates and velocities, of particles and rotors in the order of adding.

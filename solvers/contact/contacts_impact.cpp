@@ -1,8 +1,8 @@
+#include <dalembert/core/linear/dense.h>
 #include <dalembert/solvers/contact/contacts.h>
 #include <dalembert/solvers/contact/coupling.h>
 #include <dalembert/solvers/contact/round_off.h>
 #include <dalembert/solvers/linear/complementarity.h>
-#include <dalembert/solvers/linear/dense.h>
 #include <dalembert/solvers/manifold/start.h>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #include "dalembert/solvers/contact/onset.h"
 
 #include <dalembert/core/analysis/rank.h>
+#include <dalembert/core/linear/dense.h>
 #include <dalembert/solvers/contact/round_off.h>
 #include <dalembert/solvers/linear/cones.h>
-#include <dalembert/solvers/linear/dense.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include "dalembert/solvers/equilibrium/continuation.h"
 
+#include <dalembert/core/linear/dense.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/tangent_modes.h>
-#include <dalembert/solvers/linear/dense.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "dalembert/solvers/equilibrium/disturbances.h"
 
+#include <dalembert/core/linear/dense.h>
 #include <dalembert/solvers/equilibrium/equilibrium.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
-#include <dalembert/solvers/linear/dense.h>
 
 #include <cmath>
 #include <numeric>

@@ -1,7 +1,7 @@
 #include "dalembert/solvers/equilibrium/first_order.h"
 
 #include <dalembert/core/analysis/rank.h>
-#include <dalembert/solvers/linear/dense.h>
+#include <dalembert/core/linear/dense.h>
 
 #include <algorithm>
 #include <cmath>

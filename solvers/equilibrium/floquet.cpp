@@ -1,8 +1,8 @@
 #include "dalembert/solvers/equilibrium/floquet.h"
 
+#include <dalembert/core/linear/dense.h>
 #include <dalembert/solvers/equilibrium/disturbances.h>
 #include <dalembert/solvers/integrator.h>
-#include <dalembert/solvers/linear/dense.h>
 #include <dalembert/solvers/linear/rows.h>
 
 #include <algorithm>

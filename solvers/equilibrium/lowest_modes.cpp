@@ -1,11 +1,11 @@
 #include "dalembert/solvers/equilibrium/lowest_modes.h"
 
+#include <dalembert/core/linear/dense.h>
 #include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
 #include <dalembert/solvers/equilibrium/quadratic_modes.h>
-#include <dalembert/solvers/linear/dense.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>

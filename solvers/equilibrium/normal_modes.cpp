@@ -1,5 +1,6 @@
 #include "dalembert/solvers/equilibrium/normal_modes.h"
 
+#include <dalembert/core/linear/dense.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/equilibrium_solver.h>
@@ -7,7 +8,6 @@
 #include <dalembert/solvers/equilibrium/reversible.h>
 #include <dalembert/solvers/equilibrium/singular_position.h>
 #include <dalembert/solvers/equilibrium/tangent_modes.h>
-#include <dalembert/solvers/linear/dense.h>
 
 #include <algorithm>
 #include <cmath>
@@ -176,19 +176,37 @@ void require_same_size(const System& system, const FlatSample& at) {
                                std::to_string(system.rows()));
 }
 
+/// Whether the multipliers of `s` are not those which its forces ask for, `fresh`, but of other forces or
+/// masses. What no multipliers balance is no fault of theirs.
+bool are_of_other_forces(const System& system, const EquilibriumSolver::State& s,
+                         std::span<const double> fresh, std::span<const double> w) {
+  std::vector<double> excess(s.q.size());
+  for (std::size_t r = 0; r < system.rows(); ++r) {
+    for (const std::size_t k : system.row(r))
+      excess[system.w_columns()[k]] += (s.lambda[r] - fresh[r]) * w[k];
+  }
+  double unbalanced = 0.0;
+  for (std::size_t i = 0; i < excess.size(); ++i)
+    unbalanced = std::max(unbalanced, std::abs(s.force[i] - excess[i]));
+  for (std::size_t i = 0; i < excess.size(); ++i)
+    if (std::abs(excess[i]) > equilibrium_tolerance * s.acting[i] + unbalanced) return true;
+  return false;
+}
+
 /// Throws unless forces balance there, constraints are satisfied and nothing moves against them, as when it
 /// was found.
 void require_equilibrium(const EquilibriumSolver& balance, const FlatSample& at) {
   const System& system = balance.system();
   EquilibriumSolver::State s = balance.start();
+  const std::vector<double> fresh = s.lambda;
   s.q.assign(at.q.begin(), at.q.end());
   s.lambda.assign(at.lambda.begin(), at.lambda.end());
   balance.evaluate(s);
-  std::ostringstream why;
-  if (!balance.is_equilibrium(s, equilibrium_tolerance))
-    why << "forces or constraints have a relative residual of " << s.relative_residual;
   auto e = system.evaluation();
   system.evaluate({balance.time(), at.q, at.v}, e);
+  std::ostringstream why;
+  if (!balance.is_equilibrium(s, equilibrium_tolerance) || are_of_other_forces(system, s, fresh, e.w))
+    why << "forces or constraints have a relative residual of " << s.relative_residual;
   const Scales& scales = balance.scales();
   const double time = balance.frame().rotates() ? 1.0 / balance.frame().rate() : scales.time;
   const Violation moving = velocity_violation(system, e, scales.lengths());

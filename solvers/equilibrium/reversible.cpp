@@ -2,11 +2,11 @@
 
 #include <dalembert/core/analysis/rank.h>
 #include <dalembert/core/errors.h>
+#include <dalembert/core/linear/dense.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/disturbances.h>
 #include <dalembert/solvers/equilibrium/reversor.h>
 #include <dalembert/solvers/equilibrium/symmetries.h>
-#include <dalembert/solvers/linear/dense.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,11 @@
 
 #include <dalembert/core/analysis/rank.h>
 #include <dalembert/core/errors.h>
+#include <dalembert/core/linear/dense.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/bodies.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
 #include <dalembert/solvers/equilibrium/nearby_states.h>
-#include <dalembert/solvers/linear/dense.h>
 #include <dalembert/solvers/manifold/manifold.h>
 
 #include <Eigen/Geometry>

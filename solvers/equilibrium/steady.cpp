@@ -1,12 +1,12 @@
 #include "dalembert/solvers/equilibrium/steady.h"
 
+#include <dalembert/core/linear/dense.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/equilibrium_solver.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
 #include <dalembert/solvers/equilibrium/steady_equations.h>
 #include <dalembert/solvers/equilibrium/symmetries.h>
 #include <dalembert/solvers/equilibrium/tangent_modes.h>
-#include <dalembert/solvers/linear/dense.h>
 
 #include <algorithm>
 #include <cmath>

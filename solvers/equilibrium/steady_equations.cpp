@@ -1,9 +1,9 @@
 #include "dalembert/solvers/equilibrium/steady_equations.h"
 
+#include <dalembert/core/linear/dense.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/linear_terms.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
-#include <dalembert/solvers/linear/dense.h>
 
 #include <algorithm>
 #include <cmath>

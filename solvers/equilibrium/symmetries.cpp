@@ -1,12 +1,12 @@
 #include "dalembert/solvers/equilibrium/symmetries.h"
 
 #include <dalembert/core/analysis/rank.h>
+#include <dalembert/core/linear/dense.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/bodies.h>
 #include <dalembert/solvers/equilibrium/linear_terms.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
 #include <dalembert/solvers/equilibrium/nearby_states.h>
-#include <dalembert/solvers/linear/dense.h>
 
 #include <Eigen/Geometry>
 

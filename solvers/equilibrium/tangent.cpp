@@ -2,7 +2,7 @@
 
 #include <dalembert/core/analysis/islands.h>
 #include <dalembert/core/analysis/rank.h>
-#include <dalembert/solvers/linear/dense.h>
+#include <dalembert/core/linear/dense.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 #include "dalembert/solvers/equilibrium/tangent_modes.h"
 
 #include <dalembert/core/analysis/rank.h>
+#include <dalembert/core/linear/dense.h>
 #include <dalembert/solvers/equilibrium/first_order.h>
 #include <dalembert/solvers/equilibrium/symmetries.h>
 #include <dalembert/solvers/equilibrium/tangent.h>
-#include <dalembert/solvers/linear/dense.h>
 
 #include <algorithm>
 #include <cmath>

@@ -74,11 +74,12 @@ void set_length(const System& system, const Instant& at, const System::Evaluatio
   const double v = largest_of_lengths(at.v, scales.is_angle);
   const double a = largest_of_lengths(forced_acceleration(system, e), scales.is_angle);
   const double reach = std::isinf(duration) ? radius : v * duration + a * duration * duration;
-  scales.length = reach > 0.0 ? std::min(radius, reach) : std::isfinite(radius) ? radius : 1.0;
+  // What moves by less than `least` rests as well, as before a force that sets in gently.
+  scales.length = reach > Scales::least ? std::min(radius, reach) : std::isfinite(radius) ? radius : 1.0;
   scales.length_from_path = !system.compliant() && (scales.length < radius || std::isinf(scales.length)) &&
                             std::ranges::count(scales.is_angle, 0) > 0;
   // What is slower than would show in the positions is at rest, as where a motion reverses.
-  const double shown = epsilon * largest_of_lengths(at.q, scales.is_angle);
+  const double shown = std::max(epsilon * largest_of_lengths(at.q, scales.is_angle), Scales::least);
   if (std::isinf(radius) && v > 0.0 && a > 0.0 && v * v / a > shown) scales.length = v * v / a;
   if (std::isinf(scales.length)) scales.length = v + a > 0.0 ? v + a : 1.0;
   if (scales.length_from_path) {

@@ -1,9 +1,9 @@
 #include "dalembert/solvers/manifold/friction_shares.h"
 
 #include <dalembert/core/analysis/rank.h>
+#include <dalembert/core/linear/dense.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/linear/cones.h>
-#include <dalembert/solvers/linear/dense.h>
 
 #include <algorithm>
 #include <cmath>

@@ -223,8 +223,7 @@ void MinimumNorm::minimise() {
     zero = std::max(zero, zero_[j] * scale_[j]);
   }
   DN_ *= scale_.asDiagonal();
-  qr_.setThreshold(zero);
-  qr_.compute(DN_);
+  qr_.compute(DN_, zero);
   z_ = -qr_.solve(right_).cwiseProduct(scale_);
 }
 
@@ -248,12 +247,14 @@ void MinimumNorm::keep_pushing(const std::vector<SharedContact>& sharing, std::s
     p[i] = one.sign * all[one.pressing_row];
   }
   if (n == 0 || p.minCoeff() >= 0.0) return;
-  const Eigen::MatrixXd P = scale_.asDiagonal() * qr_.pseudoInverse();
-  const Eigen::MatrixXd response = P * P.transpose() * A.transpose(), M = A * response;
+  const Eigen::MatrixXd P = scale_.asDiagonal() * qr_.pseudo_inverse();
+  const Eigen::MatrixXd AP = dense::product(A, P);
+  const Eigen::MatrixXd response = dense::product(P, Eigen::MatrixXd(AP.transpose()));
+  const Eigen::MatrixXd M = dense::product(A, response);
   for (const auto& group : connected(M)) {
     const auto push = complementary_solution(M(group, group), p(group));
     const Eigen::VectorXd y = push ? *push : least_pull(M(group, group), p(group));
-    all.noalias() += N_ * (response(Eigen::all, group) * y);
+    all += dense::product(N_, dense::product(Eigen::MatrixXd(response(Eigen::all, group)), y));
     for (std::size_t i = 0; push && i < group.size(); ++i)
       if (y[static_cast<Eigen::Index>(i)] > 0.0)
         all[sharing[static_cast<std::size_t>(group[i])].pressing_row] = 0.0;

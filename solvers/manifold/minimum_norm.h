@@ -1,11 +1,11 @@
 #pragma once
 
+#include <dalembert/core/linear/dense.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/linear/rows.h>
 #include <dalembert/solvers/manifold/friction_shares.h>
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 
 #include <functional>
 #include <span>
@@ -86,7 +86,7 @@ class MinimumNorm {
   Eigen::VectorXd zero_;    // what counts as such in each column of N, as a force
   Eigen::VectorXd scale_, z_;
   Eigen::MatrixXd lambda_, right_;  // one column
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr_;
+  dense::OrthogonalDecomposition qr_;
   FrictionShares shares_;
 };
 

@@ -1,8 +1,8 @@
 #include "dalembert/solvers/manifold/static_shares.h"
 
 #include <dalembert/core/analysis/rank.h>
+#include <dalembert/core/linear/dense.h>
 #include <dalembert/solvers/linear/cones.h>
-#include <dalembert/solvers/linear/dense.h>
 
 #include <algorithm>
 #include <cmath>

@@ -282,8 +282,9 @@ Comparisons::Switch Comparisons::behind(const Root& root, double step) {
   one.ahead = 16.0 * epsilon * std::max(std::abs(root.t), scales_.time);
   for (; one.ahead < 1e-3 * step; one.ahead *= 2.0) {
     const double margin = margin_ahead(root.margin, one.at, one.ahead);
-    const bool clear = its.side == 0 || -margin >= clearly * one.distance;
-    if (margin < 0.0 && clear && hear_behind(one) && side_of(its, one.behind) != 0) return one;
+    one.clear = margin < 0.0 && (its.side == 0 || -margin >= clearly * one.distance) && hear_behind(one) &&
+                side_of(its, one.behind) != 0;
+    if (one.clear) return one;
   }
   if (!hear_behind(one)) {
     const Branches anywhere(nullptr, nullptr);
@@ -293,27 +294,32 @@ Comparisons::Switch Comparisons::behind(const Root& root, double step) {
   return one;
 }
 
-/// Whether a constraint has a corner, or the accelerations of both sides differ, at the switch or behind it,
-/// by more than the tolerance of speeds in the scene's own time; or the force of a constraint that holds only
-/// as its force lets it.
-bool Comparisons::matters(const Switch& one, double to) {
-  if (corner(one)) return true;
-  Motion end{to, one.at.q, one.at.v, {}};
-  stepper_->interpolate(to, end.q, end.v);
+/// Whether the accelerations on two sides differ there by more than the tolerance of speeds in the scene's
+/// own time; or the force of a constraint that holds only as its force lets it.
+bool Comparisons::differ(const Motion& there, const Branches::Sides& before, const Branches::Sides& behind) {
+  Motion one = there, other = there;
+  if (!accelerate(one, before)) return true;
   std::vector<double> lambda(lambda_.size());
-  for (const Motion& at : {one.at, end}) {
-    Motion before = at, after = at;
-    if (!accelerate(before, held_)) return true;
-    manifold_->multipliers(lambda);
-    if (!accelerate(after, one.behind)) return true;
-    manifold_->multipliers(lambda_);
-    for (std::size_t i = 0; i < at.v.size(); ++i) {
-      const double effect = scales_.time * std::abs(after.a[i] - before.a[i]);
-      if (!(effect <= scales_.velocity_error(i, at.v[i], tolerance_))) return true;
-    }
-    const double least = tolerance_ * std::max(largest(lambda), largest(lambda_));
-    for (const std::size_t r : conditional_)
-      if (!(std::abs(lambda_[r] - lambda[r]) <= least)) return true;
+  manifold_->multipliers(lambda);
+  if (!accelerate(other, behind)) return true;
+  manifold_->multipliers(lambda_);
+  for (std::size_t i = 0; i < there.v.size(); ++i) {
+    const double effect = scales_.time * std::abs(other.a[i] - one.a[i]);
+    if (!(effect <= scales_.velocity_error(i, there.v[i], tolerance_))) return true;
+  }
+  const double least = tolerance_ * std::max(largest(lambda), largest(lambda_));
+  return std::ranges::any_of(conditional_,
+                             [&](std::size_t r) { return !(std::abs(lambda_[r] - lambda[r]) <= least); });
+}
+
+/// Whether the step, which was taken on other sides, goes wrong on those that hold from a switch `until` the
+/// next: at places without a pattern, as a push by half a sine is 0 at both ends.
+bool Comparisons::goes_wrong(const Branches::Sides& taken, double until) {
+  Motion there{from_, a_, a_, {}};
+  for (const double x : {0.13, 0.41, 0.72, 1.0}) {
+    there.t = from_ + x * (until - from_);
+    stepper_->interpolate(there.t, there.q, there.v);
+    if (differ(there, taken, held_)) return true;
   }
   return false;
 }
@@ -326,13 +332,23 @@ std::optional<Comparisons::Switch> Comparisons::leave(TimeStepper& stepper) {
   passed_.clear();
   in_step_.clear();
   const Branches holding(nullptr, &held_);
-  while (const auto root = first_switch(to)) {
+  std::optional<Switch> last;  // that had no effect where it is
+  Branches::Sides taken, before_last;
+  for (auto root = first_switch(to); root || last; root = first_switch(to)) {
+    if (last && goes_wrong(taken, root ? root->t : to)) {
+      held_ = std::move(before_last);
+      list_margins();
+      return last;
+    }
+    if (!root) break;
+    if (!last) taken = held_;
     Switch one = behind(*root, to - from);
-    if (matters(one, to)) return one;
-    passed_.push_back(margins_[root->margin]);
-    held_ = std::move(one.behind);
+    if (corner(one) || differ(one.at, taken, one.behind)) return one;
+    if (!one.clear) passed_.push_back(margins_[root->margin]);
     from_ = std::min(to, root->t + one.ahead);
+    before_last = std::exchange(held_, one.behind);
     list_margins();
+    last = std::move(one);
   }
   std::swap(at_from_, at_end_);
   from_ = to;

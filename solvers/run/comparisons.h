@@ -47,6 +47,7 @@ class Comparisons {
     Motion at;               ///< with the accelerations before it
     std::size_t margin;      ///< that was left
     double distance;         ///< of it from 0, or what round-off makes of it
+    bool clear;              ///< whether more than that is behind
     double ahead;            ///< the time after which it is clearly behind
     double step;             ///< that it was found in
     Branches::Sides behind;  ///< the sides there
@@ -104,7 +105,9 @@ class Comparisons {
   [[nodiscard]] std::optional<Bracket> first_root(std::size_t k, double until, double to);
   [[nodiscard]] std::optional<Root> first_switch(double to);
   [[nodiscard]] Switch behind(const Root& root, double step);
-  [[nodiscard]] bool matters(const Switch& one, double to);
+  [[nodiscard]] bool differ(const Motion& there, const Branches::Sides& before,
+                            const Branches::Sides& behind);
+  [[nodiscard]] bool goes_wrong(const Branches::Sides& taken, double until);
   [[nodiscard]] bool turns_back(const Switch& one, double from);
   [[nodiscard]] std::optional<std::string> would_stick(const Switch& one);
 
@@ -118,7 +121,7 @@ class Comparisons {
   bool any_ = false, chosen_ = false;
   Branches::Sides held_, recorded_;
   std::vector<Margin> margins_;
-  std::vector<Margin> passed_;      // in the step that is looked at, without effect
+  std::vector<Margin> passed_;      // in the step that is looked at, by no more than round-off
   TimeStepper* stepper_ = nullptr;  // of the step that is looked at
   double from_;                     // up to where the sides are known to hold
   double start_of_step_ = 0.0;      // that is looked at

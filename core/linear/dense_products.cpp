@@ -1,4 +1,4 @@
-#include "dalembert/solvers/linear/dense.h"
+#include "dalembert/core/linear/dense.h"
 
 namespace dalembert::dense {
 

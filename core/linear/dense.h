@@ -1,10 +1,11 @@
 #pragma once
 
-#include <dalembert/solvers/base/hidden.h>
-
 #include <Eigen/Core>
 
-namespace DALEMBERT_HIDDEN dalembert {
+#include <memory>
+#include <span>
+
+namespace dalembert {
 /// Products and decompositions of dense matrices by Eigen: each takes up to some seconds to compile, here
 /// once.
 namespace dense {
@@ -57,6 +58,57 @@ struct Schur {
 [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
 [[nodiscard]] Eigen::VectorXcd solve(const Eigen::MatrixXcd& A, const Eigen::VectorXcd& b);
 [[nodiscard]] Eigen::MatrixXcd inverse(const Eigen::MatrixXcd& A);
+
+/// A P = Q R Z by Householder's reflections with pivoting of columns: what makes a smaller part of A's
+/// largest pivot than `threshold` counts as dependent on the columns before it.
+class OrthogonalDecomposition {
+ public:
+  OrthogonalDecomposition();
+  OrthogonalDecomposition(const Eigen::MatrixXd& A, double threshold);
+  OrthogonalDecomposition(OrthogonalDecomposition&&) noexcept;
+  OrthogonalDecomposition& operator=(OrthogonalDecomposition&&) noexcept;
+  ~OrthogonalDecomposition();
+
+  void compute(const Eigen::MatrixXd& A, double threshold);
+
+  [[nodiscard]] Eigen::Index rank() const;
+  /// The columns' numbers in the order in which they were taken: `rank()` independent ones first.
+  [[nodiscard]] std::span<const int> order() const;
+  /// Of the column taken as the k-th, the length across those before it.
+  [[nodiscard]] double pivot(Eigen::Index k) const;
+  /// A square matrix: `rank()` orthonormal columns that span A's, and those across them.
+  [[nodiscard]] Eigen::MatrixXd Q() const;
+  /// The shortest x of those for which |A x - b| is least.
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+  /// The shortest of those x for which |A^T x - b| is least.
+  [[nodiscard]] Eigen::VectorXd solve_transposed(const Eigen::VectorXd& b) const;
+  /// `solve` as a matrix.
+  [[nodiscard]] Eigen::MatrixXd pseudo_inverse() const;
+
+ private:
+  struct Factors;
+  std::unique_ptr<Factors> factors_;
+};
+
+/// P A Q = L U with pivoting of rows and columns: a pivot that is a smaller part of the largest than
+/// `threshold` counts as 0.
+class TriangularDecomposition {
+ public:
+  TriangularDecomposition(const Eigen::MatrixXd& A, double threshold);
+  TriangularDecomposition(TriangularDecomposition&&) noexcept;
+  TriangularDecomposition& operator=(TriangularDecomposition&&) noexcept;
+  ~TriangularDecomposition();
+
+  [[nodiscard]] bool regular() const;
+  /// A basis of A x = 0; no columns where A is regular.
+  [[nodiscard]] Eigen::MatrixXd kernel() const;
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  [[nodiscard]] double determinant() const;
+
+ private:
+  struct Factors;
+  std::unique_ptr<Factors> factors_;
+};
 
 /// A basis of A x = 0, as far as can be told to `threshold`.
 [[nodiscard]] Eigen::MatrixXd kernel(const Eigen::MatrixXd& A, double threshold);
