@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace dalembert {
 
@@ -25,7 +26,14 @@ void require_no_force_reads(const System& system) {
   }
 }
 
-/// A scene without a length of its own gets that of the path of a first step.
+/// Whether nothing but round-off has moved.
+bool rests(const Start& start, const PathExtent& path, double tolerance) {
+  const std::vector<double> still(start.q.size());
+  return path.length <= start.scales.extended_by(start.q, still, path.step, tolerance).length;
+}
+
+/// A scene without a length of its own gets that of the path of a first step; where it rests, any length will
+/// do.
 Start first_start(const Problem& problem, std::span<const double> q, std::span<const double> v,
                   const Options& options, double nearest_contact) {
   Start start = consistent_start(problem, q, v, options, nearest_contact);
@@ -36,7 +44,7 @@ Start first_start(const Problem& problem, std::span<const double> q, std::span<c
     ErkStepper first(problem, start, looking);
     first.step(options.t_end);
     const PathExtent& extent = first.scales().extent;
-    start.scales.length_from_path = extent.length > Scales::least;  // else it rests, and any length will do
+    start.scales.length_from_path = !rests(start, extent, looking.tolerance);
     if (start.scales.length_from_path) start.scales.adopt(extent);
   } catch (const StepFailure&) {
     start.scales.length_from_path = false;  // the run will stop, and say why

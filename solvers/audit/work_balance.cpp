@@ -28,7 +28,7 @@ WorkBalance::WorkBalance(std::shared_ptr<const System> stated, const Claim& clai
 }
 
 void WorkBalance::start_interval(double time, double energy, std::span<const double> v) {
-  time_ = checked_ = time;
+  time_ = before_ = checked_ = time;
   energy_ = energy;
   kinetic_ = stated_->kinetic_energy(v);
   changes_ = changes_before_ = last_ = 0.0;
@@ -59,14 +59,18 @@ double WorkBalance::second_order() const {
   return limits_.accuracy * limits_.accuracy * energy;
 }
 
-/// At these positions, at a time between the last two samples: not half-way, where drives may have periods.
+/// At these positions, at times since the sample before the last: not half-way between samples, where drives
+/// may have periods, and before the last as well, which a potential that switches there is read on the side
+/// before.
 bool WorkBalance::potentials_depend_on_time(const FlatSample& sample) const {
   if (stated_->stiffness_pattern().size() == stated_->stiffness_of_constraints())
     return false;  // constant ones
-  const double between = checked_ + 0.382 * (sample.time - checked_);
+  constexpr double part = 0.382;
+  const auto potential = [&](double t) { return stated_->potential_energy({t, sample.q, sample.v}); };
   try {
-    const double V = stated_->potential_energy({sample.time, sample.q, sample.v});
-    return stated_->potential_energy({between, sample.q, sample.v}) != V;
+    const double V = potential(sample.time);
+    return potential(checked_ + part * (sample.time - checked_)) != V ||
+           potential(checked_ - part * (checked_ - before_)) != V;
   } catch (const EquationFault&) {
     return true;  // it has a value where the system was at that time, and perhaps not here
   }
@@ -124,7 +128,7 @@ void WorkBalance::check(const FlatSample& sample, double work, double error, con
 }
 
 void WorkBalance::accept(const FlatSample& sample) {
-  checked_ = sample.time;
+  before_ = std::exchange(checked_, sample.time);
   kinetic_ = stated_->kinetic_energy(sample.v);
   changes_before_ = changes_;
   size_ = std::max(size_, std::abs(sample.energy) + kinetic_);

@@ -57,7 +57,7 @@ class WorkBalance {
   Limits limits_;
   bool watches_, falls_;
   double time_ = 0.0, energy_ = 0.0;             // where it began, or fell to
-  double checked_ = 0.0;                         // the last time,
+  double before_ = 0.0, checked_ = 0.0;          // the last two times,
   double kinetic_ = 0.0, changes_before_ = 0.0;  // and what was then
   std::vector<double> v_;                        // at the last step
   std::vector<double> at_rest_, g_, u_;          // work

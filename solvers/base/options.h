@@ -54,8 +54,9 @@ struct Options {
   /// A run then takes several times as long.
   bool ledger = false;
   long max_steps = 10'000'000;  ///< give up after so many steps
-  /// No step is longer; 0: as long as the tolerance allows. For events whose functions vary much faster than
-  /// the motion. Finite, >= 0 [time]
+  /// No step is longer; 0: as long as the tolerance allows. For events, drives and forces that vary much
+  /// faster than the motion: a smooth pulse that falls within a step, in time or in space, may leave no trace
+  /// in it. Where equations compare, steps end by themselves. Finite, >= 0 [time]
   double max_step = 0.0;
 
   /// False: an initial state that violates a constraint is an error. True: it is projected onto the
