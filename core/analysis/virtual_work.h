@@ -26,9 +26,11 @@ struct VirtualWork {
 
 /// Of a state of a scene, with the forces of constraint found there.
 [[nodiscard]] VirtualWork virtual_work(const System& system, const FlatSample& sample);
-/// The same at a sample of a run.
+/// The same at a sample of a run of this scene, or of one with the same particles and rotors. Throws
+/// InvalidArgument if it is none.
 template <int D>
 [[nodiscard]] VirtualWork virtual_work(const Scene<D>& scene, const Sample<D>& sample) {
+  scene.require_state(sample);
   return virtual_work(scene.system(), sample.flat());
 }
 

@@ -57,7 +57,11 @@ std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
     int before = 0;
     if (e < asked_for_) {
       forget_behind(e, from_);
-      if (beginning.before != nullptr) before = first_side(e, value(e, *beginning.before));
+      if (beginning.before != nullptr) {
+        before = first_side(e, value(e, *beginning.before));
+      } else {
+        units_[e] = size_of_terms(e, beginning.start);
+      }
     } else {
       largest_[e] = 0.0;
       units_[e] = unit_(e);
@@ -72,6 +76,28 @@ std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
     at_root_[e] = 0.0;
   }
   return jumped;
+}
+
+/// How large the terms are whose sum a function is, where that is round-off of them, as |r| - L of what a rod
+/// of length L holds; else 0: by what a rounding of each coordinate, up and down by turns, makes of it.
+double EventWatch::size_of_terms(std::size_t event, const FlatSample& at) {
+  const auto& function = events_[event].function;
+  std::vector<double> q(at.q.size());
+  FlatSample beside = at;
+  beside.q = q;
+  try {
+    const double here = function(at);
+    double most = 0.0;
+    for (const std::size_t turns : {1U, 2U, 3U}) {
+      for (std::size_t i = 0; i < q.size(); ++i)
+        q[i] = at.q[i] * (i / turns % 2 == 0 ? 1.0 + epsilon : 1.0 - epsilon);
+      most = std::max(most, std::abs(function(beside) - here));
+    }
+    const double size = most / epsilon;
+    return std::abs(here) <= round_off() * size ? size : 0.0;
+  } catch (const std::exception&) {  // at the start itself `value` will say so
+    return 0.0;
+  }
 }
 
 std::optional<std::size_t> EventWatch::triggered_at_start(std::size_t first, std::size_t count) const {

@@ -87,6 +87,7 @@ class EventWatch {
   [[nodiscard]] double value(std::size_t event, const FlatSample& at);
   /// What its values are measured by.
   [[nodiscard]] double size(std::size_t event) const { return std::max(largest_[event], units_[event]); }
+  [[nodiscard]] double size_of_terms(std::size_t event, const FlatSample& at);
   [[nodiscard]] int first_side(std::size_t event, double value) const;
   /// How a function leaves the 0 that it begins with.
   struct Departure {
@@ -122,7 +123,7 @@ class EventWatch {
   std::vector<double> at_from_;           ///< of each event its value where the last step ended,
   std::vector<int> side_;                 ///< its sign there or before, if it is 0; 0 if it never had one,
   std::vector<double> largest_;           ///< and the largest value so far;
-  std::vector<double> units_;             ///< of events of contacts, as they are in this step;
+  std::vector<double> units_;             ///< of events of contacts, as they are in this step, or of terms;
   std::vector<double> largest_before_;    ///< before the last step,
   std::vector<std::vector<Place>> seen_;  ///< and the sizes of the values since;
   std::vector<double> at_root_;           ///< what it may still be where it was found to be 0,
