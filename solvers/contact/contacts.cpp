@@ -127,7 +127,8 @@ double Contacts::largest_force(const FlatSample& now) const {
 
 double Contacts::switching(std::size_t contact, const FlatSample& now) const {
   const Contact& c = contacts_[contact];
-  if (c.closed) return c.sign * now.lambda[c.row] + accuracy_.of_positions() * largest_force(now);
+  if (c.closed)
+    return c.sign * now.lambda[c.row] + accuracy_.of_positions() * largest_force(now) + no_force(c);
   if (now.time == c.opened_at) return c.rate_at_opening;
   if (gaps_at_ != now.time) find_gaps({now.time, now.q, now.v});
   const double gap = c.sign * g_[c.row], rate = c.sign * psi_[c.row];
@@ -207,7 +208,8 @@ bool Contacts::open_pulling(const FlatSample& now, std::vector<EventRecord>& eve
   for (const double lambda : now.lambda) largest = std::max(largest, std::abs(lambda));
   const auto pull = [&](const Contact& c) { return c.sign * now.lambda[c.row]; };
   const auto may_open = [&](const Contact& c) {
-    return c.closed && (friction_ || !now.unique[c.row]) && pull(c) < -round_off() * largest;
+    return c.closed && (friction_ || !now.unique[c.row]) &&
+           pull(c) < -std::max(round_off() * largest, no_force(c));
   };
   const auto most =
       std::ranges::min_element(contacts_, {}, [&](const Contact& c) { return may_open(c) ? pull(c) : 0.0; });
@@ -233,6 +235,21 @@ double Contacts::no_gap(const Contact& contact, std::span<const double> q) const
 /// is found to rest a round-off beyond, see DryFriction::switching.
 double Contacts::no_rate(const Contact& contact) const {
   return 2.0 * round_off() * scales_.speed() * contact.gradient;
+}
+
+/// Likewise accelerations, of what rests without a force, and the forces that give them to the larger of its
+/// masses.
+double Contacts::no_acceleration(const Contact& contact) const { return no_rate(contact) / scales_.time; }
+
+double Contacts::no_force(const Contact& contact) const {
+  const auto lengths = scales_.lengths();
+  double mass = 0.0;
+  for (const std::size_t k : stated_->row(contact.row)) {
+    const std::size_t i = stated_->w_columns()[k];
+    mass = std::max(mass, stated_->masses()[i] / (lengths[i] * lengths[i]));
+  }
+  return contact.gradient > 0.0 ? mass * no_acceleration(contact) / (contact.gradient * contact.gradient)
+                                : 0.0;
 }
 
 /// The error of a step in a gap.
@@ -273,7 +290,7 @@ void Contacts::require_separation(const FlatSample& now) const {
       terms += std::abs(e.w[k] * now.a[i]) + std::abs(e.w[k] * e.force[i] / stated_->masses()[i]);
     }
     // Beside springs whose force is lost in round-off it is not known.
-    if (!(c.sign * acceleration < -accuracy_.of_accelerations() * terms)) continue;
+    if (!(c.sign * acceleration < -accuracy_.of_accelerations() * terms - no_acceleration(c))) continue;
     throw StepFailure{
         stated_->row_label(c.row) +
             " touches and would be penetrated: no forces of contact and friction were found that "

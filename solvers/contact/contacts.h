@@ -152,6 +152,8 @@ class Contacts {
   [[nodiscard]] double error_of_gap(const Contact& contact) const;
   [[nodiscard]] double no_gap(const Contact& contact, std::span<const double> q) const;
   [[nodiscard]] double no_rate(const Contact& contact) const;
+  [[nodiscard]] double no_acceleration(const Contact& contact) const;
+  [[nodiscard]] double no_force(const Contact& contact) const;
   void open(Contact& contact, double t, double rate) const;
   static void close(Contact& contact, double t);
   void open(std::size_t contact, double t, double rate, Change& change);
