@@ -99,9 +99,9 @@ struct DALEMBERT_HIDDEN Integrator::Run {
   /// With a ledger every step is gone over, up to where the run stands.
   void audit_to(double time) {
     if (!auditor) return;
-    auditor->follow(time, [this](double t) {
+    auditor->follow(time, [this](double t, const LedgerKeeper::Use& use) {
       integration.read(t, next);
-      return next.flat();
+      integration.as_read(t, [&] { use(next.flat()); });
     });
   }
 
@@ -294,7 +294,7 @@ std::shared_ptr<const Record> Integrator::run() {
   s.for_each_sample([&s](const FlatSample& sample) {
     s.record.use_layout(s.read_from->layout());
     s.record.append(sample);
-    if (s.auditor) s.auditor->keep(sample);
+    if (s.auditor) s.integration.as_read(sample.time, [&] { s.auditor->keep(sample); });
   });
   // The samples are handed over, not copied: they may be most of the memory.
   auto record = std::make_shared<Record>(std::exchange(s.record, s.empty_record()));

@@ -57,10 +57,11 @@ void Auditor::sample(const FlatSample& sample) {
 
 void Auditor::follow(double time, const LedgerKeeper::Read& read) {
   if (!ledger_) return;
-  ledger_->integrate_to(time, [&](double t) {
-    const FlatSample sample = read(t);
-    instant(sample);
-    return sample;
+  ledger_->integrate_to(time, [&](double t, const LedgerKeeper::Use& use) {
+    read(t, [&](const FlatSample& sample) {
+      instant(sample);
+      use(sample);
+    });
   });
 }
 

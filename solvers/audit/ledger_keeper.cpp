@@ -99,12 +99,13 @@ void LedgerKeeper::integrate_to(double time, const Read& read) {
   const double from = std::exchange(time_, time), h = 0.5 * (time - from);
   double sum = 0.0, rough = 0.0, size = 0.0;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const FlatSample sample = read(from + h * (1.0 + nodes[k]));
-    const double P = power(*stated_, sample);
-    sum += h * weights[k] * P;
-    rough += h * fewer[k] * P;
-    size += h * weights[k] * std::abs(P);
-    add(sample, h * weights[k]);
+    read(from + h * (1.0 + nodes[k]), [&](const FlatSample& sample) {
+      const double P = power(*stated_, sample);
+      sum += h * weights[k] * P;
+      rough += h * fewer[k] * P;
+      size += h * weights[k] * std::abs(P);
+      add(sample, h * weights[k]);
+    });
   }
   const double difference = std::abs(sum - rough);
   since_.sum += sum;

@@ -22,8 +22,9 @@ class LedgerKeeper {
   /// Goes on with another system of the same constraints and forces.
   void replace_system(std::shared_ptr<const System> stated) { stated_ = std::move(stated); }
 
-  /// The instants of a part of a step, read from the run.
-  using Read = std::function<FlatSample(double)>;
+  /// Uses an instant of a part of a step, read from the run, where the equations are as they are read there.
+  using Use = std::function<void(const FlatSample&)>;
+  using Read = std::function<void(double, const Use&)>;
   void start(double time) { time_ = time; }
   void integrate_to(double time, const Read& read);
   /// The impulses of a jump, by W there, and the kinetic energy that a user's change has put in before.

@@ -9,7 +9,7 @@ ConditionalConstraints::ConditionalConstraints(const std::shared_ptr<const Syste
                                                const Scales& scales, double tolerance, const Instant& start)
     : contacts_(std::make_shared<const System>(stated->without(stated->frictional_constraints())), scales,
                 tolerance, start, !stated->frictional_constraints().empty()),
-      friction_(stated, scales, tolerance) {}
+      friction_(stated, scales, tolerance, start) {}
 
 std::string ConditionalConstraints::label(std::size_t function) const {
   return function < contacts_.size() ? contacts_.label(function)
@@ -48,7 +48,9 @@ Change ConditionalConstraints::resolve_friction(Change change, const Instant& at
 }
 
 Change ConditionalConstraints::resolve_start(const Instant& at) {
-  return resolve_friction(contacts_.resolve_start(at), at);
+  Change change = resolve_friction(contacts_.resolve_start(at), at);
+  friction_.take_away_slip(contacts_.open(), at, change);
+  return change;
 }
 
 Change ConditionalConstraints::resolve(const FlatSample& at, std::size_t function) {
@@ -72,7 +74,7 @@ Change ConditionalConstraints::resolve_jump(const Instant& at) {
 
 Change ConditionalConstraints::replace_system(const std::shared_ptr<const System>& stated, const Instant& at,
                                               std::span<const double> impulses) {
-  friction_.replace_system(stated);
+  friction_.replace_system(stated, at);
   friction_.require_no_impulse(impulses, at);
   const auto touching = contacts_.replace_system(
       std::make_shared<const System>(stated->without(stated->frictional_constraints())), at);

@@ -22,7 +22,8 @@ using Eigen::VectorXd;
 
 }  // namespace
 
-DryFriction::DryFriction(std::shared_ptr<const System> stated, const Scales& scales, double tolerance)
+DryFriction::DryFriction(std::shared_ptr<const System> stated, const Scales& scales, double tolerance,
+                         const Instant& at)
     : stated_(std::move(stated)),
       system_(stated_),
       scales_(scales),
@@ -34,7 +35,28 @@ DryFriction::DryFriction(std::shared_ptr<const System> stated, const Scales& sca
     all_.push_back({.number = number, .row = its.own_rows().front(), .rows = its.own_rows().size()});
     read_law(all_.back());
   }
+  measure_gradients(at);
   adopt(scales);
+}
+
+void DryFriction::measure_gradients(const Instant& at) {
+  if (all_.empty()) return;
+  auto e = stated_->evaluation();
+  try {
+    stated_->evaluate(at, e);
+  } catch (const EquationFault&) {
+    return;  // of what is not in force there; the motion itself will say so, if it gets there
+  }
+  for (Rough& r : all_) {
+    r.of_lengths = r.of_angles = 0.0;
+    for (std::size_t row = r.row; row < r.row + r.rows; ++row) {
+      double of_lengths = 0.0, of_angles = 0.0;
+      for (const std::size_t k : stated_->row(row))
+        (scales_.is_angle[stated_->w_columns()[k]] ? of_angles : of_lengths) += std::abs(e.w[k]);
+      r.of_lengths = std::max(r.of_lengths, of_lengths);
+      r.of_angles = std::max(r.of_angles, of_angles);
+    }
+  }
 }
 
 void DryFriction::read_law(Rough& rough) const {
@@ -56,14 +78,17 @@ void DryFriction::read_law(Rough& rough) const {
 void DryFriction::adopt(const Scales& scales) {
   scales_ = scales;
   for (Rough& r : all_) {
-    r.still = tolerance_ * scales.speed();
-    r.slow = Accuracy(tolerance_).rest_in_space() * scales.speed();
+    r.speed = std::min(scales.speed(), (r.of_lengths * scales.length + r.of_angles) / scales.time);
+    r.still = tolerance_ * r.speed;
+    r.slow = Accuracy(tolerance_).rest_in_space() * r.speed;
   }
 }
 
-void DryFriction::replace_system(std::shared_ptr<const System> stated) {
+void DryFriction::replace_system(std::shared_ptr<const System> stated, const Instant& at) {
   stated_ = std::move(stated);
   for (Rough& r : all_) read_law(r);
+  measure_gradients(at);
+  adopt(scales_);
 }
 
 std::string DryFriction::label(std::size_t function) const {
@@ -83,7 +108,9 @@ VectorXd DryFriction::slip(const Rough& rough) const { return part(rough, u_); }
 
 /// Round-off, but what reverses its friction so late errs by at most twice this speed: a part of a step's
 /// tolerance.
-double DryFriction::no_slip() const { return std::min(round_off(), 0.1 * tolerance_) * scales_.speed(); }
+double DryFriction::no_slip(const Rough& rough) const {
+  return std::min(round_off(), 0.1 * tolerance_) * rough.speed;
+}
 
 /// Round-off of the forces on what it acts on, of inertia and its own, and of what it shares with others;
 /// never 0.
@@ -123,13 +150,13 @@ double DryFriction::switching(std::size_t function, const FlatSample& now) const
   if (watched == speed && !slow && !r.shared) return 1.0;
   if (slip_at_ != now.time) find_slip({now.time, now.q, now.v});
   const VectorXd u = slip(r);
-  if (watched == speed) return 2.0 * (slow ? r.slow : no_slip()) - u.norm();
-  return r.rows == 1 || slow ? u.dot(r.direction) + no_slip() : u.norm() - r.slow;
+  if (watched == speed) return 2.0 * (slow ? r.slow : no_slip(r)) - u.norm();
+  return r.rows == 1 || slow ? u.dot(r.direction) + no_slip(r) : u.norm() - r.slow;
 }
 
 double DryFriction::unit(std::size_t function) const {
-  const bool slides = all_[function / kinds].mode == Mode::slides;
-  return slides && static_cast<Watched>(function % kinds) == mode ? scales_.speed() : 0.0;
+  const Rough& r = all_[function / kinds];
+  return r.mode == Mode::slides && static_cast<Watched>(function % kinds) == mode ? r.speed : 0.0;
 }
 
 /// Starts to slide from rest, whatever small slip is left.
@@ -176,6 +203,14 @@ std::vector<double> DryFriction::velocities_at_rest(const std::vector<std::size_
   std::vector<double> v(at.v.begin(), at.v.end()), impulses(system.rows());
   if (!manifold.project_impulsively(at.t, at.q, v, impulses)) throw linearly_dependent(at.t);
   return v;
+}
+
+void DryFriction::take_away_slip(const std::vector<std::size_t>& open, const Instant& at,
+                                 Change& change) const {
+  const auto creeps = [&](const Rough& r) { return r.mode == Mode::sticks && slip(r).norm() > no_slip(r); };
+  if (std::ranges::none_of(all_, creeps)) return;
+  const std::vector<double> given = std::exchange(change.v, velocities_at_rest(open, {at.t, at.q, change.v}));
+  for (std::size_t i = 0; i < given.size(); ++i) change.v_before[i] += change.v[i] - given[i];
 }
 
 /// These, numbers among all, without their friction.

@@ -4,6 +4,7 @@
 #include <dalembert/core/scene/system.h>
 #include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/contact/change.h>
 #include <dalembert/solvers/contact/slip_coupling.h>
 #include <dalembert/solvers/manifold/scales.h>
 
@@ -30,10 +31,11 @@ namespace DALEMBERT_HIDDEN dalembert {
 class DryFriction {
  public:
   /// Of the constraints that a scene states.
-  DryFriction(std::shared_ptr<const System> stated, const Scales& scales, double tolerance);
+  DryFriction(std::shared_ptr<const System> stated, const Scales& scales, double tolerance,
+              const Instant& at);
 
   /// Goes on with these equations, whose parameters may differ.
-  void replace_system(std::shared_ptr<const System> stated);
+  void replace_system(std::shared_ptr<const System> stated, const Instant& at);
   void adopt(const Scales& scales);
 
   [[nodiscard]] bool any() const { return !all_.empty(); }
@@ -50,6 +52,8 @@ class DryFriction {
   /// (1); EquationFault.
   std::vector<EventRecord> find_modes(const std::vector<std::size_t>& open, const Instant& at,
                                       std::optional<std::size_t> triggered = {});
+  /// Brings to rest at a start what sticks there though it slips, by less than velocities are known.
+  void take_away_slip(const std::vector<std::size_t>& open, const Instant& at, Change& change) const;
   /// Throws StepFailure if an impact has loaded any of them.
   void require_no_impulse(std::span<const double> impulses, const Instant& at) const;
   /// The system with what sticks and what slides.
@@ -69,8 +73,11 @@ class DryFriction {
     std::size_t pressed_by = 0, pressing_row = 0;
     double mu = 0.0, mu_static = 0.0;
     bool one_sided = false;
-    double sign = 1.0;               // of lambda
-    double still = 0.0, slow = 0.0;  // speeds: that may be none, and below which a slip in space is slow
+    double sign = 1.0;                         // of lambda
+    double of_lengths = 1.0, of_angles = 0.0;  // what its slip gains by a rate of each
+    // Speeds: the scene's, but of a brake's rotor that of its rim; that may be none, and below which a slip
+    // in space is slow.
+    double speed = 0.0, still = 0.0, slow = 0.0;
     Mode mode = Mode::absent;
     bool shared = false;  // sticks, but others constrain the same slip
     Eigen::VectorXd direction{};
@@ -89,12 +96,13 @@ class DryFriction {
   using Triggered = std::optional<std::size_t>;
 
   void read_law(Rough& rough) const;
+  void measure_gradients(const Instant& at);
   [[nodiscard]] double round_off_of(const Rough& rough, std::span<const double> a,
                                     std::span<const double> lambda) const;
   [[nodiscard]] static Eigen::VectorXd part(const Rough& rough, std::span<const double> all);
   void find_slip(const Instant& at) const;
   [[nodiscard]] Eigen::VectorXd slip(const Rough& rough) const;
-  [[nodiscard]] double no_slip() const;
+  [[nodiscard]] double no_slip(const Rough& rough) const;
   [[nodiscard]] bool own(const Rough& rough, Triggered triggered, Watched watched) const;
   [[nodiscard]] static bool shared(const Rough& rough, std::span<const char> unique);
 

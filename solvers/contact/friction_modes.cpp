@@ -79,7 +79,7 @@ void DryFriction::set_mode_by_slip(Rough& rough, const std::vector<std::size_t>&
   }
   if (own(rough, triggered, sign)) rough.sign = -rough.sign;
   const VectorXd u = slip(rough);
-  const double none = no_slip();
+  const double none = no_slip(rough);
   const bool stops = due && slid && (rough.rows == 1 || slow),
              moves = slid ? u.dot(rough.direction) > none : rough.shared && u.norm() > none;
   if (stops || (u.norm() <= std::max(rough.still, none) && !moves)) {
@@ -112,7 +112,7 @@ void DryFriction::rest_with_others(const std::vector<std::size_t>& open, const I
     const auto after = std::exchange(u_, before);
     slip_at_ = at.t;
     for (Rough& r : all_) {
-      if (!may_rest(r) || part(r, after).norm() > no_slip()) continue;
+      if (!may_rest(r) || part(r, after).norm() > no_slip(r)) continue;
       r.at_rest = more = true;
       r.reached = r.shared = false;
       r.mode = Mode::sticks;
