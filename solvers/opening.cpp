@@ -26,28 +26,39 @@ void require_no_force_reads(const System& system) {
   }
 }
 
-/// Whether nothing but round-off has moved.
-bool rests(const Start& start, const PathExtent& path, double tolerance) {
-  const std::vector<double> still(start.q.size());
-  return path.length <= start.scales.extended_by(start.q, still, path.step, tolerance).length;
+Start from_path(Start start) {
+  start.scales.length_from_path = true;
+  return start;
 }
 
-/// A scene without a length of its own gets that of the path of a first step; where it rests, any length will
-/// do.
+/// A path of this last step on which nothing but round-off has moved.
+double length_of_round_off(const Start& start, double step, double tolerance) {
+  const std::vector<double> still(start.q.size());
+  return start.scales.extended_by(start.q, still, step, tolerance).length;
+}
+
+/// A scene without a length of its own gets that of the path of a first step; where it rests, any length will do.
 Start first_start(const Problem& problem, std::span<const double> q, std::span<const double> v,
                   const Options& options, double nearest_contact) {
   Start start = consistent_start(problem, q, v, options, nearest_contact);
   if (!start.scales.length_from_path) return start;
   Options looking = options;
   looking.tolerance = Options{}.tolerance;  // the scene's length is its own, whatever is asked of the run
+  start.scales.length_from_path = false;
   try {
-    ErkStepper first(problem, start, looking);
+    ErkStepper first(problem, from_path(start), looking);
     first.step(options.t_end);
-    const PathExtent& extent = first.scales().extent;
-    start.scales.length_from_path = !rests(start, extent, looking.tolerance);
-    if (start.scales.length_from_path) start.scales.adopt(extent);
-  } catch (const StepFailure&) {
-    start.scales.length_from_path = false;  // the run will stop, and say why
+    const PathExtent& path = first.scales().extent;
+    const double round_off = length_of_round_off(start, path.step, looking.tolerance);
+    if (path.length > round_off) {
+      start = from_path(std::move(start));
+      start.scales.adopt(path);
+    } else if (start.scales.length <= round_off) {
+      looking = options;
+      looking.length = 1.0;
+      return consistent_start(problem, q, v, looking, nearest_contact);
+    }
+  } catch (const StepFailure&) {  // the run will stop, and say why
   }
   return start;
 }

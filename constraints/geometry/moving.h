@@ -64,7 +64,9 @@ struct Rotating {
                                   static_cast<double>(angle(t)));
     });
   }
-  [[nodiscard]] std::string fault() const { return detail::fault_of(curve); }
+  [[nodiscard]] std::string fault() const {
+    return detail::first_fault({detail::place_fault(centre, "centre"), detail::fault_of(curve)});
+  }
 };
 template <class Curve, class Angle>
 Rotating(Curve, Vec<2>, Angle) -> Rotating<Curve, Angle>;
@@ -92,7 +94,10 @@ struct RotatingAbout {
       return detail::turned_about(axis.point, axis.direction.normalized(), static_cast<double>(angle(t)));
     });
   }
-  [[nodiscard]] std::string fault() const { return detail::fault_of(surface); }
+  [[nodiscard]] std::string fault() const {
+    return detail::first_fault({detail::place_fault(axis.point, "point"),
+                                detail::direction_fault(axis.direction, "axis"), detail::fault_of(surface)});
+  }
 };
 template <class Surface, class Angle>
 RotatingAbout(Surface, Axis, Angle) -> RotatingAbout<Surface, Angle>;

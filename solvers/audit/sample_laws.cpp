@@ -224,11 +224,23 @@ double SampleLaws::gradient(const FlatSample& sample, std::size_t contact) const
   return position_limit(e.w, alone, contact, sample);
 }
 
+/// A multiplier as large as all that acts on what a row moves: of what is far heavier, or elsewhere, forces
+/// tell nothing about how exactly it is known.
+double SampleLaws::own_force(std::size_t r) const {
+  double acceleration = 0.0, inverse_mass = 0.0;
+  for (const std::size_t k : acting_->row(r)) {
+    const std::size_t i = acting_->w_columns()[k];
+    acceleration += std::abs(e_.w[k]) * terms_[i] / acting_->masses()[i];
+    inverse_mass += e_.w[k] * e_.w[k] / acting_->masses()[i];
+  }
+  return inverse_mass > 0.0 ? acceleration / inverse_mass : 0.0;
+}
+
 void SampleLaws::check_contacts(const FlatSample& sample, Findings& findings) const {
   for (const Contact& c : contacts_) {
     const double lambda = sample.lambda[c.row];
     findings.weigh(Law::no_pull, row(c.row), sample.time, std::max(-c.sign * lambda, 0.0),
-                   2.0 * limits_.relative(largest_force_));
+                   2.0 * limits_.relative(own_force(c.row)));
     const double depth = -c.sign * g_[c.row];
     const double rounding = limits_.by_time(sample.time, u_[c.row]);
     double limit = limits_.accuracy * limits_.length + rounding;
@@ -242,15 +254,16 @@ void SampleLaws::check_contacts(const FlatSample& sample, Findings& findings) co
 void SampleLaws::check_friction(const FlatSample& sample, Findings& findings) const {
   for (const Rough& rough : rough_) {
     const double N = std::abs(sample.lambda[rough.pressing_row]);
-    double sigma = 0.0, u = 0.0, sliding = 0.0, rest = 0.0;
+    double sigma = 0.0, u = 0.0, sliding = 0.0, rest = 0.0, own = own_force(rough.pressing_row);
     for (std::size_t k = rough.row; k < rough.row + rough.rows; ++k) {
       sigma += sample.lambda[k] * sample.lambda[k];
       u += u_[k] * u_[k];
+      own = std::max(own, own_force(k));
       rest = std::max(rest, velocity_limit(k, sample) + (rough.rows > 1 ? slow_slip(k) : 0.0));
     }
     sigma = std::sqrt(sigma);
     u = std::sqrt(u);
-    const double limit = 2.0 * limits_.relative(largest_force_);
+    const double limit = 2.0 * limits_.relative(own);
     findings.weigh(Law::friction_cone, row(rough.row), sample.time,
                    std::max(sigma - rough.mu_static * N, 0.0), limit);
     const double direction = rough.rows == 1 ? 0.0 : std::min(1.0, rest / u);

@@ -115,20 +115,42 @@ void Contacts::find_gaps(const Instant& at) const {
 }
 
 /// Of constraint or inertia on any coordinate; never 0.
-double Contacts::largest_force(const FlatSample& now) const {
-  if (forces_at_ == now.time) return largest_force_;
+/// On each coordinate the larger of its inertia and of what constraints exert there together.
+void Contacts::find_forces(const FlatSample& now) const {
+  if (forces_at_ == now.time) return;
   forces_at_ = now.time;
-  largest_force_ = std::numeric_limits<double>::min();
-  for (const double force : now.forces) largest_force_ = std::max(largest_force_, std::abs(force));
-  for (std::size_t i = 0; i < now.a.size(); ++i)
-    largest_force_ = std::max(largest_force_, stated_->masses()[i] * std::abs(now.a[i]));
-  return largest_force_;
+  forces_.assign(now.a.size(), 0.0);
+  for (const Layout::Constraint& c : stated_->layout()->constraints) {
+    std::size_t k = stated_->row(c.own_rows().front()).front();
+    for (const std::size_t slot : c.slots()) {
+      const double force = std::abs(now.forces[slot]);
+      if (!std::isnan(force)) forces_[stated_->w_columns()[k]] += force;
+      ++k;
+    }
+  }
+  for (std::size_t i = 0; i < now.a.size(); ++i) {
+    const double inertia = stated_->masses()[i] * std::abs(now.a[i]);
+    if (inertia > forces_[i]) forces_[i] = inertia;
+  }
+}
+
+/// A multiplier as large as the forces on what a contact touches: on the lightest of it, which must keep pace
+/// with the others. What is heavier, or elsewhere, tells nothing about how exactly it is known.
+double Contacts::own_force(const Contact& contact, const FlatSample& now) const {
+  find_forces(now);
+  const auto lengths = scales_.lengths();
+  double acceleration = 0.0;
+  for (const std::size_t k : stated_->row(contact.row)) {
+    const std::size_t i = stated_->w_columns()[k];
+    acceleration = std::max(acceleration, forces_[i] / stated_->masses()[i] * lengths[i]);
+  }
+  return multiplier_for(contact, acceleration);
 }
 
 double Contacts::switching(std::size_t contact, const FlatSample& now) const {
   const Contact& c = contacts_[contact];
   if (c.closed)
-    return c.sign * now.lambda[c.row] + accuracy_.of_positions() * largest_force(now) + no_force(c);
+    return c.sign * now.lambda[c.row] + accuracy_.of_positions() * own_force(c, now) + no_force(c);
   if (now.time == c.opened_at) return c.rate_at_opening;
   if (gaps_at_ != now.time) find_gaps({now.time, now.q, now.v});
   const double gap = c.sign * g_[c.row], rate = c.sign * psi_[c.row];
@@ -237,19 +259,17 @@ double Contacts::no_rate(const Contact& contact) const {
   return 2.0 * round_off() * scales_.speed() * contact.gradient;
 }
 
-/// Likewise accelerations, of what rests without a force, and the forces that give them to the larger of its
-/// masses.
+/// Likewise accelerations, of what rests without a force, and the forces that give them.
 double Contacts::no_acceleration(const Contact& contact) const { return no_rate(contact) / scales_.time; }
 
 double Contacts::no_force(const Contact& contact) const {
-  const auto lengths = scales_.lengths();
-  double mass = 0.0;
-  for (const std::size_t k : stated_->row(contact.row)) {
-    const std::size_t i = stated_->w_columns()[k];
-    mass = std::max(mass, stated_->masses()[i] / (lengths[i] * lengths[i]));
-  }
-  return contact.gradient > 0.0 ? mass * no_acceleration(contact) / (contact.gradient * contact.gradient)
-                                : 0.0;
+  return multiplier_for(contact, 2.0 * round_off() * scales_.speed() / scales_.time);
+}
+
+/// That accelerates the lightest of what it touches.
+double Contacts::multiplier_for(const Contact& contact, double acceleration) const {
+  const double force = lightest_mass(*stated_, scales_.lengths(), contact.row) * acceleration;
+  return contact.gradient > 0.0 ? force / contact.gradient : force;
 }
 
 /// The error of a step in a gap.

@@ -117,7 +117,8 @@ class Contacts {
   [[nodiscard]] Contact& contact_of(const EventRecord& event);
   [[nodiscard]] static bool among(const std::vector<std::size_t>& all, std::size_t contact);
   void find_gaps(const Instant& at) const;
-  [[nodiscard]] double largest_force(const FlatSample& now) const;
+  void find_forces(const FlatSample& now) const;
+  [[nodiscard]] double own_force(const Contact& contact, const FlatSample& now) const;
   [[nodiscard]] std::vector<std::size_t> touching(const Instant& at,
                                                   const std::vector<std::size_t>& triggered) const;
   [[nodiscard]] std::vector<std::size_t> numbers(const std::vector<std::size_t>& chosen) const;
@@ -154,6 +155,7 @@ class Contacts {
   [[nodiscard]] double no_rate(const Contact& contact) const;
   [[nodiscard]] double no_acceleration(const Contact& contact) const;
   [[nodiscard]] double no_force(const Contact& contact) const;
+  [[nodiscard]] double multiplier_for(const Contact& contact, double acceleration) const;
   void open(Contact& contact, double t, double rate) const;
   static void close(Contact& contact, double t);
   void open(std::size_t contact, double t, double rate, Change& change);
@@ -169,8 +171,9 @@ class Contacts {
   bool everywhere_ = true;  // all islands are to be looked at: at the start, and after a change of the scene
   mutable std::vector<double> g_, psi_;  // of all rows,
   static constexpr double never = std::numeric_limits<double>::quiet_NaN();
-  mutable double gaps_at_ = never;                          // at this time of the state watched
-  mutable double largest_force_ = 0.0, forces_at_ = never;  // likewise
+  mutable double gaps_at_ = never;      // at this time of the state watched
+  mutable std::vector<double> forces_;  // on coordinates, likewise
+  mutable double forces_at_ = never;
 };
 
 }  // namespace dalembert

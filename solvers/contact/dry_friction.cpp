@@ -112,19 +112,21 @@ double DryFriction::no_slip(const Rough& rough) const {
   return std::min(round_off(), 0.1 * tolerance_) * rough.speed;
 }
 
-/// Round-off of the forces on what it acts on, of inertia and its own, and of what it shares with others;
-/// never 0.
+/// Round-off of its own force and of what it shares with others, and of the inertia of the lightest that it
+/// acts on; never 0.
 double DryFriction::round_off_of(const Rough& rough, std::span<const double> a,
                                  std::span<const double> lambda) const {
   double force = std::abs(lambda[rough.pressing_row]);
   for (const Rough& other : all_)
     if (rough.shared && other.shared) force = std::max(force, std::abs(lambda[other.pressing_row]));
-  for (std::size_t k = 0; k < rough.rows; ++k) {
-    force = std::max(force, std::abs(lambda[rough.row + k]));
-    for (const std::size_t j : stated_->row(rough.row + k)) {
+  const auto lengths = scales_.lengths();
+  for (std::size_t row = rough.row; row < rough.row + rough.rows; ++row) {
+    double acceleration = 0.0;
+    for (const std::size_t j : stated_->row(row)) {
       const std::size_t i = stated_->w_columns()[j];
-      force = std::max(force, stated_->masses()[i] * std::abs(a[i]));
+      acceleration = std::max(acceleration, std::abs(a[i]) * lengths[i]);
     }
+    force = std::max({force, std::abs(lambda[row]), lightest_mass(*stated_, lengths, row) * acceleration});
   }
   return std::min(round_off(), tolerance_) * force + std::numeric_limits<double>::min();
 }

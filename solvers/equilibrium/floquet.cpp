@@ -1,5 +1,6 @@
 #include "dalembert/solvers/equilibrium/floquet.h"
 
+#include <dalembert/core/autodiff/branches.h>
 #include <dalembert/core/linear/dense.h>
 #include <dalembert/solvers/equilibrium/disturbances.h>
 #include <dalembert/solvers/integrator.h>
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -155,6 +157,62 @@ void require_period(const System& system, const Record& motion, const ActiveRows
     require_same_equations(system, motion, now, period);
     require_same_response(system, {system, rows, now, period}, {system, rows, later, period}, now.time,
                           period);
+  }
+}
+
+/// The sides of what the equations compare at an instant of the motion, and the forces there on given sides.
+Branches::Sides sides_at(const System& system, const FlatSample& at) {
+  Branches::Sides sides;
+  const Branches listening(&sides, nullptr);
+  auto e = system.evaluation();
+  system.evaluate({at.time, at.q, at.v}, e);
+  return sides;
+}
+std::vector<double> forces_on(const Branches::Sides& sides, const System& system, const FlatSample& at) {
+  const Branches holding(nullptr, &sides);
+  auto e = system.evaluation();
+  system.evaluate({at.time, at.q, at.v}, e);
+  return e.force;
+}
+bool same(const Branches::Sides& a, const Branches::Sides& b) {
+  const auto one = [](const Branches::Comparison& x, const Branches::Comparison& y) {
+    return x.side == y.side && x.piece == y.piece;
+  };
+  return std::ranges::equal(a, b,
+                            [&](const auto& x, const auto& y) { return std::ranges::equal(x, y, one); });
+}
+
+/// Throws where forces jump between two of the instants that are checked: a disturbance jumps there, too, as
+/// it changes the time of the jump, and that is in no derivative.
+void require_no_jump(const System& system, const Record& motion) {
+  Record read;
+  read.layout = motion.layout;
+  const auto instant = [&](double t) {
+    read.clear();
+    motion.dense->read(std::vector<double>{t}, read);
+    return read.sample(0);
+  };
+  double size = 0.0;
+  for (std::size_t i = 0; i < motion.times.size(); ++i)
+    for (const double F : forces_on({}, system, motion.sample(i))) size = std::max(size, std::abs(F));
+  for (std::size_t i = 1; i < motion.times.size(); ++i) {
+    double a = motion.times[i - 1], b = motion.times[i];
+    const auto before = sides_at(system, motion.sample(i - 1));
+    if (same(before, sides_at(system, motion.sample(i)))) continue;
+    for (int k = 0; k < std::numeric_limits<double>::digits; ++k) {
+      const double middle = 0.5 * (a + b);
+      (same(before, sides_at(system, instant(middle))) ? a : b) = middle;
+    }
+    const auto behind = sides_at(system, instant(b));
+    const FlatSample there = instant(a);
+    const auto F = forces_on(before, system, there), G = forces_on(behind, system, there);
+    for (std::size_t k = 0; k < F.size(); ++k) {
+      if (std::abs(F[k] - G[k]) <= returned * size) continue;
+      throw NoEquilibrium(
+          "Floquet multipliers of scene \"" + motion.layout->scene +
+          "\": its forces jump at t = " + std::to_string(a) +
+          ", and with them a disturbance, which its linear equations do not tell; round them off");
+    }
   }
 }
 
@@ -320,6 +378,7 @@ Floquet find_multipliers(const std::function<System()>& system, std::span<const 
   own.evaluate({start.time, start.q, start.v}, e);
   const ActiveRows rows = independent_rows(own, e.w);
   require_period(own, *motion, rows, period);
+  require_no_jump(own, *motion);
   const auto [matrix, error, steps] = Monodromy(own, *motion, rows, period).map();
   if (matrix.size() == 0) return {};  // nothing can move
   return multipliers_of(matrix, error, steps);

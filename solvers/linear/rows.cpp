@@ -1,6 +1,8 @@
 #include "dalembert/solvers/linear/rows.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dalembert {
 
@@ -20,6 +22,15 @@ double gradient_length(const System& system, std::span<const double> w, std::spa
     square += slope * slope;
   }
   return std::sqrt(square);
+}
+
+double lightest_mass(const System& system, std::span<const double> lengths, std::size_t row) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t k : system.row(row)) {
+    const std::size_t i = system.w_columns()[k];
+    least = std::min(least, system.masses()[i] / (lengths[i] * lengths[i]));
+  }
+  return least;
 }
 
 double impulse_of_row(const System& system, std::span<const double> w, std::span<const double> lengths,

@@ -12,6 +12,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// |w| of a row; `lengths` turns each coordinate into a length: 1, or the scene's length for an angle.
 [[nodiscard]] double gradient_length(const System& system, std::span<const double> w,
                                      std::span<const double> lengths, std::size_t row);
+/// The least mass that a row moves: its force accelerates that one, whatever the others weigh.
+[[nodiscard]] double lightest_mass(const System& system, std::span<const double> lengths, std::size_t row);
 /// The impulse by which a row gives the masses it moves a speed, speed |w| / (w M^-1 w^T), whatever the
 /// scale of the user's equation.
 [[nodiscard]] double impulse_of_row(const System& system, std::span<const double> w,

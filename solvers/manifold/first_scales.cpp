@@ -69,6 +69,9 @@ void set_length(const System& system, const Instant& at, const System::Evaluatio
   const double duration = options.t_end - options.t_start;
   scales.is_angle = system.angles();
   scales.length = options.length > 0.0 ? options.length : system.extent(at.t);
+  // Points that coincide but for round-off coincide.
+  const double rounding = 10.0 * epsilon * largest_of_lengths(at.q, scales.is_angle);
+  if (!(options.length > 0.0) && scales.length <= rounding) scales.length = 0.0;
   if (scales.length > 0.0) return;
   const double radius = smallest_radius(system, at, e);
   const double v = largest_of_lengths(at.v, scales.is_angle);
@@ -83,8 +86,7 @@ void set_length(const System& system, const Instant& at, const System::Evaluatio
   if (std::isinf(radius) && v > 0.0 && a > 0.0 && v * v / a > shown) scales.length = v * v / a;
   if (std::isinf(scales.length)) scales.length = v + a > 0.0 ? v + a : 1.0;
   if (scales.length_from_path) {
-    const double rounding = epsilon * scales.length;
-    scales.length = std::min(scales.length, std::max(nearest_contact, rounding));
+    scales.length = std::min(scales.length, std::max(nearest_contact, epsilon * scales.length));
   }
   scales.lever = least_lever(system, e, scales.is_angle);
   scales.forced = a;

@@ -1,0 +1,131 @@
+#include <dalembert/dalembert.h>
+#include <dalembert/tests/both_steppers.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+/// What rests, to round-off, without a force: then there is no length, speed or force to compare round-off with.
+namespace dalembert::at_rest_test {
+namespace {
+
+class AtRest : public testing::TestWithParam<StepperAt> {
+ protected:
+  [[nodiscard]] static Options options(double t_end) {
+    return {.t_end = t_end, .samples = 5, .tolerance = GetParam().tolerance, .stepper = GetParam().stepper};
+  }
+  /// Of a motion of a few dozen steps.
+  [[nodiscard]] static double error() { return 100.0 * GetParam().tolerance; }
+};
+INSTANTIATE_TEST_SUITE_P(Runs, AtRest, both_steppers_at({1e-5, 1e-8, 1e-11}), tolerance_name);
+
+TEST_P(AtRest, ALoneParticleIsMovedByAForceThatSwitchesOn) {
+  for (const double x : {0.0, 1e-3, 1.0, 100.0}) {
+    Scene<2> scene;
+    const auto body = scene.add_particle({.mass = 1.0, .position = {x, 0.0}}, "body");
+    scene.add(force_law(points(body), [](auto t, auto, auto) {
+      return vec(t > 2.0 ? 1.0 + 0.0 * t : 0.0 * t, 0.0 * t);
+    }));
+    EXPECT_NEAR(simulate(scene, options(4.0)).position(body, 4).x(), x + 2.0, error()) << x;
+  }
+}
+
+/// Its path leads through lengths of which no square is a number.
+TEST_P(AtRest, ALoneParticleIsMovedByAForceThatSetsInGently) {
+  Scene<2> scene;
+  const auto body = scene.add_particle({.mass = 1.0}, "body");
+  scene.add(force_law(points(body), [](auto t, auto, auto) {
+    return vec(1.0 / (1.0 + exp(-100.0 * (t - 5.0))), 0.0 * t);
+  }));
+  // f = 1/(1 + exp(-(t - 5)/w)) integrated twice is (t - 5)^2/2 + (pi w)^2/6 there, up to exp(-(t - 5)/w).
+  constexpr double w = 0.01, rest = 2.0;
+  EXPECT_NEAR(simulate(scene, options(5.0 + rest)).position(body, 4).x(),
+              0.5 * rest * rest + std::pow(std::numbers::pi * w, 2) / 6.0, error());
+}
+
+/// 0.1 + 0.2 is not 0.3: the anchor and the particle are 6e-17 apart.
+TEST_P(AtRest, AParticleStaysAtItsAnchorButForRoundOff) {
+  Scene<2> scene;
+  const auto body = scene.add_particle({.mass = 1.0, .position = {0.1 + 0.2, 0.0}}, "body");
+  scene.add(Spring{Fixed<2>{{0.3, 0.0}}, body, 4.0});
+  EXPECT_NEAR(simulate(scene, options(3.0)).position(body, 4).x(), 0.3, error());
+}
+
+/// Of a brake the pad alone is a particle, and it is held: what it does is round-off, whatever presses it and
+/// whatever the unit of length.
+TEST_P(AtRest, AHeldPadGivesNoLength) {
+  constexpr double a = 1.5, w_0 = 3.0;  // the deceleration mu F R / I
+  for (const double unit : {1.0, 1e3, 1e6}) {
+    Scene<2> scene;
+    const double F = unit, R = 0.2 * unit, mu = 0.4;
+    const auto pad = scene.add_particle({.mass = 1.0}, "pad");
+    const auto face = scene.add(OnCurve{pad, Plane<2>{}}, "face");
+    scene.add(OnCurve{pad, Plane<2>{.normal = {1.0, 0.0}}}, "guide");
+    scene.add(UniformGravity<2>{{0.0, -F}});
+    const auto disc = scene.add_rotor({.inertia = mu * F * R / a, .angular_velocity = w_0}, "disc");
+    scene.add(coulomb(face, nonholonomic(points(disc), [R](auto, auto w) { return R * w[0]; }), mu), "brake");
+    scene.add(unilateral(holonomic(points(disc), [R](auto phi) { return R * (1.0 - phi[0]); }),
+                         {.restitution = 0.5}),
+              "stop");
+    const auto run = simulate(scene, options(2.0));
+    // At the stop: w_0 t - a t^2/2 = 1, and back with half the speed.
+    const double struck = (w_0 - std::sqrt(w_0 * w_0 - 2.0 * a)) / a, w = 0.5 * (w_0 - a * struck);
+    ASSERT_EQ(run.events().size(), 2U) << unit;
+    EXPECT_EQ(run.events()[0].kind, EventKind::struck);
+    EXPECT_NEAR(run.events()[0].time, struck, error());
+    EXPECT_EQ(run.events()[1].kind, EventKind::sticks);
+    EXPECT_NEAR(run.events()[1].time, struck + w / a, error());
+    EXPECT_NEAR(run.angle(disc, 4), 1.0 - 0.5 * w * w / a, error());
+  }
+}
+
+/// A row of balls, seen from above.
+std::vector<Particle<2>> add_row(Scene<2>& scene, double x, int count) {
+  constexpr double diameter = 0.1;
+  std::vector<Particle<2>> row;
+  for (int i = 0; i < count; ++i) {
+    row.push_back(scene.add_particle({.mass = 1.0, .position = {x + i * diameter, 0.0}}));
+    if (i > 0) scene.add(unilateral(Distance{row[row.size() - 2], row.back(), diameter}, {.restitution = 1.0}));
+  }
+  return row;
+}
+
+TEST_P(AtRest, BallsThatTouchStayAsTheyAre) {
+  for (const int count : {4, 8}) {
+    Scene<2> scene;
+    add_row(scene, 0.0, count);
+    EXPECT_TRUE(simulate(scene, options(0.3)).events().empty()) << count;
+  }
+}
+
+/// Newton's cradle: all of the momentum, and of the energy, leaves with the last ball.
+TEST_P(AtRest, ABallThatHitsARowSetsInMotionTheLast) {
+  constexpr double v = 2.0, gap = 0.4;
+  for (const int count : {3, 5, 8}) {
+    Scene<2> scene;
+    const auto row = add_row(scene, 0.0, count);
+    const auto ball = scene.add_particle({.mass = 1.0, .position = {-gap - 0.1, 0.0}, .velocity = {v, 0.0}});
+    scene.add(unilateral(Distance{ball, row.front(), 0.1}, {.restitution = 1.0}));
+    const auto run = simulate(scene, options(0.3));
+    EXPECT_NEAR(run.events().front().time, gap / v, error()) << count;
+    // Moreau's law with restitution 1 gives the rates of all gaps the other sign, and those at rest keep 0: the
+    // first ball stops where it is, the last one goes on.
+    EXPECT_NEAR(run.velocity(row.back(), 4).x(), v, error()) << count;
+    EXPECT_NEAR(run.velocity(ball, 4).x(), 0.0, error()) << count;
+  }
+}
+
+TEST_P(AtRest, ACompliantConstraintWithoutLoadHasTheForce0) {
+  Scene<2> scene;
+  const auto body = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}}, "body");
+  scene.add(OnCurve{body, Plane<2>{}});
+  const auto rod = scene.add(compliant(Distance{Fixed<2>{}, body, 1.0}, 1e-8), "rod");
+  const auto run = simulate(scene, options(2.0));
+  constexpr double rounding = 4e-16 / 1e-8;  // of the length over the compliance
+  for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(run.multiplier(rod, k), 0.0, rounding);
+}
+
+}  // namespace
+}  // namespace dalembert::at_rest_test

@@ -1,0 +1,104 @@
+#include <dalembert/dalembert.h>
+#include <dalembert/tests/both_steppers.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+/// Pushes that `if`, floor or a table let last from one time to another, on what rests until then: long steps pass
+/// several switches, of which the first have no effect.
+namespace dalembert::pushes_by_time_test {
+namespace {
+
+constexpr double t_end = 10.0;
+
+class PushesByTime : public testing::TestWithParam<StepperAt> {
+ protected:
+  /// Where a spring of 1 N/m brings 1 kg that a force f(t) pushes.
+  template <class Force>
+  [[nodiscard]] double pushed(const Force& f, bool ledger = false) const {
+    Scene<2> scene;
+    const auto body = scene.add_particle({.mass = 1.0}, "body");
+    scene.add(Spring{Fixed<2>{}, body, 1.0});
+    scene.add(force_law(points(body), [f](auto t, auto, auto) { return vec(f(t), 0.0 * t); }));
+    const auto run = simulate(scene, {.t_end = t_end,
+                                      .samples = 11,
+                                      .tolerance = GetParam().tolerance,
+                                      .stepper = GetParam().stepper,
+                                      .ledger = ledger,
+                                      .length = 1.0});
+    return run.position(body, 10).x();
+  }
+  /// By a force of 1 N from a to b: the integral of sin(t_end - t).
+  static double by_unit_force(double a, double b) { return std::cos(t_end - b) - std::cos(t_end - a); }
+  /// A step errs by the tolerance, and a run of pushes of 3 N by a few dozen of them; a missed push by 0.1.
+  [[nodiscard]] double error() const { return 300.0 * GetParam().tolerance; }
+};
+INSTANTIATE_TEST_SUITE_P(Runs, PushesByTime, both_steppers_at({1e-4, 1e-7, 1e-10}), tolerance_name);
+
+TEST_P(PushesByTime, OfOnePieceOfFloorAreFelt) {
+  const double right = 3.0 * by_unit_force(5.0, 6.0);
+  EXPECT_NEAR(pushed([](auto t) { return floor(t) == 5.0 ? 3.0 + 0.0 * t : 0.0 * t; }), right, error());
+  EXPECT_NEAR(pushed([](auto t) {
+                const auto piece = floor(t);
+                return piece > 4.5 && piece < 5.5 ? 3.0 + 0.0 * t : 0.0 * t;
+              }),
+              right, error());
+}
+
+TEST_P(PushesByTime, FromOnePieceOfFloorOnAreFelt) {
+  EXPECT_NEAR(pushed([](auto t) { return floor(t) > 4.5 ? 3.0 + 0.0 * t : 0.0 * t; }),
+              3.0 * by_unit_force(5.0, 10.0), error());
+}
+
+/// 0 at both ends, and at t_end if it went on: neither the switch nor the end of a step shows it.
+TEST_P(PushesByTime, ByHalfASineAreFelt) {
+  constexpr double a = 3.0, w = 0.5, pi = std::numbers::pi, k = pi / w;
+  const auto push = [](auto t) { return t > a && t < a + w ? 3.0 * sin(k * (t - a)) : 0.0 * t; };
+  // x(a + w) and its rate, of x'' + x = 3 sin(k (t - a)) from rest, then a free vibration.
+  const double c = 3.0 / (1.0 - k * k), x = c * (std::sin(k * w) - k * std::sin(w)),
+               v = c * k * (std::cos(k * w) - std::cos(w)), rest = t_end - a - w;
+  EXPECT_NEAR(pushed(push), x * std::cos(rest) + v * std::sin(rest), error());
+}
+
+/// Between pieces in one line nothing changes; the piece behind these is not in line.
+TEST_P(PushesByTime, OfATableAreThoseOfEachOfItsPieces) {
+  const auto push = [](auto t) {
+    const auto piece = floor(t);
+    return piece > 6.5 ? 1.0 * (t - 7.0) : 0.0 * (t - piece);
+  };
+  const double rest = t_end - 7.0;  // x'' + x = t - 7 from rest
+  EXPECT_NEAR(pushed(push), rest - std::sin(rest), error());
+}
+
+TEST_P(PushesByTime, AreKeptInALedger) {
+  constexpr double period = 0.6;
+  double right = 0.0;
+  for (int k = 0; k * period < t_end; ++k)
+    right += by_unit_force(k * period, std::min((k + 0.5) * period, t_end));
+  EXPECT_NEAR(pushed([](auto t) { return fmod(t, period) < 0.5 * period ? 1.0 + 0.0 * t : 0.0 * t; }, true),
+              right, error());
+}
+
+class PotentialsOfTime : public PushesByTime {};
+INSTANTIATE_TEST_SUITE_P(Runs, PotentialsOfTime, both_steppers_at({1e-6, 1e-9}), tolerance_name);
+
+/// The energy jumps with the potential: by no work, and no law is broken.
+TEST_P(PotentialsOfTime, MaySwitchAtASampleOrBetween) {
+  for (const double at : {2.0, 2.001, 2.03}) {
+    Scene<2> scene;
+    const auto body = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}}, "body");
+    scene.add(potential(points(body), [at](auto t, auto r) {
+      return (t > at ? 2.0 : 0.5) * r.squaredNorm() + 0.0 * t;
+    }));
+    const auto run =
+        simulate(scene, {.t_end = 4.0, .tolerance = GetParam().tolerance, .stepper = GetParam().stepper});
+    const double rest = 4.0 - at;
+    EXPECT_NEAR(run.position(body, 100).x(),
+                std::cos(at) * std::cos(2.0 * rest) - 0.5 * std::sin(at) * std::sin(2.0 * rest), error());
+  }
+}
+
+}  // namespace
+}  // namespace dalembert::pushes_by_time_test
