@@ -37,7 +37,8 @@ double length_of_round_off(const Start& start, double step, double tolerance) {
   return start.scales.extended_by(start.q, still, step, tolerance).length;
 }
 
-/// A scene without a length of its own gets that of the path of a first step; where it rests, any length will do.
+/// A scene without a length of its own gets that of the path of a first step; where it rests, any length will
+/// do.
 Start first_start(const Problem& problem, std::span<const double> q, std::span<const double> v,
                   const Options& options, double nearest_contact) {
   Start start = consistent_start(problem, q, v, options, nearest_contact);
@@ -78,7 +79,8 @@ Opening open_run(const std::shared_ptr<const System>& stated, std::span<const do
   const double nearest = nearest_contact(*stated, {options.t_start, q, v});
   const Start free = first_start(Problem(stated->without(numbers)), q, v, options, nearest);
   const Instant at{options.t_start, free.q, free.v};
-  auto conditional = std::make_unique<ConditionalConstraints>(stated, free.scales, options.tolerance, at);
+  auto conditional = std::make_unique<ConditionalConstraints>(stated, free.scales, options.tolerance, at,
+                                                              options.t_end - options.t_start);
   Change change = conditional->resolve_start(at);
   const Problem problem(change.system);
   Start start = first_start(problem, change.q, change.v, options, nearest);

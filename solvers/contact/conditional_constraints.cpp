@@ -6,9 +6,10 @@
 namespace dalembert {
 
 ConditionalConstraints::ConditionalConstraints(const std::shared_ptr<const System>& stated,
-                                               const Scales& scales, double tolerance, const Instant& start)
+                                               const Scales& scales, double tolerance, const Instant& start,
+                                               double duration)
     : contacts_(std::make_shared<const System>(stated->without(stated->frictional_constraints())), scales,
-                tolerance, start, !stated->frictional_constraints().empty()),
+                tolerance, start, duration, !stated->frictional_constraints().empty()),
       friction_(stated, scales, tolerance, start) {}
 
 std::string ConditionalConstraints::label(std::size_t function) const {

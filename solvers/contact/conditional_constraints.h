@@ -17,7 +17,7 @@ class ConditionalConstraints {
   /// At a state that satisfies all constraints that always hold. Throws InconsistentStart where a gap is
   /// negative.
   ConditionalConstraints(const std::shared_ptr<const System>& stated, const Scales& scales, double tolerance,
-                         const Instant& start);
+                         const Instant& start, double duration);
 
   /// With those in force that are now, and the others not.
   [[nodiscard]] const std::shared_ptr<const System>& system() const {

@@ -68,13 +68,15 @@ double nearest_contact(const System& stated, const Instant& at) {
 }
 
 Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, double tolerance,
-                   const Instant& start, bool friction)
+                   const Instant& start, double duration, bool friction)
     : stated_(std::move(stated)),
       scales_(scales),
       accuracy_(tolerance),
+      duration_(duration),
       friction_(friction),
       g_(stated_->rows()),
-      psi_(stated_->rows()) {
+      psi_(stated_->rows()),
+      e_(stated_->evaluation()) {
   const Islands all = islands(*stated_);
   for (const std::size_t number : stated_->contacts()) {
     const Layout::Constraint& its = stated_->layout()->constraints[number];
@@ -115,12 +117,14 @@ void Contacts::find_gaps(const Instant& at) const {
 }
 
 /// Of constraint or inertia on any coordinate; never 0.
-/// On each coordinate the larger of its inertia and of what constraints exert there together.
+/// What constraints exert on each coordinate together, but for rods inside bodies, and the gradients.
 void Contacts::find_forces(const FlatSample& now) const {
   if (forces_at_ == now.time) return;
   forces_at_ = now.time;
+  system_->evaluate({now.time, now.q, now.v}, e_);
   forces_.assign(now.a.size(), 0.0);
   for (const Layout::Constraint& c : stated_->layout()->constraints) {
+    if (c.internal) continue;
     std::size_t k = stated_->row(c.own_rows().front()).front();
     for (const std::size_t slot : c.slots()) {
       const double force = std::abs(now.forces[slot]);
@@ -128,29 +132,29 @@ void Contacts::find_forces(const FlatSample& now) const {
       ++k;
     }
   }
-  for (std::size_t i = 0; i < now.a.size(); ++i) {
-    const double inertia = stated_->masses()[i] * std::abs(now.a[i]);
-    if (inertia > forces_[i]) forces_[i] = inertia;
-  }
 }
 
-/// A multiplier as large as the forces on what a contact touches: on the lightest of it, which must keep pace
-/// with the others. What is heavier, or elsewhere, tells nothing about how exactly it is known.
-double Contacts::own_force(const Contact& contact, const FlatSample& now) const {
+/// What is no pull yet: a part, as positions are known, of the forces on what a contact touches, as they act
+/// on its gap; and what would change the gap by no more than its round-off in all of the run. What acts
+/// elsewhere tells nothing about how exactly it is known.
+double Contacts::no_pull(const Contact& contact, const FlatSample& now) const {
   find_forces(now);
-  const auto lengths = scales_.lengths();
-  double acceleration = 0.0;
+  double net = 0.0, others = 0.0, inverse_mass = 0.0;
   for (const std::size_t k : stated_->row(contact.row)) {
     const std::size_t i = stated_->w_columns()[k];
-    acceleration = std::max(acceleration, forces_[i] / stated_->masses()[i] * lengths[i]);
+    const double w = e_.w[k], mass = stated_->masses()[i];
+    if (!std::isnan(now.a[i])) net += w * now.a[i];
+    others += std::abs(w) * forces_[i] / mass;
+    inverse_mass += w * w / mass;
   }
-  return multiplier_for(contact, acceleration);
+  if (!(inverse_mass > 0.0)) return 0.0;
+  return (accuracy_.of_positions() * (std::abs(net) + others) + no_acceleration(contact, now.q)) /
+         inverse_mass;
 }
 
 double Contacts::switching(std::size_t contact, const FlatSample& now) const {
   const Contact& c = contacts_[contact];
-  if (c.closed)
-    return c.sign * now.lambda[c.row] + accuracy_.of_positions() * own_force(c, now) + no_force(c);
+  if (c.closed) return c.sign * now.lambda[c.row] + no_pull(c, now);
   if (now.time == c.opened_at) return c.rate_at_opening;
   if (gaps_at_ != now.time) find_gaps({now.time, now.q, now.v});
   const double gap = c.sign * g_[c.row], rate = c.sign * psi_[c.row];
@@ -231,7 +235,7 @@ bool Contacts::open_pulling(const FlatSample& now, std::vector<EventRecord>& eve
   const auto pull = [&](const Contact& c) { return c.sign * now.lambda[c.row]; };
   const auto may_open = [&](const Contact& c) {
     return c.closed && (friction_ || !now.unique[c.row]) &&
-           pull(c) < -std::max(round_off() * largest, no_force(c));
+           pull(c) < -std::max(round_off() * largest, no_pull(c, now));
   };
   const auto most =
       std::ranges::min_element(contacts_, {}, [&](const Contact& c) { return may_open(c) ? pull(c) : 0.0; });
@@ -259,17 +263,10 @@ double Contacts::no_rate(const Contact& contact) const {
   return 2.0 * round_off() * scales_.speed() * contact.gradient;
 }
 
-/// Likewise accelerations, of what rests without a force, and the forces that give them.
-double Contacts::no_acceleration(const Contact& contact) const { return no_rate(contact) / scales_.time; }
-
-double Contacts::no_force(const Contact& contact) const {
-  return multiplier_for(contact, 2.0 * round_off() * scales_.speed() / scales_.time);
-}
-
-/// That accelerates the lightest of what it touches.
-double Contacts::multiplier_for(const Contact& contact, double acceleration) const {
-  const double force = lightest_mass(*stated_, scales_.lengths(), contact.row) * acceleration;
-  return contact.gradient > 0.0 ? force / contact.gradient : force;
+/// Accelerations that count as 0, of what rests without a force: they change a gap by its round-off in the
+/// run.
+double Contacts::no_acceleration(const Contact& contact, std::span<const double> q) const {
+  return no_gap(contact, q) / (duration_ * duration_);
 }
 
 /// The error of a step in a gap.
@@ -310,7 +307,8 @@ void Contacts::require_separation(const FlatSample& now) const {
       terms += std::abs(e.w[k] * now.a[i]) + std::abs(e.w[k] * e.force[i] / stated_->masses()[i]);
     }
     // Beside springs whose force is lost in round-off it is not known.
-    if (!(c.sign * acceleration < -accuracy_.of_accelerations() * terms - no_acceleration(c))) continue;
+    if (!(c.sign * acceleration < -accuracy_.of_accelerations() * terms - no_acceleration(c, now.q)))
+      continue;
     throw StepFailure{
         stated_->row_label(c.row) +
             " touches and would be penetrated: no forces of contact and friction were found that "

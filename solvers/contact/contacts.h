@@ -40,10 +40,10 @@ class Coupling;
 /// come to rest: that changes no later position.
 class Contacts {
  public:
-  /// At a state that satisfies all other constraints; whether there is friction that sticks and slides.
-  /// Throws InconsistentStart where a gap is negative.
+  /// At a state that satisfies all other constraints, of a run of this duration; whether there is friction
+  /// that sticks and slides. Throws InconsistentStart where a gap is negative.
   Contacts(std::shared_ptr<const System> stated, const Scales& scales, double tolerance, const Instant& start,
-           bool friction);
+           double duration, bool friction);
   /// The system with the closed contacts in force, and the others not.
   [[nodiscard]] const std::shared_ptr<const System>& system() const { return system_; }
   [[nodiscard]] const std::shared_ptr<const System>& stated() const { return stated_; }
@@ -118,7 +118,7 @@ class Contacts {
   [[nodiscard]] static bool among(const std::vector<std::size_t>& all, std::size_t contact);
   void find_gaps(const Instant& at) const;
   void find_forces(const FlatSample& now) const;
-  [[nodiscard]] double own_force(const Contact& contact, const FlatSample& now) const;
+  [[nodiscard]] double no_pull(const Contact& contact, const FlatSample& now) const;
   [[nodiscard]] std::vector<std::size_t> touching(const Instant& at,
                                                   const std::vector<std::size_t>& triggered) const;
   [[nodiscard]] std::vector<std::size_t> numbers(const std::vector<std::size_t>& chosen) const;
@@ -153,9 +153,7 @@ class Contacts {
   [[nodiscard]] double error_of_gap(const Contact& contact) const;
   [[nodiscard]] double no_gap(const Contact& contact, std::span<const double> q) const;
   [[nodiscard]] double no_rate(const Contact& contact) const;
-  [[nodiscard]] double no_acceleration(const Contact& contact) const;
-  [[nodiscard]] double no_force(const Contact& contact) const;
-  [[nodiscard]] double multiplier_for(const Contact& contact, double acceleration) const;
+  [[nodiscard]] double no_acceleration(const Contact& contact, std::span<const double> q) const;
   void open(Contact& contact, double t, double rate) const;
   static void close(Contact& contact, double t);
   void open(std::size_t contact, double t, double rate, Change& change);
@@ -164,6 +162,7 @@ class Contacts {
   std::shared_ptr<const System> stated_, system_;
   Scales scales_;
   Accuracy accuracy_;
+  double duration_;  // of the run
   bool friction_;
   std::vector<Contact> contacts_;
   std::vector<std::size_t> touching_at_start_;
@@ -172,7 +171,8 @@ class Contacts {
   mutable std::vector<double> g_, psi_;  // of all rows,
   static constexpr double never = std::numeric_limits<double>::quiet_NaN();
   mutable double gaps_at_ = never;      // at this time of the state watched
-  mutable std::vector<double> forces_;  // on coordinates, likewise
+  mutable System::Evaluation e_;        // likewise,
+  mutable std::vector<double> forces_;  // with forces on coordinates
   mutable double forces_at_ = never;
 };
 

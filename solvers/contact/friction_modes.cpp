@@ -82,7 +82,10 @@ void DryFriction::set_mode_by_slip(Rough& rough, const std::vector<std::size_t>&
   const double none = no_slip(rough);
   const bool stops = due && slid && (rough.rows == 1 || slow),
              moves = slid ? u.dot(rough.direction) > none : rough.shared && u.norm() > none;
-  if (stops || (u.norm() <= std::max(rough.still, none) && !moves)) {
+  // What begins is known as starts are, not as well as a step has kept the rest of what stuck.
+  const double still =
+      rough.mode == Mode::absent ? std::min(rough.still, start_tolerance * rough.speed) : rough.still;
+  if (stops || (u.norm() <= std::max(still, none) && !moves)) {
     rough.at_rest = true;
     rough.reached = slid ? just : due;
     rough.mode = Mode::sticks;
