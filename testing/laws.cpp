@@ -32,8 +32,7 @@ VectorXd as_vector(std::span<const double> x) {
 
 /// What the equations give at one instant.
 struct Values {
-  VectorXd F, g, psi, gamma, forces;  // forces: F + W^T lambda
-  MatrixXd W;
+  VectorXd F, g, psi, gamma, forces, w;  // forces: F + W^T lambda; w: W in the order of its pattern
 };
 using Part = VectorXd Values::*;
 constexpr std::array<Part, 4> parts = {&Values::F, &Values::g, &Values::psi, &Values::forces};
@@ -96,7 +95,8 @@ class DerivativeCheck {
     find_sizes();
     auto d = system_.linearisation();
     system_.linearise({t_, flat(q_), flat(v_)}, flat(lambda_), d);
-    const MatrixXd psi_q = by_rows(d.psi_q), stiffness = by_entries(system_.stiffness_pattern(), d.stiffness),
+    const MatrixXd W = by_rows(flat(now_.w)), psi_q = by_rows(d.psi_q),
+                   stiffness = by_entries(system_.stiffness_pattern(), d.stiffness),
                    damping = by_entries(system_.damping_pattern(), d.damping);
     const Index holonomic = as_index(system_.holonomic_rows());
     const std::vector<char> angles = system_.angles();
@@ -108,12 +108,12 @@ class DerivativeCheck {
       const VectorXd e = VectorXd::Unit(q_.size(), j);
       const auto moved = stencils([&](double s) { return values(t_, q_ + s * e, v_, lambda_); },
                                   angle ? 1.0 : far, angle ? 1.0 : length);
-      compare(moved, &Values::g, now_.W.col(j).head(holonomic), "W = dg/dq", j);
+      compare(moved, &Values::g, W.col(j).head(holonomic), "W = dg/dq", j);
       compare(moved, &Values::psi, psi_q.col(j), "dpsi/dq", j);
       compare(moved, &Values::forces, stiffness.col(j), "d(F + W^T lambda)/dq", j);
       const double unit = angle ? turning : speed;
       const auto kicked = stencils([&](double s) { return values(t_, q_, v_ + s * e, lambda_); }, unit, unit);
-      compare(kicked, &Values::psi, now_.W.col(j), "W = dpsi/dv", j);
+      compare(kicked, &Values::psi, W.col(j), "W = dpsi/dv", j);
       compare(kicked, &Values::F, damping.col(j), "dF/dv", j);
     }
     MatrixXd by_lambda = MatrixXd::Zero(q_.size(), lambda_.size());
@@ -155,15 +155,18 @@ class DerivativeCheck {
     std::vector<double> gamma(system_.rows());
     system_.evaluate_with_bias(at, e, gamma);
     system_.add_multiplier_forces(at, flat(lambda), e.force);
-    const MatrixXd W = by_rows(e.w);
     const VectorXd F = as_vector(e.force);
-    return {F, as_vector(e.g), as_vector(e.psi), as_vector(gamma), F + W.transpose() * lambda, W};
+    VectorXd forces = F;
+    for (std::size_t r = 0; r < system_.rows(); ++r)
+      for (const std::size_t k : system_.row(r))
+        forces[as_index(system_.w_columns()[k])] += e.w[k] * lambda[as_index(r)];
+    return {F, as_vector(e.g), as_vector(e.psi), as_vector(gamma), forces, as_vector(e.w)};
   }
 
   void check_bits() {
     const Values again = values(t_, q_, v_, lambda_);
     if (now_.F == again.F && now_.g == again.g && now_.psi == again.psi && now_.gamma == again.gamma &&
-        now_.W == again.W)
+        now_.w == again.w)
       return;
     add("a second evaluation gives other numbers");
   }
@@ -238,8 +241,9 @@ class DerivativeCheck {
   [[nodiscard]] static std::vector<Stencil> stencils(const std::function<Values(double)>& f, double largest,
                                                      double smallest) {
     std::vector<Stencil> all;
+    constexpr double least = std::numeric_limits<double>::min();
     std::exception_ptr fault;
-    for (double h = 1e-9 * smallest; h < 0.5 * largest; h *= 10.0) {
+    for (double h = std::max(least, 1e-9 * smallest); h < 0.5 * largest; h *= 10.0) {
       try {
         all.push_back({h, {f(-2.0 * h), f(-h), f(h), f(2.0 * h)}});
       } catch (const EquationFault&) {
