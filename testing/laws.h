@@ -19,8 +19,9 @@ namespace dalembert {
 ///   W = dg/dq = dpsi/dv,   psi = dg/dt,   gamma = dpsi/dt at constant v,   d(F + W^T lambda)/dq,   dF/dv,
 ///   dF/dlambda
 ///
-/// And a second evaluation gives the same bits. An equation breaks them that is not smooth there, that hides
-/// a number from its derivatives (as by a cast to double), or that has a memory.
+/// each to round-off in the terms that are met, in whatever units and wherever the scene is. And a second
+/// evaluation gives the same bits. An equation breaks them that is not smooth there, that hides a number from
+/// its derivatives (as by a cast to double), or that has a memory.
 template <int D>
 [[nodiscard]] std::string broken_laws(const Scene<D>& scene);
 

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <optional>
+#include <sstream>
 
 namespace dalembert {
 
@@ -31,9 +33,32 @@ std::vector<std::size_t> told_apart(const Record& run) {
   return all;
 }
 
+[[noreturn]] void beyond_single(const std::string& what, double x) {
+  std::ostringstream out;
+  out << "write_gltf: " << what << ", " << x
+      << ", is beyond the single precision of glTF, from 1e-38 to 3e38; choose other units";
+  throw InvalidArgument(out.str());
+}
+
+/// Of what may not be rounded to 0 either.
+void require_single(const std::string& what, double x) {
+  if (x != 0.0 && !std::isnormal(static_cast<float>(x))) beyond_single(what, x);
+}
+
+void require_finite(const MovingSolid& its) {
+  const auto require = [&its](const char* what, const std::vector<Eigen::Vector3d>& all) {
+    for (const Eigen::Vector3d& one : all)
+      for (const double x : one)
+        if (!std::isfinite(static_cast<float>(x))) beyond_single(what + (" of \"" + its.name + '"'), x);
+  };
+  require("a coordinate", its.place);
+  require("the size", its.size);
+}
+
 class AnimatedRun {
  public:
   explicit AnimatedRun(const Record& run) : run_(run), layout_(*run.layout), samples_(told_apart(run)) {
+    require_single("the length of the run", run.times.back() - run.times.front());
     for (const std::size_t i : samples_)
       result.times.push_back(static_cast<float>(run.times[i] - run.times.front()));
     result.name = layout_.scene;
@@ -42,6 +67,7 @@ class AnimatedRun {
     result.solids = {unit_sphere(), unit_cylinder(), unit_cube(), unit_sphere()};
     result.colours = {{0.0F, 0.17F, 0.45F}, {0.35F, 0.35F, 0.38F}, {0.85F, 0.45F, 0.1F}, {0.1F, 0.1F, 0.1F}};
     extent_ = extent();
+    require_single("the size of the scene", extent_);
     const auto bodies = body_boxes(layout_, run.sample(0));
     add_particles(bodies);
     for (const BodyBox& body : bodies) add_body(body);
@@ -49,6 +75,7 @@ class AnimatedRun {
       if (!constraint.internal) add_lines(constraint.name, constraint.drawing);
     for (const auto& force : layout_.forces) add_lines(force.name, force.drawing);
     leave_out_unused();
+    std::ranges::for_each(result.moving, require_finite);
   }
 
   Animation result{};

@@ -17,11 +17,25 @@ std::string quoted(const std::string& name) {
   return text + '"';
 }
 
+/// In one line, as the comment that it stands in must be.
+std::string in_one_line(const std::string& text) {
+  std::string line;
+  for (const char c : text) {
+    if (c == '\n')
+      line += "\\n";
+    else if (c == '\r')
+      line += "\\r";
+    else
+      line += c;
+  }
+  return line;
+}
+
 void write_preamble(std::ostream& out, const Record& record) {
-  out << "# dalembert " << DALEMBERT_VERSION << ", scene \"" << record.layout->scene << "\", stepper "
-      << record.stepper << ", tolerance " << record.tolerance << '\n'
+  out << "# dalembert " << DALEMBERT_VERSION << ", scene \"" << in_one_line(record.layout->scene)
+      << "\", stepper " << record.stepper << ", tolerance " << record.tolerance << '\n'
       << "# sign convention: M q'' = F + Z, force of constraint Z = +W^T lambda; units: the scene's own\n"
-      << "# " << record.statistics.report() << '\n';
+      << "# " << in_one_line(record.statistics.report()) << '\n';
 }
 
 }  // namespace

@@ -175,12 +175,20 @@ class Approach {
     return most;
   }
 
+  /// Up to when the errors of a run are; of two that are not known to the end the longer is the better.
+  [[nodiscard]] double known_until(const TwoRuns& runs) const {
+    return run_of_first_.stopped.empty() ? runs.known_until()
+                                         : std::min(runs.known_until(), run_of_first_.reached);
+  }
+
   double keep_if_best() {
     TwoRuns runs(run_of_first_.record, better_.record,
                  run_of_first_.stopped.empty() ? better_.stopped : run_of_first_.stopped);
     excess_ = excess(runs);
-    if (!best_ || excess_ < best_excess_) {
+    const double known = known_until(runs);
+    if (!best_ || excess_ < best_excess_ || (excess_ == best_excess_ && known > best_known_)) {
       best_excess_ = excess_;
+      best_known_ = known;
       best_.emplace(std::move(runs));
     }
     return excess_;
@@ -243,7 +251,7 @@ class Approach {
     if (outcome.met) return out.str();
     if (std::isfinite(best_excess_)) out << ": the error is " << best_excess_ << " times as large";
     if (!best_->reservation().empty()) out << ": " << best_->reservation();
-    out << "; no tighter tolerance gives less";
+    out << "; of the tolerances down to " << options_.tolerance << " it is the best";
     return out.str();
   }
 
@@ -253,7 +261,7 @@ class Approach {
   Options options_;
   FinishedRun run_of_first_, better_;
   std::optional<TwoRuns> best_;
-  double excess_ = 0.0, best_excess_ = 0.0;
+  double excess_ = 0.0, best_excess_ = 0.0, best_known_ = 0.0;
   double excess_before_ = std::numeric_limits<double>::infinity(), tolerance_before_ = 0.0;
   int attempts_ = 0;
 };

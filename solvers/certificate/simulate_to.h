@@ -36,7 +36,7 @@ struct RequestOutcome {
 
 template <int D>
 struct SimulatedTo {
-  Certificate<D> certificate;  ///< of the run that meets the request, or else the best one
+  Certificate<D> certificate;  ///< of the run that meets the request, or else the best one, see below
   RequestOutcome outcome;
 
   [[nodiscard]] const Trajectory<D>& run() const& { return certificate.run(); }
@@ -45,8 +45,9 @@ struct SimulatedTo {
 
 /// Chooses the stepper and the tolerance so that the certificate of a run meets the request: explicit unless
 /// the scene is stiff, first a tolerance as errors usually are, then one by the errors that were found. Each
-/// is certified by a run at a thirtieth of its tolerance; a more accurate run serves as long as it is. Throws
-/// InvalidArgument for a request that makes no sense, else what `simulate` throws.
+/// is certified by a run at a thirtieth of its tolerance; a more accurate run serves as long as it is. The
+/// best run is the one that errs least; where none is known to the end, as in chaos, the one that is known
+/// longest. Throws InvalidArgument for a request that makes no sense, else what `simulate` throws.
 template <int D>
 [[nodiscard]] SimulatedTo<D> simulate_to(const Scene<D>& scene, const Request& request,
                                          const std::vector<Event<D>>& events = {});

@@ -187,8 +187,8 @@ void TwoRuns::find_horizon() {
   why << "the runs have parted, by more than a tenth of the scene's length: within that time errors have "
          "grown "
       << parted / run_->statistics.accuracy
-      << " times. Ask for a tighter tolerance; where growth is exponential, as in chaos, a hundredth reaches "
-         "little further";
+      << " times. Where growth is exponential, as in chaos, a hundredth of the tolerance reaches little "
+         "further";
   doubt_from(horizon, Doubt::horizon, why.str());
 }
 

@@ -55,7 +55,7 @@ MatrixXd spin_weights(const MatrixXd& arms, const Vector3d& axis) {
 }  // namespace
 
 Symmetries::Symmetries(const Problem& problem, const Start& start, double time)
-    : units_(static_cast<Index>(start.q.size())) {
+    : units_(static_cast<Index>(start.q.size())), parts_(problem.islands()) {
   for (Index i = 0; i < units_.size(); ++i) units_[i] = start.scales.unit(static_cast<std::size_t>(i));
   add_parts(problem, start);
   add_bodies(problem.system(), start);
@@ -264,17 +264,24 @@ MatrixXd Symmetries::commuting(const VectorXd& q, const RotatingFrame& frame) co
 }
 
 MatrixXd Symmetries::displacements(const VectorXd& q, const MatrixXd& some) const {
-  const MatrixXd X = dense::product(fields(q), some), coefficients = dense::product(basis_, some);
+  const MatrixXd coefficients = dense::product(basis_, some);
+  MatrixXd X = dense::product(fields(q), some);
   // Differences are known to round-off of the positions.
   const double rounding = roundings_of_a_sum * epsilon / rank_threshold;
   VectorXd sizes = VectorXd::Zero(q.size());
   for (const Generator& g : generators_)
     sizes += RotatingFrame::Sparse(g.A.cwiseAbs()) * ((q - g.c).cwiseAbs() + rounding * q.cwiseAbs()) +
              g.b.cwiseAbs();
-  MatrixXd least = MatrixXd::Zero(X.rows(), X.cols());
-  for (Index k = 0; k < X.cols(); ++k)
-    least.col(k) = rank_threshold * coefficients.col(k).cwiseAbs().maxCoeff() * sizes;
-  return (X.array().abs() > least.array()).select(X, 0.0);
+  for (Index k = 0; k < X.cols(); ++k) {
+    const double least = rank_threshold * coefficients.col(k).cwiseAbs().maxCoeff();
+    std::vector<char> displaced(parts_.count);
+    const auto part = [this](Index i) { return parts_.of_coordinate[static_cast<std::size_t>(i)]; };
+    for (Index i = 0; i < X.rows(); ++i)
+      if (std::abs(X(i, k)) > least * sizes[i]) displaced[part(i)] = 1;
+    for (Index i = 0; i < X.rows(); ++i)
+      if (!displaced[part(i)]) X(i, k) = 0.0;
+  }
+  return X;
 }
 
 MatrixXd Symmetries::fields(const VectorXd& q) const {

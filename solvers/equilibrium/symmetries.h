@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/core/analysis/islands.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/equilibrium/rotating_frame.h>
 #include <dalembert/solvers/linear/problem.h>
@@ -41,7 +42,9 @@ class Symmetries {
   [[nodiscard]] Eigen::MatrixXd commuting(const Eigen::VectorXd& q, const Eigen::VectorXd& y) const;
   /// The same of a frame, which need not be a symmetry.
   [[nodiscard]] Eigen::MatrixXd commuting(const Eigen::VectorXd& q, const RotatingFrame& frame) const;
-  /// X(q) of some coefficients, columns, with 0 for what is no more than `rank_threshold` of its terms.
+  /// X(q) of some coefficients, columns, with 0 in uncoupled parts where it is no more than `rank_threshold`
+  /// of its terms. Within a part that is displaced small numbers are as right as large ones: of a heavy body
+  /// beside the centre of mass, about which a light one makes it turn.
   [[nodiscard]] Eigen::MatrixXd displacements(const Eigen::VectorXd& q, const Eigen::MatrixXd& some) const;
   /// X_k(q) and A_k x of each, columns.
   [[nodiscard]] Eigen::MatrixXd fields(const Eigen::VectorXd& q) const;
@@ -67,6 +70,7 @@ class Symmetries {
   std::vector<Generator> generators_;
   Eigen::MatrixXd basis_;
   Eigen::VectorXd units_;  // of the coordinates
+  Islands parts_;
 };
 
 /// An orthonormal basis of what some columns span, each of any length.

@@ -3,6 +3,7 @@
 #include <dalembert/solvers/erk/runge_kutta.h>
 
 #include <cmath>
+#include <limits>
 
 namespace dalembert {
 
@@ -11,6 +12,10 @@ namespace {
 /// Steps of h rho beyond this are limited by stability: |R(iy)| exceeds 1 by a thousandth at
 /// y = 3.3, by a twentieth at 4.4, and |R(-x)| exceeds 1 at x = 5.9 (from the table of the pair).
 constexpr double stable = 3.3;
+
+/// Newton's iteration converges if over its first step the gradients change by no more than this part
+/// (Kantorovich); after a step of the method they change by the part that its error is of their radius.
+constexpr double most_turned = 0.5;
 
 /// By which a combination of stages amplifies what each has of its own by chance.
 double amplification(const std::array<double, verner87.stages>& weights) {
@@ -156,7 +161,9 @@ double ErkStepper::RungeKutta::error_of_compliant_forces(std::span<const double>
   return most;
 }
 
-/// Projects `next` onto the constraint manifold. Returns the correction over the tolerance.
+/// Projects `next` onto the constraint manifold. Returns the correction over the tolerance; infinite where
+/// one step of Newton's does not say where the manifold is: a state beyond the apex of a cone is moved onto
+/// it.
 double ErkStepper::RungeKutta::project() {
   const auto [dq, dv] = halves(difference);
   const auto [v, v_dot] = halves(next.va);
@@ -165,6 +172,7 @@ double ErkStepper::RungeKutta::project() {
     dv[i] = -v[i];
   }
   require(manifold.project(next.t, next.q, v, v_dot));
+  if (manifold.turned() > most_turned) return std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < n; ++i) {
     dq[i] += next.q[i];
     dv[i] += v[i];

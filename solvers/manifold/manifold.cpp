@@ -51,6 +51,7 @@ Manifold::Manifold(const Problem& problem, const ActiveRows& rows, std::vector<d
       redundant_(rows.size() < system_->rows_in_force()) {
   x_.resize(matrix_.size());
   q_before_.resize(system_->coordinates());
+  w_before_.resize(e_.w.size());
   if (system_->has_multiplier_forces()) friction_.emplace(problem, rows);
   if (!system_->compliant()) return;
   s_.resize(system_->rows(), 0.0);
@@ -286,13 +287,31 @@ bool Manifold::accelerate(const Instant& at, std::span<double> a) {
   return solve_for_accelerations(at, a);
 }
 
+double Manifold::turned_since(std::span<const double> w) const {
+  double most = 0.0;
+  for (std::size_t k = 0; k < rows_.holonomic; ++k) {
+    const std::size_t r = rows_.rows[k];
+    if (system_->law(r).compliant()) continue;
+    double change = 0.0;
+    for (const std::size_t j : system_->row(r)) {
+      const double slope = (e_.w[j] - w[j]) / lengths_[system_->w_columns()[j]];
+      change += slope * slope;
+    }
+    most = std::max(most, std::sqrt(change) / gradient_length(*system_, e_.w, lengths_, r));
+  }
+  return most;
+}
+
 bool Manifold::project(double t, std::span<double> q, std::span<double> v, std::span<double> a) {
   evaluate({t, q, v});
+  turned_ = 0.0;
   if (rows_.holonomic > 0) {
     if (!factorise()) return false;
+    std::ranges::copy(e_.w, w_before_.begin());
     solve_for_position_step(q.size());
     for (std::size_t k = 0; k < q.size(); ++k) q[k] += x_[k];
     evaluate({t, q, v});
+    turned_ = turned_since(w_before_);
   }
   if (!factorise()) return false;
   correct_velocities(v);

@@ -81,6 +81,8 @@ class Manifold {
   /// After a step: one step of (1), then (2) and (3) with the matrix of the new positions. What one
   /// step of (1) leaves is the square of what it found. False if singular.
   [[nodiscard]] bool project(double t, std::span<double> q, std::span<double> v, std::span<double> a);
+  /// How far a gradient changed in that step of (1), relative to itself: most among the rigid rows in use.
+  [[nodiscard]] double turned() const { return turned_; }
 
   /// The sine of the smallest angle that a row in use makes with others, in the metric of the masses: at a
   /// state, and where the matrix was factored last. 0 where rows depend on each other. Where the matrix does
@@ -135,6 +137,7 @@ class Manifold {
   void use(ActiveRows rows);
   [[nodiscard]] bool factorise_those_in_use();
   [[nodiscard]] bool exchange_rows(double own);
+  [[nodiscard]] double turned_since(std::span<const double> w) const;
   [[nodiscard]] bool factorise();
   void add_to_multipliers(const std::vector<double>& from, double fraction, std::vector<double>& to);
   void solve_for_position_step(std::size_t n);
@@ -147,7 +150,7 @@ class Manifold {
   ActiveRows rows_;
   std::vector<double> lengths_;
   System::Evaluation e_;
-  std::vector<double> gamma_, x_, q_before_;
+  std::vector<double> gamma_, x_, q_before_, w_before_;
   CompliantMultipliers multipliers_, multipliers_before_;
   std::vector<double> s_, reflected_;
   bool given_multipliers_ = false;
@@ -156,6 +159,7 @@ class Manifold {
   WeakestDirection weakest_;
   std::optional<MultiplierForceSolver> friction_;  // if any force reads a multiplier
   bool redundant_;
+  double turned_ = 0.0;
   double sine_ = 1.0, best_sine_ = 0.0;  // the latter of any rows, where they were compared last
   long evaluations_ = 0, exchanges_ = 0, past_factorisations_ = 0;  // the last by rows that are out of use
 };

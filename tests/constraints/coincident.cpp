@@ -1,13 +1,20 @@
 #include "dalembert/constraints/coincident.h"
 
 #include "../equations.h"
+#include <dalembert/constraints/distance.h>
+#include <dalembert/core/errors.h>
 #include <dalembert/solvers/simulation.h>
 
 #include <Eigen/Core>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace dalembert::coincident_test {
 namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 constexpr double round_off = 16.0 * std::numeric_limits<double>::epsilon();
 
@@ -62,6 +69,20 @@ TEST(Coincident, CarriesAParticleAlongADrivenPath) {
     EXPECT_LE((run.position(load, i) - Vec<2>(t * t, 0.0)).norm(), 4.0 * round_off);
     EXPECT_LE((run.velocity(load, i) - Vec<2>(2.0 * t, 0.0)).norm(), 4.0 * round_off);
     EXPECT_LE((run.constraint_force(pin, load, i) - Vec<2>(6.0, 0.0)).norm(), 6.0 * round_off);
+  }
+}
+
+/// Of r - r nothing is left, whatever the scene is redundant in besides.
+TEST(Coincident, OfOneParticleTwiceIsNamed) {
+  for (const bool redundant : {false, true}) {
+    Scene<2> scene;
+    const auto a = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
+    scene.add(Coincident{a, a}, "pin");
+    if (redundant)
+      for (int i = 0; i < 2; ++i) scene.add(Distance{Fixed<2>{}, a, 1.0});
+    EXPECT_THAT([&] { (void)simulate(scene, {.t_end = 1.0}); },
+                ThrowsMessage<InconsistentStart>(
+                    AllOf(HasSubstr("Coincident \"pin\""), HasSubstr("same point twice"))));
   }
 }
 

@@ -153,5 +153,14 @@ TEST(Holonomic, AnEquationThatDependsOnNothingIsNamed) {
       ThrowsMessage<InconsistentStart>(AllOf(HasSubstr("Holonomic \"nothing\""), HasSubstr("no gradient"))));
 }
 
+TEST(Holonomic, BetweenOneParticleAndItselfIsNamed) {
+  Scene<2> scene;
+  const auto p = scene.add_particle({.mass = 1.0});
+  scene.add(holonomic(points(p, p), [](auto r, auto s) { return r.x() - s.x(); }), "slip");
+  EXPECT_THAT([&] { (void)simulate(scene, {.t_end = 1.0}); },
+              ThrowsMessage<InconsistentStart>(
+                  AllOf(HasSubstr("Holonomic \"slip\""), HasSubstr("same point twice"))));
+}
+
 }  // namespace
 }  // namespace dalembert::holonomic_test

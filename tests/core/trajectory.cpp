@@ -238,6 +238,21 @@ TEST(Trajectory, NamesWithACommaAreQuotedInCsv) {
   EXPECT_THAT(out.str(), HasSubstr("t,\"upper, left.x\",\"upper, left.y\","));
 }
 
+/// Whatever the scene is called, lines before the header begin with #, by which readers know them.
+TEST(Trajectory, LineBreaksInTheSceneStayInTheCommentOfCsv) {
+  Scene<2> scene("two\nlines\r");
+  scene.add_particle({.mass = 1.0}, "p");
+  Record r;
+  r.layout = scene.system().layout();
+  const std::vector<double> two{0.0, 0.0};
+  r.append({0.0, two, two, two, {}, {}, 0.0});
+  std::ostringstream out;
+  Trajectory<2>(std::make_shared<const Record>(std::move(r))).write_csv(out);
+  EXPECT_THAT(out.str(), HasSubstr("scene \"two\\nlines\\r\", stepper"));
+  std::istringstream lines(out.str().substr(0, out.str().find("\nt,") + 1));
+  for (std::string line; std::getline(lines, line);) EXPECT_EQ(line.substr(0, 2), "# ");
+}
+
 TEST(Record, ReservedRoomIsNotLeftWhileAppending) {
   Record r;
   const std::vector<double> q(4), v(4), a(4), lambda(3), forces(6);

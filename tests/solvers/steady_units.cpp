@@ -60,6 +60,34 @@ TEST(Steady, EquilateralMotionHasRouthsEigenvaluesInAnyUnitOfLength) {
   }
 }
 
+/// A body at Lagrange's point below Routh's limit, of 1e-12 to 1e-6 of the sum: +-i three times, and beside
+/// these only vibrations. The others turn about the centre of mass by as little as the light one weighs,
+/// which is part of their displacement all the same.
+TEST(Steady, LightBodyAtLagrangesPointMakesNothingGrow) {
+  for (const double mu : {0.001, 0.01, 0.03, 0.038}) {
+    for (const double light : {1e-12, 1e-11, 1e-10, 3e-10, 1e-9, 3e-9, 1e-8, 1e-6}) {
+      const std::array<double, 3> m{1.0 - mu, mu, light};
+      const std::array<Vec<2>, 3> r{Vec<2>(-mu, 0.0), Vec<2>(1.0 - mu, 0.0),
+                                    Vec<2>(0.5 - mu, std::sqrt(0.75))};
+      const Vec<2> centre = light / (1.0 + light) * r[2];
+      const double rate = std::sqrt(1.0 + light);
+      Scene<2> scene("Trojan");
+      std::vector<Particle<2>> p;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec<2> d = r[i] - centre;
+        p.push_back(
+            scene.add_particle({.mass = m[i], .position = d, .velocity = rate * Vec<2>(-d.y(), d.x())}));
+      }
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < i; ++j)
+          scene.add(potential(points(p[i], p[j]),
+                              [k = m[i] * m[j]](auto x, auto y) { return -k / (x - y).norm(); }));
+      const auto modes = normal_modes(scene, steady(scene));
+      EXPECT_NE(modes.stability(), Stability::unstable) << mu << ' ' << light << modes.describe();
+    }
+  }
+}
+
 const std::vector<Place> places{{1.0, 1.0, 0.0},  {1e-8, 1.0, 0.0}, {1e9, 1.0, 0.0}, {1e10, 1e7, 0.0},
                                 {1.0, 1e-6, 0.0}, {1.0, 1e6, 0.0},  {1.0, 1.0, 1e3}, {1.0, 1.0, 1e4}};
 /// Away from the origin the positions' own, some thousand of them in terms a hundred times as large as what

@@ -21,6 +21,7 @@ namespace dalembert::write_gltf_test {
 namespace {
 
 using boost::property_tree::ptree;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
@@ -211,6 +212,23 @@ TEST(WriteGltf, RefusesAnotherEndingAndAFolderThatIsNotThere) {
   EXPECT_THAT([&] { write_gltf(run, "run.gltf"); }, ThrowsMessage<InvalidArgument>(HasSubstr(".glb")));
   EXPECT_THAT([&] { write_gltf(run, "no-such-folder/run.glb"); },
               ThrowsMessage<Error>(HasSubstr("no-such-folder")));
+}
+
+/// From 1e-38 to 3e38: JSON has no infinite numbers, and of a scene of 1e-60 all would be 0.
+TEST(WriteGltf, NamesWhatIsBeyondSinglePrecision) {
+  const auto write = [](double length, double speed, double t_end) {
+    Scene<2> scene;
+    scene.add_particle({.mass = 1.0, .position = {length, 0.0}, .velocity = {speed, 0.0}}, "far");
+    write_gltf(simulate(scene, {.t_end = t_end, .samples = 3}), file_of_test());
+  };
+  EXPECT_THAT([&] { write(1e60, 0.0, 1.0); },
+              ThrowsMessage<InvalidArgument>(
+                  AllOf(HasSubstr("\"far\", 1e+60"), HasSubstr("single precision"), HasSubstr("units"))));
+  EXPECT_THAT([&] { write(0.0, 1e-60, 1.0); },
+              ThrowsMessage<InvalidArgument>(HasSubstr("size of the scene")));
+  EXPECT_THAT([&] { write(0.0, 1e-60, 1e60); },
+              ThrowsMessage<InvalidArgument>(HasSubstr("length of the run")));
+  write(1.0, 1e-60, 1.0);  // rests, for single precision
 }
 
 }  // namespace
