@@ -3,7 +3,8 @@
 
 #include <fstream>
 #include <limits>
-#include <ostream>
+#include <locale>
+#include <sstream>
 
 namespace dalembert {
 
@@ -40,20 +41,24 @@ void write_preamble(std::ostream& out, const Record& record) {
 
 }  // namespace
 
-void Record::write_csv(std::ostream& out) const {
+void Record::write_csv(std::ostream& to) const {
+  std::ostringstream out;  // a point is a point, whatever the locale and the format of the stream
+  out.imbue(std::locale::classic());
   write_preamble(out, *this);
-  const auto digits = out.precision(std::numeric_limits<double>::max_digits10);
+  out.precision(std::numeric_limits<double>::max_digits10);
   const std::vector<Column> all = columns(*this);
   const auto line = [&](const auto& write) {
     for (std::size_t k = 0; k < all.size(); ++k) write(k == 0 ? out : out << ',', all[k]);
     out << '\n';
   };
-  line([](std::ostream& to, const Column& column) { to << quoted(column.name); });
+  line([](std::ostream& into, const Column& column) { into << quoted(column.name); });
   for (std::size_t i = 0; i < times.size(); ++i) {
     const FlatSample now = sample(i);
-    line([&now](std::ostream& to, const Column& column) { to << column.read(now); });
+    line([&now](std::ostream& into, const Column& column) { into << column.read(now); });
+    to << out.str();
+    out.str({});
   }
-  out.precision(digits);
+  to << out.str();
 }
 
 void Record::write_csv(const std::string& path) const {

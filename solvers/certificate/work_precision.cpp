@@ -8,7 +8,9 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <locale>
 #include <ostream>
+#include <sstream>
 
 namespace dalembert {
 
@@ -92,13 +94,16 @@ std::vector<WorkPrecisionPoint> detail::work_precision_curve(
   return points;
 }
 
-void WorkPrecision::write_csv(std::ostream& out) const {
+void WorkPrecision::write_csv(std::ostream& to) const {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
   out << "stepper,tolerance,steps,evaluations,error_position,error_force,error_event,run_time_s\n";
   for (const WorkPrecisionPoint& p : points) {
     out << p.stepper << ',' << p.tolerance << ',' << p.statistics.steps << ',' << p.statistics.evaluations
         << ',' << p.position_error << ',' << p.force_error << ',' << p.event_error << ','
         << p.statistics.run_time << '\n';
   }
+  to << out.str();
 }
 
 void WorkPrecision::write_plot(std::ostream& out) const {

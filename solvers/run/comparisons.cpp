@@ -295,7 +295,7 @@ Comparisons::Switch Comparisons::behind(const Root& root, double step) {
 }
 
 /// Whether the accelerations on two sides differ there by more than the tolerance of speeds in the scene's
-/// own time; or the force of a constraint that holds only as its force lets it.
+/// own time; or the forces of constraint, which events and conditions read.
 bool Comparisons::differ(const Motion& there, const Branches::Sides& before, const Branches::Sides& behind) {
   Motion one = there, other = there;
   if (!accelerate(one, before)) return true;
@@ -308,8 +308,9 @@ bool Comparisons::differ(const Motion& there, const Branches::Sides& before, con
     if (!(effect <= scales_.velocity_error(i, there.v[i], tolerance_))) return true;
   }
   const double least = tolerance_ * std::max(largest(lambda), largest(lambda_));
-  return std::ranges::any_of(conditional_,
-                             [&](std::size_t r) { return !(std::abs(lambda_[r] - lambda[r]) <= least); });
+  for (std::size_t r = 0; r < lambda.size(); ++r)
+    if (!(std::abs(lambda_[r] - lambda[r]) <= least)) return true;
+  return false;
 }
 
 /// Whether the step, which was taken on other sides, goes wrong on those that hold from a switch `until` the
