@@ -15,7 +15,7 @@ namespace dalembert {
 template <Point P, Point From, Point To>
 struct KnifeEdge {
   static_assert(P::dimension == 2, "KnifeEdge is planar");
-  static constexpr std::string_view kind = "Heading";
+  static constexpr std::string_view kind = "KnifeEdge";
   static constexpr std::string_view meaning = "sideways force on the point; > 0 to the left";
   static constexpr std::string_view singular = "the two points of its direction coincide";
   static constexpr bool velocity_level = true;

@@ -257,8 +257,8 @@ std::vector<double> Recovery::stretches_to_come(const OutputState& m) const {
 /// The force of a spring of stiffness 1/C is off by dx/C where positions are off by dx. That is a rounding of
 /// what was stated; each step adds some more, and as nothing damps the vibration they wander, sqrt(n) steps'
 /// far after n steps. As elsewhere a force may be wrong by the root of the tolerance, relative to the largest
-/// that there is; at the start, where there may be none yet, also to what its own will be. Where nothing acts and
-/// nothing moves there is none, and each is 0 to the rounding of its own stretch.
+/// that there is; at the start, where there may be none yet, also to what its own will be. Where nothing acts
+/// and nothing moves there is none, and each is 0 to the rounding of its own stretch.
 void Recovery::mark_compliant(const Manifold& manifold, OutputState& m, long steps) const {
   const auto& w = manifold.equations().w;
   const double dx =

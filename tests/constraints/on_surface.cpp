@@ -113,6 +113,10 @@ TEST(OnSurface, RefusesASurfaceThatMakesNoSense) {
   }
   expect_refused(Cylinder{zero, zero, 1.0}, "axis must be finite and not zero");
   expect_refused(Cone{zero, zero, 0.5}, "axis must be finite and not zero");
+  const auto turning = [](auto t) { return t; };
+  expect_refused(RotatingAbout{Sphere<3>{zero, 1.0}, Axis{.direction = zero}, turning},
+                 "axis must be finite and not zero");
+  expect_refused(RotatingAbout{Sphere<3>{zero, 1.0}, Axis{.point = bad}, turning}, "point must be finite");
   for (const double angle : {0.0, -0.1, 1.6, nan}) {
     expect_refused(Cone{zero, up, angle}, "must lie between 0 and pi/2");
   }

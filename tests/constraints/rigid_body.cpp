@@ -88,5 +88,29 @@ TEST_P(Body, CarriesForcesOfTheSizeOfItsLoadInside) {
   RecordProperty("inside_over_load", std::to_string(inside / load));
 }
 
+/// All of a body is added, or nothing.
+TEST(BodiesOfTakenNames, LeaveTheSceneAsItWas) {
+  for (const char* taken : {"b.p2", "b.rod12"}) {
+    Scene<2> scene;
+    scene.add_particle({.mass = 1.0}, taken);
+    EXPECT_THROW((void)add_body(scene, BodyState<2>{.mass = 1.0, .inertia = 1.0}, "b"), InvalidScene)
+        << taken;
+    EXPECT_EQ(scene.initial_positions().size(), 2U) << taken;
+  }
+  for (const char* taken : {"r.p2", "r.rod"}) {
+    Scene<2> scene;
+    scene.add_particle({.mass = 1.0}, taken);
+    EXPECT_THROW((void)add_thin_rod(scene, ThinRodState<2>{.mass = 1.0, .end = {1.0, 0.0}}, "r"),
+                 InvalidScene);
+    EXPECT_EQ(scene.initial_positions().size(), 2U) << taken;
+  }
+  for (const char* taken : {"l.p3", "l.rod13"}) {
+    Scene<3> scene;
+    scene.add_particle({.mass = 1.0}, taken);
+    EXPECT_THROW((void)add_lamina(scene, LaminaState{.mass = 1.0, .inertia = {1.0, 1.0}}, "l"), InvalidScene);
+    EXPECT_EQ(scene.initial_positions().size(), 3U) << taken;
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::rigid_body_test

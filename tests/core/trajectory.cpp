@@ -11,8 +11,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <iomanip>
 #include <iterator>
 #include <limits>
+#include <locale>
 #include <sstream>
 
 namespace dalembert::trajectory_test {
@@ -203,6 +205,21 @@ TEST_F(TwoSamples, LeaveTheFormatOfTheUsersStreamAlone) {
   out.str({});
   out << 1.0 / 3.0;
   EXPECT_EQ(out.str(), "0.333333");
+}
+
+/// As programs of window systems have it: a comma for the point, and dots between thousands.
+TEST_F(TwoSamples, AreWrittenWithPointsWhateverTheStreamsLocale) {
+  struct Comma : std::numpunct<char> {
+    [[nodiscard]] char do_decimal_point() const override { return ','; }
+    [[nodiscard]] char do_thousands_sep() const override { return '.'; }
+    [[nodiscard]] std::string do_grouping() const override { return "\3"; }
+  };
+  std::ostringstream plain, other;
+  run.write_csv(plain);
+  other.imbue(std::locale(std::locale::classic(), new Comma));
+  other << std::fixed << std::setprecision(2);
+  run.write_csv(other);
+  EXPECT_EQ(other.str(), plain.str());
 }
 
 TEST_F(TwoSamples, CanBeWrittenToAFile) {

@@ -65,5 +65,13 @@ TEST(VirtualWork, NamesThePowerOfEachForce) {
   EXPECT_EQ(at.forces[1].name, "Spring \"spring\"");
 }
 
+TEST(VirtualWork, OfAnotherScenesSampleIsRefused) {
+  Scene<2> small, large;
+  small.add_particle({.mass = 1.0});
+  for (int i = 0; i < 3; ++i) large.add_particle({.mass = 1.0});
+  const Simulation<2> run(small, {.t_end = 1.0});
+  EXPECT_THROW((void)virtual_work(large, run.sample()), InvalidArgument);
+}
+
 }  // namespace
 }  // namespace dalembert::virtual_work_test

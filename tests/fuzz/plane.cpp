@@ -70,7 +70,7 @@ void add_heading(Draft<2>& draft) {
   const Place<2> to = draft.ground();
   const auto* goal = std::get_if<Fixed<2>>(&to.point);
   if (goal == nullptr || !draft.take(1, {p.owner})) return;
-  draft.add(call_text("Heading", p.text, from.text, to.text), KnifeEdge{handle(p), handle(from), *goal});
+  draft.add(call_text("KnifeEdge", p.text, from.text, to.text), KnifeEdge{handle(p), handle(from), *goal});
 }
 
 /// The prey lies ahead.

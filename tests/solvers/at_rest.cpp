@@ -7,7 +7,8 @@
 #include <numbers>
 #include <vector>
 
-/// What rests, to round-off, without a force: then there is no length, speed or force to compare round-off with.
+/// What rests, to round-off, without a force: then there is no length, speed or force to compare round-off
+/// with.
 namespace dalembert::at_rest_test {
 namespace {
 
@@ -25,9 +26,8 @@ TEST_P(AtRest, ALoneParticleIsMovedByAForceThatSwitchesOn) {
   for (const double x : {0.0, 1e-3, 1.0, 100.0}) {
     Scene<2> scene;
     const auto body = scene.add_particle({.mass = 1.0, .position = {x, 0.0}}, "body");
-    scene.add(force_law(points(body), [](auto t, auto, auto) {
-      return vec(t > 2.0 ? 1.0 + 0.0 * t : 0.0 * t, 0.0 * t);
-    }));
+    scene.add(force_law(points(body),
+                        [](auto t, auto, auto) { return vec(t > 2.0 ? 1.0 + 0.0 * t : 0.0 * t, 0.0 * t); }));
     EXPECT_NEAR(simulate(scene, options(4.0)).position(body, 4).x(), x + 2.0, error()) << x;
   }
 }
@@ -36,9 +36,8 @@ TEST_P(AtRest, ALoneParticleIsMovedByAForceThatSwitchesOn) {
 TEST_P(AtRest, ALoneParticleIsMovedByAForceThatSetsInGently) {
   Scene<2> scene;
   const auto body = scene.add_particle({.mass = 1.0}, "body");
-  scene.add(force_law(points(body), [](auto t, auto, auto) {
-    return vec(1.0 / (1.0 + exp(-100.0 * (t - 5.0))), 0.0 * t);
-  }));
+  scene.add(force_law(
+      points(body), [](auto t, auto, auto) { return vec(1.0 / (1.0 + exp(-100.0 * (t - 5.0))), 0.0 * t); }));
   // f = 1/(1 + exp(-(t - 5)/w)) integrated twice is (t - 5)^2/2 + (pi w)^2/6 there, up to exp(-(t - 5)/w).
   constexpr double w = 0.01, rest = 2.0;
   EXPECT_NEAR(simulate(scene, options(5.0 + rest)).position(body, 4).x(),
@@ -87,7 +86,8 @@ std::vector<Particle<2>> add_row(Scene<2>& scene, double x, int count) {
   std::vector<Particle<2>> row;
   for (int i = 0; i < count; ++i) {
     row.push_back(scene.add_particle({.mass = 1.0, .position = {x + i * diameter, 0.0}}));
-    if (i > 0) scene.add(unilateral(Distance{row[row.size() - 2], row.back(), diameter}, {.restitution = 1.0}));
+    if (i > 0)
+      scene.add(unilateral(Distance{row[row.size() - 2], row.back(), diameter}, {.restitution = 1.0}));
   }
   return row;
 }
@@ -96,7 +96,8 @@ TEST_P(AtRest, BallsThatTouchStayAsTheyAre) {
   for (const int count : {4, 8}) {
     Scene<2> scene;
     add_row(scene, 0.0, count);
-    EXPECT_TRUE(simulate(scene, options(0.3)).events().empty()) << count;
+    const auto run = simulate(scene, options(0.3));
+    EXPECT_TRUE(run.events().empty()) << count;
   }
 }
 
@@ -110,8 +111,8 @@ TEST_P(AtRest, ABallThatHitsARowSetsInMotionTheLast) {
     scene.add(unilateral(Distance{ball, row.front(), 0.1}, {.restitution = 1.0}));
     const auto run = simulate(scene, options(0.3));
     EXPECT_NEAR(run.events().front().time, gap / v, error()) << count;
-    // Moreau's law with restitution 1 gives the rates of all gaps the other sign, and those at rest keep 0: the
-    // first ball stops where it is, the last one goes on.
+    // Moreau's law with restitution 1 gives the rates of all gaps the other sign, and those at rest keep 0:
+    // the first ball stops where it is, the last one goes on.
     EXPECT_NEAR(run.velocity(row.back(), 4).x(), v, error()) << count;
     EXPECT_NEAR(run.velocity(ball, 4).x(), 0.0, error()) << count;
   }

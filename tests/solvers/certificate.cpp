@@ -358,5 +358,24 @@ TEST(ForceReport, NamesEveryConstraintWithItsLargestForceAndMeaning) {
   EXPECT_THAT(report(simulate(scene, options)), HasSubstr("\"rod\": largest 10 at t = 0, not unique"));
 }
 
+/// Of a run as short as this one steps are as long as the first of them allow: two of the same steps show no
+/// error.
+TEST(Certificate, ErrorOfAShortRunIsKnown) {
+  constexpr double g = 9.81, t_end = 0.3;
+  for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}}, "bob");
+    scene.add(Distance{Fixed<2>{}, bob, 1.0}, "rod");
+    const Options options{.t_end = t_end, .samples = 2, .tolerance = tolerance, .stepper = Stepper::erk};
+    const auto short_run = certify(scene, options);
+    Options exact = options;
+    exact.tolerance = 1e-13;
+    const double truth = (simulate(scene, exact).position(bob, 1) - short_run.run().position(bob, 1)).norm();
+    constexpr double rounding = 1e-13;  // of the exact run
+    EXPECT_LE(truth, 1.5 * short_run.position_error(bob, 1) + rounding) << tolerance;
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::certificate_test

@@ -243,5 +243,51 @@ TEST_P(Events, ChangeThatHoldsTheFunctionAtZeroHappensOnce) {
   }
 }
 
+/// |r| - 1 is round-off while the rod holds, at the start as well: "taut" waits for the flight between.
+TEST_P(Events, StringOfARodIsTautOnlyAfterItWasSlack) {
+  for (const double offset : {0.0, 3.0}) {
+    const Vec<2> centre{offset, -offset / 3.0};
+    Scene<2> by_events, string;
+    Particle<2> bob;
+    for (Scene<2>* scene : {&string, &by_events}) {
+      scene->add(UniformGravity<2>{{0.0, -9.81}});
+      bob = scene->add_particle({.mass = 2.0, .position = centre - Vec<2>::Unit(1), .velocity = {5.6, 0.0}},
+                                "bob");
+    }
+    string.add(unilateral(Distance{Fixed<2>{centre}, bob, 1.0}, {.allowed = Allowed::negative}));
+    bob = by_events.particle("bob");
+    const auto rod = by_events.add(Distance{Fixed<2>{centre}, bob, 1.0}, "rod");
+    const std::vector<Event<2>> events{
+        {.name = "slack",
+         .function = [=](const Sample<2>& now) { return now.multiplier(rod); },
+         .change = [=](Scene<2>& scene) { scene.release(rod); }},
+        {.name = "taut",
+         .function = [=](const Sample<2>& now) { return (now.position(bob) - centre).norm() - 1.0; },
+         .change = [=](Scene<2>& scene) { scene.impose(rod); }}};
+    const auto right = simulate(string, options(1.5)), run = simulate(by_events, options(1.5), events);
+    ASSERT_EQ(run.events().size(), right.events().size()) << offset;
+    for (std::size_t k = 0; k < run.events().size(); ++k)
+      EXPECT_NEAR(run.events()[k].time, right.events()[k].time, bound) << offset;
+  }
+}
+
+/// Nothing moves; a load of 5 N comes and goes within one step.
+TEST_P(Events, ForceThatJumpsWhereNothingMovesCrosses) {
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -10.0}});
+  const auto weight = scene.add_particle({.mass = 1.0, .position = {0.0, -1.0}}, "weight");
+  const auto rod = scene.add(Distance{Fixed<2>{}, weight, 1.0}, "rod");
+  scene.add(force_law(points(weight), [](auto t, auto, auto) {
+    return vec(0.0 * t, t > 2.0 && t < 2.3 ? -5.0 + 0.0 * t : 0.0 * t);
+  }));
+  const Event<2> tension{.name = "tension",
+                         .function = [=](const Sample<2>& now) { return -now.multiplier(rod) - 12.0; },
+                         .crossing = Crossing::either};
+  const auto run = simulate(scene, options(5.0), {tension});
+  ASSERT_EQ(run.events().size(), 2U);
+  EXPECT_NEAR(run.events()[0].time, 2.0, bound);
+  EXPECT_NEAR(run.events()[1].time, 2.3, bound);
+}
+
 }  // namespace
 }  // namespace dalembert::events_test

@@ -176,5 +176,17 @@ TEST(Floquet, FixedSceneHasNoMultipliers) {
   EXPECT_TRUE(floquet(scene, 1.0).multipliers.empty());
 }
 
+/// Neighbours of a vibration in |x| + x^2/2 are periodic, too: the multipliers are 1, 1. A disturbance jumps
+/// where the force does.
+TEST(Floquet, ForceThatJumpsIsRefused) {
+  constexpr double a = 1.0;
+  Scene<2> scene;
+  const auto body = scene.add_particle({.mass = 1.0, .position = {a, 0.0}}, "body");
+  scene.add(OnCurve{body, Plane<2>{}});
+  scene.add(potential(points(body), [](auto r) { return abs(r.x()) + 0.5 * r.x() * r.x(); }));
+  EXPECT_THAT([&] { (void)floquet(scene, 4.0 * std::acos(1.0 / (1.0 + a))); },
+              ThrowsMessage<NoEquilibrium>(HasSubstr("forces jump at t = ")));
+}
+
 }  // namespace
 }  // namespace dalembert::floquet_test

@@ -525,5 +525,21 @@ TEST(NormalModes, PendulumWithARedundantPlaneHasItsMode) {
   EXPECT_NEAR(normal_modes(scene, equilibrium(scene)).frequency(0), std::sqrt(10.0), 1e-9);
 }
 
+/// Where it hangs it still hangs; but its multiplier is that of other forces.
+TEST(NormalModes, EquilibriumOfOtherForcesOrMassesIsRefused) {
+  Scene<2> scene;
+  const auto gravity = scene.add(UniformGravity<2>{{0.0, -10.0}});
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {0.0, -1.0}}, "bob");
+  scene.add(Distance{Fixed<2>{}, bob, 1.0}, "rod");
+  const auto rest = equilibrium(scene);
+  const auto refused = ThrowsMessage<InvalidArgument>(HasSubstr("relative residual"));
+  scene.replace(gravity, UniformGravity<2>{{0.0, -5.0}});
+  EXPECT_THAT([&] { (void)normal_modes(scene, rest); }, refused);
+  scene.replace(gravity, UniformGravity<2>{{0.0, -10.0}});
+  EXPECT_NEAR(normal_modes(scene, rest).frequency(0), std::sqrt(10.0), rounding);
+  scene.replace(bob, {.mass = 1.5, .position = {0.0, -1.0}});
+  EXPECT_THAT([&] { (void)normal_modes(scene, rest); }, refused);
+}
+
 }  // namespace
 }  // namespace dalembert::normal_modes_test

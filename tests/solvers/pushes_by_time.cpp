@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-/// Pushes that `if`, floor or a table let last from one time to another, on what rests until then: long steps pass
-/// several switches, of which the first have no effect.
+/// Pushes that `if`, floor or a table let last from one time to another, on what rests until then: long steps
+/// pass several switches, of which the first have no effect.
 namespace dalembert::pushes_by_time_test {
 namespace {
 
@@ -77,8 +77,8 @@ TEST_P(PushesByTime, AreKeptInALedger) {
   double right = 0.0;
   for (int k = 0; k * period < t_end; ++k)
     right += by_unit_force(k * period, std::min((k + 0.5) * period, t_end));
-  EXPECT_NEAR(pushed([](auto t) { return fmod(t, period) < 0.5 * period ? 1.0 + 0.0 * t : 0.0 * t; }, true),
-              right, error());
+  EXPECT_NEAR(pushed([](auto t) { return fmod(t, 0.6) < 0.3 ? 1.0 + 0.0 * t : 0.0 * t; }, true), right,
+              error());
 }
 
 class PotentialsOfTime : public PushesByTime {};
@@ -89,9 +89,8 @@ TEST_P(PotentialsOfTime, MaySwitchAtASampleOrBetween) {
   for (const double at : {2.0, 2.001, 2.03}) {
     Scene<2> scene;
     const auto body = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}}, "body");
-    scene.add(potential(points(body), [at](auto t, auto r) {
-      return (t > at ? 2.0 : 0.5) * r.squaredNorm() + 0.0 * t;
-    }));
+    scene.add(potential(points(body),
+                        [at](auto t, auto r) { return (t > at ? 2.0 : 0.5) * r.squaredNorm() + 0.0 * t; }));
     const auto run =
         simulate(scene, {.t_end = 4.0, .tolerance = GetParam().tolerance, .stepper = GetParam().stepper});
     const double rest = 4.0 - at;
