@@ -79,13 +79,19 @@ Opening open_run(const std::shared_ptr<const System>& stated, std::span<const do
   const double nearest = nearest_contact(*stated, {options.t_start, q, v});
   const Start free = first_start(Problem(stated->without(numbers)), q, v, options, nearest);
   const Instant at{options.t_start, free.q, free.v};
-  auto conditional = std::make_unique<ConditionalConstraints>(stated, free.scales, options.tolerance, at,
-                                                              options.t_end - options.t_start);
-  Change change = conditional->resolve_start(at);
-  const Problem problem(change.system);
-  Start start = first_start(problem, change.q, change.v, options, nearest);
-  conditional->adopt(start.scales);
-  return {std::move(conditional), std::move(change), problem, std::move(start), free.scales};
+  const auto open_with = [&](const Scales& scales) {
+    auto conditional = std::make_unique<ConditionalConstraints>(stated, scales, options.tolerance, at,
+                                                                options.t_end - options.t_start);
+    Change change = conditional->resolve_start(at);
+    const Problem problem(change.system);
+    Start start = first_start(problem, change.q, change.v, options, nearest);
+    return Opening{std::move(conditional), std::move(change), problem, std::move(start), scales};
+  };
+  Opening opening = open_with(free.scales);
+  // What contacts and friction hold has another length than what is free, and so another speed that is slow.
+  if (opening.start.scales.length != free.scales.length) opening = open_with(Scales(opening.start.scales));
+  opening.conditional->adopt(opening.start.scales);
+  return opening;
 }
 
 }  // namespace dalembert

@@ -91,7 +91,10 @@ Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, d
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     Contact& c = contacts_[i];
     const double gap = c.sign * g_[c.row], gradient = lengths_of_gradients[i];
-    const double allowed = start_tolerance * scales_.length * gradient;
+    // Positions are known to their rounding and to that of the time: a sample of an impact is a start.
+    const double rounding =
+        gradient * scales_.rounding(start.q) + round_off() * std::abs(start.t * psi_[c.row]);
+    const double allowed = std::max(start_tolerance * scales_.length * gradient, rounding);
     if (std::abs(gap) <= allowed) touching_at_start_.push_back(i);
     c.gradient = gradient;
     if (gap >= -allowed) continue;

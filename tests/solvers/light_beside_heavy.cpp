@@ -5,7 +5,8 @@
 
 #include <cmath>
 
-/// Light bodies beside heavy ones, or beside what is loaded by far more: when they let go depends on their own forces.
+/// Light bodies beside heavy ones, or beside what is loaded by far more: when they let go depends on their
+/// own forces.
 namespace dalembert::light_beside_heavy_test {
 namespace {
 
@@ -64,15 +65,17 @@ TEST_P(LightBesideHeavy, SlidesByItsOwnFriction) {
     const auto ship = scene.add_particle({.mass = M, .velocity = {5.0, 0.0}}, "ship");
     const auto cup = scene.add_particle({.mass = m, .position = {0.0, 1.0}, .velocity = {5.0, 0.0}}, "cup");
     scene.add(OnCurve{ship, Plane<2>{}}, "water");
-    const auto deck = scene.add(
-        holonomic(points(cup, ship), [](auto of_cup, auto of_ship) { return of_cup.y() - of_ship.y() - 1.0; }),
-        "deck");
+    const auto deck =
+        scene.add(holonomic(points(cup, ship),
+                            [](auto of_cup, auto of_ship) { return of_cup.y() - of_ship.y() - 1.0; }),
+                  "deck");
     scene.add(coulomb(deck,
-                      nonholonomic(points(cup, ship),
-                                   [](auto, auto, auto of_cup, auto of_ship) { return of_cup.x() - of_ship.x(); }),
+                      nonholonomic(points(cup, ship), [](auto, auto, auto of_cup,
+                                                         auto of_ship) { return of_cup.x() - of_ship.x(); }),
                       mu),
               "friction");
-    scene.add(force_law(points(ship), [F = (M + m) * b](auto t, auto, auto) { return vec(-F * t, 0.0 * t); }));
+    scene.add(
+        force_law(points(ship), [F = (M + m) * b](auto t, auto, auto) { return vec(-F * t, 0.0 * t); }));
     const auto run = simulate(scene, options(0.5));
     ASSERT_FALSE(run.events().empty()) << M;
     EXPECT_EQ(run.events()[0].kind, EventKind::slides);

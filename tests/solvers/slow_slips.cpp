@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-/// Slips that are slow, as what is known of speeds goes: where a run starts with one, comes to rest, or goes on from
-/// the sample of an event; and what a brake's rotor counts as slow.
+/// Slips that are slow, as what is known of speeds goes: where a run starts with one, comes to rest, or goes
+/// on from the sample of an event; and what a brake's rotor counts as slow.
 namespace dalembert::slow_slips_test {
 namespace {
 
@@ -78,7 +78,8 @@ TEST_P(SlowSlips, OfABlockAtTheStartAreNotTakenAway) {
   const auto block = scene.add_particle({.mass = 1.0, .velocity = {v, 0.0}}, "block");
   const auto floor = scene.add(OnCurve{block, Plane<2>{}}, "floor");
   scene.add(coulomb(floor, Slip{block, Plane<2>{}}, mu), "friction");
-  const auto fast = scene.add_particle({.mass = 1.0, .position = {0.0, 1.0}, .velocity = {30.0, 0.0}}, "fast");
+  const auto fast =
+      scene.add_particle({.mass = 1.0, .position = {0.0, 1.0}, .velocity = {30.0, 0.0}}, "fast");
   scene.add(Distance{Fixed<2>{}, fast, 1.0});
   const auto run = simulate(scene, options(0.01));
   EXPECT_NEAR(run.position(block, 2).x(), v * v / (2.0 * mu * g), error());
@@ -93,17 +94,38 @@ TEST_P(SlowSlips, BeforeAPuckSticksAreAStart) {
   const auto puck = scene.add_particle({.mass = 1.0, .velocity = {1.0, 0.3, 0.0}}, "puck");
   const auto table = scene.add(OnSurface{puck, Plane<3>{}}, "table");
   scene.add(coulomb(table, Slip{puck, Plane<3>{}}, 0.3), "friction");
-  scene.add(force_law(points(puck), [](auto t, auto, auto) { return vec(0.0 * t, 2.0 * cos(5.0 * t), 0.0 * t); }));
+  scene.add(
+      force_law(points(puck), [](auto t, auto, auto) { return vec(0.0 * t, 2.0 * cos(5.0 * t), 0.0 * t); }));
   scene.add_particle({.mass = 1.0, .position = {1.0, 1.0, 1.0}}, "other");
   const auto run = simulate(scene, options(1.5));
   const auto events = run.events();
   const auto stuck = std::ranges::find(events, EventKind::sticks, &EventRecord::kind);
   ASSERT_NE(stuck, events.end());
   const auto k = static_cast<std::size_t>(stuck - events.begin());
-  // A force of 2 N never moves it again: 0.3 m g is 2.9 N. What is left of its way is (slip)^2, below any tolerance
-  // of a speed.
+  // A force of 2 N never moves it again: 0.3 m g is 2.9 N. What is left of its way is (slip)^2, below any
+  // tolerance of a speed.
   for (const Sample<3>& from : {run.event_sample(k), run.sample_after(k)})
     EXPECT_NEAR((simulate(scene, from, options(1.5)).position(puck, 2) - run.position(puck, 2)).norm(), 0.0,
+                error());
+}
+
+/// A lone grain in a bowl: what it does when it is free has another length than what it does there.
+TEST_P(SlowSlips, BeforeAGrainSticksInABowlAreAStart) {
+  constexpr double angle = 0.34, mu = 0.48;  // its tangent is 0.35: it stays
+  Scene<3> scene;
+  scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
+  const auto grain = scene.add_particle(
+      {.mass = 1.0, .position = {std::sin(angle), 0.0, -std::cos(angle)}, .velocity = {0.0, 0.7, 0.0}},
+      "grain");
+  const auto bowl =
+      scene.add(unilateral(OnSurface{grain, Sphere<3>{}}, {.allowed = Allowed::negative}), "bowl");
+  scene.add(coulomb(bowl, Slip{grain, Sphere<3>{}}, mu), "friction");
+  const auto run = simulate(scene, options(2.0));
+  ASSERT_FALSE(run.events().empty());
+  const std::size_t k = run.events().size() - 1;
+  ASSERT_EQ(run.events()[k].kind, EventKind::sticks);
+  for (const Sample<3>& from : {run.event_sample(k), run.sample_after(k)})
+    EXPECT_NEAR((simulate(scene, from, options(2.0)).position(grain, 2) - run.position(grain, 2)).norm(), 0.0,
                 error());
 }
 
