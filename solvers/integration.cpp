@@ -4,6 +4,7 @@
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/erk/erk.h>
 #include <dalembert/solvers/ida/ida.h>
+#include <dalembert/solvers/opening.h>
 #include <dalembert/solvers/run/diagnosis.h>
 
 #include <algorithm>
@@ -80,12 +81,13 @@ std::unique_ptr<Integration::Segment> Integration::make_segment(const Problem& p
 std::unique_ptr<Integration::Segment> Integration::make_segment(const Problem& problem, Start start, double t,
                                                                 Stepper by, Comparisons comparisons) const {
   const Options options = options_from(t, by);
-  OutputProjection output(problem, start, options_.tolerance);
   std::unique_ptr<TimeStepper> stepper;
   {
     const Branches holding(nullptr, comparisons.held());
+    if (start.scales.waits_for_path) measure_path(problem, start, options);
     stepper = make_stepper(problem, start, options);
   }
+  OutputProjection output(problem, start, options_.tolerance);
   auto made = std::make_unique<Segment>(Segment{problem, std::move(start), std::move(comparisons), by,
                                                 std::move(output), std::move(stepper), std::nullopt});
   if (const Branches::Sides* const held = made->comparisons.held()) made->stepper->hold_sides(*held);

@@ -4,6 +4,7 @@
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/erk/erk.h>
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -26,45 +27,47 @@ void require_no_force_reads(const System& system) {
   }
 }
 
-Start from_path(Start start) {
-  start.scales.length_from_path = true;
-  return start;
-}
-
 /// A path of this last step on which nothing but round-off has moved.
 double length_of_round_off(const Start& start, double step, double tolerance) {
   const std::vector<double> still(start.q.size());
   return start.scales.extended_by(start.q, still, step, tolerance).length;
 }
 
-/// A scene without a length of its own gets that of the path of a first step; where it rests, any length will
-/// do.
+/// A scene without a length of its own gets that of the path of a first step.
 Start first_start(const Problem& problem, std::span<const double> q, std::span<const double> v,
                   const Options& options, double nearest_contact) {
   Start start = consistent_start(problem, q, v, options, nearest_contact);
-  if (!start.scales.length_from_path) return start;
-  Options looking = options;
-  looking.tolerance = Options{}.tolerance;  // the scene's length is its own, whatever is asked of the run
-  start.scales.length_from_path = false;
-  try {
-    ErkStepper first(problem, from_path(start), looking);
-    first.step(options.t_end);
-    const PathExtent& path = first.scales().extent;
-    const double round_off = length_of_round_off(start, path.step, looking.tolerance);
-    if (path.length > round_off) {
-      start = from_path(std::move(start));
-      start.scales.adopt(path);
-    } else if (start.scales.length <= round_off) {
-      looking = options;
-      looking.length = 1.0;
-      return consistent_start(problem, q, v, looking, nearest_contact);
-    }
-  } catch (const StepFailure&) {  // the run will stop, and say why
-  }
+  if (!std::exchange(start.scales.length_from_path, false)) return start;
+  const double round_off = measure_path(problem, start, options);
+  if (!start.scales.waits_for_path || start.scales.length > round_off) return start;
+  Options still = options;
+  still.length = std::max(1.0, round_off);
+  start = consistent_start(problem, q, v, still, nearest_contact);
+  start.scales.waits_for_path = true;
   return start;
 }
 
 }  // namespace
+
+double measure_path(const Problem& problem, Start& start, const Options& options) {
+  Options looking = options;
+  looking.tolerance = Options{}.tolerance;  // the scene's length is its own, whatever is asked of the run
+  Start moving = start;
+  moving.scales.length_from_path = true;
+  moving.scales.waits_for_path = false;
+  try {
+    ErkStepper first(problem, moving, looking);
+    first.step(options.t_end);
+    const PathExtent& path = first.scales().extent;
+    const double round_off = length_of_round_off(start, path.step, looking.tolerance);
+    start.scales.waits_for_path = start.scales.lever == 0.0 && path.length <= round_off;
+    if (start.scales.waits_for_path) return round_off;
+    moving.scales.adopt(path);
+    start = std::move(moving);
+  } catch (const StepFailure&) {  // the run will stop, and say why
+  }
+  return 0.0;
+}
 
 Opening open_run(const std::shared_ptr<const System>& stated, std::span<const double> q,
                  std::span<const double> v, const Options& options) {

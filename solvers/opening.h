@@ -22,6 +22,10 @@ struct Opening {
   Scales given;  ///< in which it was told what touches, sticks and separates
 };
 
+/// Gives the start of a scene without a length of its own that of the path of a first step. Where nothing but
+/// round-off moves on it the start waits for another; returns how long such a path is.
+double measure_path(const Problem& problem, Start& start, const Options& options);
+
 /// Of what a scene states, from a guess of its state. A scene without a characteristic length gets that of a
 /// first explicit step, whose error is within the tolerance of its own length. Throws InconsistentStart;
 /// StepFailure and EquationFault where contacts cannot be resolved.

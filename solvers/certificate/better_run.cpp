@@ -78,7 +78,8 @@ TwoRuns run_twice(const Run& run, const Options& asked) {
     next = tighter(next, second.record->stepper == name(Stepper::erk) ? Stepper::erk : Stepper::ida);
     second = finish(run, next);
   }
-  if (second.stopped.empty() && takes_the_same_steps(*own, *second.record)) {
+  if (second.stopped.empty() && claims_enough(*second.record, *own) &&
+      takes_the_same_steps(*own, *second.record)) {
     const double mean = (options.t_end - options.t_start) / static_cast<double>(own->statistics.steps);
     next.max_step = 0.5 * (next.max_step > 0.0 ? std::min(next.max_step, mean) : mean);
     second = finish(run, next);

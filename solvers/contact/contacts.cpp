@@ -147,7 +147,7 @@ double Contacts::no_pull(const Contact& contact, const FlatSample& now) const {
     const std::size_t i = stated_->w_columns()[k];
     const double w = e_.w[k], mass = stated_->masses()[i];
     if (!std::isnan(now.a[i])) net += w * now.a[i];
-    others += std::abs(w) * forces_[i] / mass;
+    others += std::abs(w) * (std::abs(e_.force[i]) + forces_[i]) / mass;
     inverse_mass += w * w / mass;
   }
   if (!(inverse_mass > 0.0)) return 0.0;

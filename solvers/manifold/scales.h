@@ -33,6 +33,9 @@ struct Scales {
   /// the cusp of a cycloid it rests, and its first motion has not yet begun to bend. So errors are relative
   /// to `extent`, which only grows, and with it `length` and `time`.
   bool length_from_path = false;
+  /// It rests: its length is that of the path on which it will leave, from where a segment of the run begins
+  /// with another force. Until then any length does.
+  bool waits_for_path = false;
   PathExtent extent{};
   double lever = 0.0;   ///< by which constraints turn its angles into lengths: it is no shorter than that
   double forced = 0.0;  ///< the acceleration that its forces alone give it at the start

@@ -254,7 +254,8 @@ TEST_P(Events, StringOfARodIsTautOnlyAfterItWasSlack) {
       bob = scene->add_particle({.mass = 2.0, .position = centre - Vec<2>::Unit(1), .velocity = {5.6, 0.0}},
                                 "bob");
     }
-    string.add(unilateral(Distance{Fixed<2>{centre}, bob, 1.0}, {.allowed = Allowed::negative}));
+    string.add(
+        unilateral(Distance{Fixed<2>{centre}, string.particle("bob"), 1.0}, {.allowed = Allowed::negative}));
     bob = by_events.particle("bob");
     const auto rod = by_events.add(Distance{Fixed<2>{centre}, bob, 1.0}, "rod");
     const std::vector<Event<2>> events{
