@@ -33,6 +33,24 @@ double length_of_round_off(const Start& start, double step, double tolerance) {
   return start.scales.extended_by(start.q, still, step, tolerance).length;
 }
 
+/// Nothing acts on what is free to move, or all that is no angle is held: what its forces would do in no time
+/// is no path. (Friction holds for a while only, and wheels have their levers.)
+bool has_no_path(const System& system, const Start& start) {
+  if (start.scales.lever > 0.0) return false;
+  if (start.scales.forced == 0.0) return true;
+  std::vector<char> rough(system.rows(), 0);
+  for (const std::size_t number : system.frictional_constraints())
+    for (const std::size_t r : system.layout()->constraints[number].own_rows()) rough[r] = 1;
+  std::ptrdiff_t held = 0;
+  for (const std::size_t r : start.rows.rows) {
+    bool of_lengths = rough[r] == 0;
+    for (const std::size_t k : system.row(r))
+      of_lengths = of_lengths && !start.scales.is_angle[system.w_columns()[k]];
+    held += of_lengths ? 1 : 0;
+  }
+  return held >= std::ranges::count(start.scales.is_angle, 0);
+}
+
 /// A scene without a length of its own gets that of the path of a first step.
 Start first_start(const Problem& problem, std::span<const double> q, std::span<const double> v,
                   const Options& options, double nearest_contact) {
@@ -60,7 +78,7 @@ double measure_path(const Problem& problem, Start& start, const Options& options
     first.step(options.t_end);
     const PathExtent& path = first.scales().extent;
     const double round_off = length_of_round_off(start, path.step, looking.tolerance);
-    start.scales.waits_for_path = start.scales.lever == 0.0 && path.length <= round_off;
+    start.scales.waits_for_path = path.length <= round_off && has_no_path(problem.system(), start);
     if (start.scales.waits_for_path) return round_off;
     moving.scales.adopt(path);
     start = std::move(moving);
