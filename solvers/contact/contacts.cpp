@@ -126,6 +126,14 @@ void Contacts::find_forces(const FlatSample& now) const {
   forces_at_ = now.time;
   system_->evaluate({now.time, now.q, now.v}, e_);
   forces_.assign(now.a.size(), 0.0);
+  noise_.assign(now.a.size(), 0.0);
+  const double rounding = scales_.rounding(now.q);
+  for (std::size_t r = 0; r < system_->rows(); ++r) {
+    if (!system_->law(r).compliant() || !system_->in_force(r)) continue;
+    const double stretch = gradient_length(*system_, e_.w, scales_.lengths(), r) * rounding;
+    for (const std::size_t k : system_->row(r))
+      noise_[system_->w_columns()[k]] += std::abs(e_.w[k]) * stretch / system_->law(r).compliance;
+  }
   for (const Layout::Constraint& c : stated_->layout()->constraints) {
     if (c.internal) continue;
     std::size_t k = stated_->row(c.own_rows().front()).front();
@@ -142,17 +150,17 @@ void Contacts::find_forces(const FlatSample& now) const {
 /// elsewhere tells nothing about how exactly it is known.
 double Contacts::no_pull(const Contact& contact, const FlatSample& now) const {
   find_forces(now);
-  double net = 0.0, others = 0.0, inverse_mass = 0.0;
+  double net = 0.0, others = 0.0, noise = no_acceleration(contact, now.q), inverse_mass = 0.0;
   for (const std::size_t k : stated_->row(contact.row)) {
     const std::size_t i = stated_->w_columns()[k];
     const double w = e_.w[k], mass = stated_->masses()[i];
     if (!std::isnan(now.a[i])) net += w * now.a[i];
     others += std::abs(w) * (std::abs(e_.force[i]) + forces_[i]) / mass;
+    noise += std::abs(w) * noise_[i] / mass;
     inverse_mass += w * w / mass;
   }
   if (!(inverse_mass > 0.0)) return 0.0;
-  return (accuracy_.of_positions() * (std::abs(net) + others) + no_acceleration(contact, now.q)) /
-         inverse_mass;
+  return (accuracy_.of_positions() * (std::abs(net) + others) + noise) / inverse_mass;
 }
 
 double Contacts::switching(std::size_t contact, const FlatSample& now) const {
@@ -309,9 +317,10 @@ void Contacts::require_separation(const FlatSample& now) const {
       acceleration += e.w[k] * now.a[i];
       terms += std::abs(e.w[k] * now.a[i]) + std::abs(e.w[k] * e.force[i] / stated_->masses()[i]);
     }
-    // Beside springs whose force is lost in round-off it is not known.
-    if (!(c.sign * acceleration < -accuracy_.of_accelerations() * terms - no_acceleration(c, now.q)))
-      continue;
+    // Beside springs whose force is lost in round-off it is not known; nor, where all terms are 0, what
+    // positions make of it that are known to the tolerance.
+    const double none = accuracy_.of_positions() * scales_.speed() / scales_.time * c.gradient;
+    if (!(c.sign * acceleration < -accuracy_.of_accelerations() * terms - none)) continue;
     throw StepFailure{
         stated_->row_label(c.row) +
             " touches and would be penetrated: no forces of contact and friction were found that "
