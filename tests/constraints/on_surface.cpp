@@ -1,6 +1,7 @@
 #include "dalembert/constraints/on_surface.h"
 
 #include "../equations.h"
+#include <dalembert/constraints/geometry/moving.h>
 #include <dalembert/solvers/simulation.h>
 
 #include <gmock/gmock.h>
