@@ -14,8 +14,9 @@ struct BodyRod : Distance<Particle<D>, Particle<D>> {
   static constexpr bool internal = true;
 };
 
-/// The names of a body's particles and rods, counted from 0.
+/// The name of a body's particle, counted from 0,
 inline std::string particle_of(const std::string& body, int i) { return body + ".p" + std::to_string(i + 1); }
+/// and of the rod between two of them.
 inline std::string rod_of(const std::string& body, int i, int j) {
   return body + ".rod" + std::to_string(i + 1) + std::to_string(j + 1);
 }
