@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/constraints/geometry/axis.h>
+#include <dalembert/constraints/geometry/surfaces.h>
 #include <dalembert/core/equations/sketch.h>
 #include <dalembert/core/vec.h>
 
