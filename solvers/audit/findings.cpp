@@ -37,8 +37,7 @@ std::string Findings::message(const System& system) const {
   what << "the result breaks a law of mechanics, " << name(law_) << ": " << violation_.subject.label(system)
        << " by " << violation_.size << " where " << violation_.limit
        << " is allowed; try a max_step (where a force varies faster than the motion), a tighter tolerance or "
-          "the other stepper, or let the option audit = "
-          "Audited::report show what follows";
+          "the other stepper, or let the option audit = Audited::report show what follows";
   return what.str();
 }
 

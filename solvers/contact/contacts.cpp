@@ -119,8 +119,8 @@ void Contacts::find_gaps(const Instant& at) const {
   gaps_at_ = at.t;
 }
 
-/// Of constraint or inertia on any coordinate; never 0.
-/// What constraints exert on each coordinate together, but for rods inside bodies, and the gradients.
+/// What constraints exert on each coordinate together, but for rods inside bodies; what compliant ones make
+/// there of the rounding of positions; and the gradients.
 void Contacts::find_forces(const FlatSample& now) const {
   if (forces_at_ == now.time) return;
   forces_at_ = now.time;
@@ -146,8 +146,8 @@ void Contacts::find_forces(const FlatSample& now) const {
 }
 
 /// What is no pull yet: a part, as positions are known, of the forces on what a contact touches, as they act
-/// on its gap; and what would change the gap by no more than its round-off in all of the run. What acts
-/// elsewhere tells nothing about how exactly it is known.
+/// on its gap; what springs make of the rounding of positions; and what would change the gap by no more than
+/// its round-off in all of the run. What acts elsewhere tells nothing about how exactly it is known.
 double Contacts::no_pull(const Contact& contact, const FlatSample& now) const {
   find_forces(now);
   double net = 0.0, others = 0.0, noise = no_acceleration(contact, now.q), inverse_mass = 0.0;

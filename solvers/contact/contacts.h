@@ -170,10 +170,10 @@ class Contacts {
   bool everywhere_ = true;  // all islands are to be looked at: at the start, and after a change of the scene
   mutable std::vector<double> g_, psi_;  // of all rows,
   static constexpr double never = std::numeric_limits<double>::quiet_NaN();
-  mutable double gaps_at_ = never;  // at this time of the state watched
-  mutable System::Evaluation e_;    // likewise,
-  mutable std::vector<double> forces_,
-      noise_;  // with forces on coordinates, and what springs do not know of them
+  mutable double gaps_at_ = never;      // at this time of the state watched
+  mutable System::Evaluation e_;        // likewise, at `forces_at_`,
+  mutable std::vector<double> forces_;  // with forces on coordinates,
+  mutable std::vector<double> noise_;   // and what springs do not know of them
   mutable double forces_at_ = never;
 };
 

@@ -14,6 +14,7 @@
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dalembert {
@@ -182,30 +183,31 @@ bool same(const Branches::Sides& a, const Branches::Sides& b) {
                             [&](const auto& x, const auto& y) { return std::ranges::equal(x, y, one); });
 }
 
-/// Throws where forces jump between two of the instants that are checked: a disturbance jumps there, too, as
-/// it changes the time of the jump, and that is in no derivative.
-void require_no_jump(const System& system, const Record& motion) {
-  Record read;
-  read.layout = motion.layout;
-  const auto instant = [&](double t) {
-    read.clear();
-    motion.dense->read(std::vector<double>{t}, read);
-    return read.sample(0);
+/// Throws where forces jump between two of these times: a disturbance jumps there, too, as it changes the
+/// time of the jump, and that is in no derivative.
+void require_no_jump(const System& system, const Record& motion, const std::vector<double>& times) {
+  const auto read = [&motion](const std::vector<double>& at) {
+    Record record;
+    record.layout = motion.layout;
+    motion.dense->read(at, record);
+    return record;
   };
+  const Record all = read(times);
   double size = 0.0;
-  for (std::size_t i = 0; i < motion.times.size(); ++i)
-    for (const double F : forces_on({}, system, motion.sample(i))) size = std::max(size, std::abs(F));
-  for (std::size_t i = 1; i < motion.times.size(); ++i) {
-    double a = motion.times[i - 1], b = motion.times[i];
-    const auto before = sides_at(system, motion.sample(i - 1));
-    if (same(before, sides_at(system, motion.sample(i)))) continue;
+  for (std::size_t i = 0; i < times.size(); ++i)
+    for (const double F : forces_on({}, system, all.sample(i))) size = std::max(size, std::abs(F));
+  auto before = sides_at(system, all.sample(0));
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const auto here = std::exchange(before, sides_at(system, all.sample(i)));
+    if (same(here, before)) continue;
+    double a = times[i - 1], b = times[i];
     for (int k = 0; k < std::numeric_limits<double>::digits; ++k) {
       const double middle = 0.5 * (a + b);
-      (same(before, sides_at(system, instant(middle))) ? a : b) = middle;
+      (same(here, sides_at(system, read({middle}).sample(0))) ? a : b) = middle;
     }
-    const auto behind = sides_at(system, instant(b));
-    const FlatSample there = instant(a);
-    const auto F = forces_on(before, system, there), G = forces_on(behind, system, there);
+    const Record there = read({a, b});
+    const auto F = forces_on(here, system, there.sample(0)),
+               G = forces_on(sides_at(system, there.sample(1)), system, there.sample(0));
     for (std::size_t k = 0; k < F.size(); ++k) {
       if (std::abs(F[k] - G[k]) <= returned * size) continue;
       throw NoEquilibrium(
@@ -236,6 +238,13 @@ class Monodromy {
     return {whole.start.basis.transpose() * whole.nodes.back().basis * c, error,
             2 * static_cast<int>(maps_.size())};
   }
+  /// At which the motion was looked at for that, in order.
+  [[nodiscard]] std::vector<double> times() const {
+    std::vector<double> all = times_;
+    std::ranges::sort(all);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+  }
 
  private:
   /// Fractions of the period.
@@ -253,13 +262,14 @@ class Monodromy {
     MatrixXd map;
   };
   /// One step each over parts of the motion. (Reading it at all instants together costs least.)
-  [[nodiscard]] std::vector<Step> steps(const std::vector<Part>& parts) const {
+  [[nodiscard]] std::vector<Step> steps(const std::vector<Part>& parts) {
     std::vector<double> times;
     for (const auto [from, to] : parts) {
       times.push_back(from * period_);
       for (const double c : radau_nodes) times.push_back((from + c * (to - from)) * period_);
       times.back() = to * period_;
     }
+    times_.insert(times_.end(), times.begin(), times.end());
     Record read;
     read.layout = motion_->layout;
     motion_->dense->read(times, read);
@@ -323,6 +333,7 @@ class Monodromy {
   const ActiveRows* rows_;
   double period_;
   std::vector<PartMap> maps_{};  // of the parts of the period, in order
+  std::vector<double> times_{};
 };
 
 /// The eigenvalues of a map that is known to `error`, each with its own, see the header.
@@ -378,8 +389,9 @@ Floquet find_multipliers(const std::function<System()>& system, std::span<const 
   own.evaluate({start.time, start.q, start.v}, e);
   const ActiveRows rows = independent_rows(own, e.w);
   require_period(own, *motion, rows, period);
-  require_no_jump(own, *motion);
-  const auto [matrix, error, steps] = Monodromy(own, *motion, rows, period).map();
+  Monodromy monodromy(own, *motion, rows, period);
+  const auto [matrix, error, steps] = monodromy.map();
+  require_no_jump(own, *motion, monodromy.times());
   if (matrix.size() == 0) return {};  // nothing can move
   return multipliers_of(matrix, error, steps);
 }

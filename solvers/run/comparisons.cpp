@@ -7,6 +7,7 @@
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/linear/rows.h>
 #include <dalembert/solvers/run/interpolant.h>
+#include <dalembert/solvers/run/roundings.h>
 
 #include <algorithm>
 #include <cmath>
@@ -248,17 +249,15 @@ double Comparisons::margin_ahead(std::size_t k, const Motion& from, double ahead
   return record_comparisons(other_.instant(), &held_, recorded_) ? margin(margins_[k], recorded_) : -unknown;
 }
 
-/// What roundings of the coordinates, up and down by turns, make of a margin.
+/// What roundings of the coordinates make of a margin.
 double Comparisons::rounding(std::size_t k, const Motion& at) {
   const double here = margin_ahead(k, at, 0.0);
+  move(at, 0.0, other_);
   double most = 0.0;
-  for (const std::size_t turns : {1U, 2U, 3U}) {
-    move(at, 0.0, other_);
-    for (std::size_t i = 0; i < at.q.size(); ++i)
-      other_.q[i] *= i / turns % 2 == 0 ? 1.0 + epsilon : 1.0 - epsilon;
+  round_by_turns(at.q, other_.q, [&] {
     if (record_comparisons(other_.instant(), &held_, recorded_))
       most = std::max(most, std::abs(margin(margins_[k], recorded_) - here));
-  }
+  });
   return most;
 }
 
@@ -314,15 +313,16 @@ bool Comparisons::differ(const Motion& there, const Branches::Sides& before, con
 }
 
 /// Whether the step, which was taken on other sides, goes wrong on those that hold from a switch `until` the
-/// next: at places without a pattern, as a push by half a sine is 0 at both ends.
+/// next: also in between, as a push by half a sine is 0 at both ends.
 bool Comparisons::goes_wrong(const Branches::Sides& taken, double until) {
-  Motion there{from_, a_, a_, {}};
-  for (const double x : {0.13, 0.41, 0.72, 1.0}) {
-    there.t = from_ + x * (until - from_);
-    stepper_->interpolate(there.t, there.q, there.v);
-    if (differ(there, taken, held_)) return true;
-  }
-  return false;
+  Motion there{until, a_, a_, {}};
+  auto times = check_times(from_, until, std::max(stepper_->degree(), least_degree));
+  times.push_back(until);
+  return std::ranges::any_of(times, [&](double t) {
+    there.t = t;
+    stepper_->interpolate(t, there.q, there.v);
+    return differ(there, taken, held_);
+  });
 }
 
 std::optional<Comparisons::Switch> Comparisons::leave(TimeStepper& stepper) {

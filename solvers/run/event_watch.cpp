@@ -5,6 +5,7 @@
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/contact/round_off.h>
 #include <dalembert/solvers/run/chebyshev.h>
+#include <dalembert/solvers/run/roundings.h>
 
 #include <algorithm>
 #include <cmath>
@@ -79,7 +80,7 @@ std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
 }
 
 /// How large the terms are whose sum a function is, where that is round-off of them, as |r| - L of what a rod
-/// of length L holds; else 0: by what a rounding of each coordinate, up and down by turns, makes of it.
+/// of length L holds; else 0.
 double EventWatch::size_of_terms(std::size_t event, const FlatSample& at) {
   const auto& function = events_[event].function;
   std::vector<double> q(at.q.size());
@@ -88,14 +89,10 @@ double EventWatch::size_of_terms(std::size_t event, const FlatSample& at) {
   try {
     const double here = function(at);
     double most = 0.0;
-    for (const std::size_t turns : {1U, 2U, 3U}) {
-      for (std::size_t i = 0; i < q.size(); ++i)
-        q[i] = at.q[i] * (i / turns % 2 == 0 ? 1.0 + epsilon : 1.0 - epsilon);
-      most = std::max(most, std::abs(function(beside) - here));
-    }
+    round_by_turns(at.q, q, [&] { most = std::max(most, std::abs(function(beside) - here)); });
     const double size = most / epsilon;
     return std::abs(here) <= round_off() * size ? size : 0.0;
-  } catch (const std::exception&) {  // at the start itself `value` will say so
+  } catch (...) {  // at the start itself `value` will say so
     return 0.0;
   }
 }

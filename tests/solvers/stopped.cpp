@@ -90,6 +90,14 @@ TEST(StoppedRun, NamesAnEventThatThrewAnything) {
   }
 }
 
+TEST(StoppedRun, NamesAnEventThatThrewAnythingAtTheStart) {
+  Pendulum pendulum;
+  const Event<2> reading{.name = "reading", .function = [](const Sample<2>&) -> double { throw 42; }};
+  EXPECT_THAT([&] { (void)simulate(pendulum.scene, {.t_end = 1.0}, {reading}); },
+              testing::ThrowsMessage<Error>(
+                  AllOf(HasSubstr("\"reading\""), HasSubstr("threw something that is no std::exception"))));
+}
+
 /// A second table makes undetermined what friction reads: at the start that is an InconsistentStart.
 TEST(StoppedRun, IsThatWhoseChangeMadeUndeterminedWhatAForceReads) {
   Scene<2> scene("two tables");
