@@ -13,6 +13,13 @@ const Layout::Particle* Layout::particle_at(int coordinate) const {
   return coordinate < before.coordinate + dimension ? &before : nullptr;
 }
 
+std::string Layout::label_of_coordinate(int coordinate) const {
+  if (const Particle* particle = particle_at(coordinate))
+    return "particle \"" + particle->name + "\" along " + "xyz"[coordinate - particle->coordinate];
+  const auto rotor = std::ranges::find(rotors, coordinate, &Rotor::coordinate);
+  return "rotor \"" + rotor->name + '"';
+}
+
 void Layout::refuse(std::uint64_t other) const {
   throw InvalidArgument(
       "This handle is not one of scene \"" + scene + "\": " +

@@ -110,6 +110,8 @@ struct Layout {
   }
   /// The particle that a coordinate belongs to, or none: it is a rotor's.
   [[nodiscard]] const Particle* particle_at(int coordinate) const;
+  /// particle "bob" along x, or the rotor.
+  [[nodiscard]] std::string label_of_coordinate(int coordinate) const;
 
  private:
   [[noreturn]] void refuse(std::uint64_t scene) const;

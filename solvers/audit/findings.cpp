@@ -8,12 +8,7 @@ namespace dalembert {
 std::string Subject::label(const System& system) const {
   if (kind == Kind::scene) return "scene \"" + system.layout()->scene + '"';
   if (kind == Kind::row) return system.row_label(index);
-  const auto coordinate = static_cast<int>(index);
-  if (const auto* particle = system.layout()->particle_at(coordinate))
-    return "particle \"" + particle->name + "\" along " + "xyz"[coordinate - particle->coordinate];
-  for (const auto& rotor : system.layout()->rotors)
-    if (rotor.coordinate == coordinate) return "rotor \"" + rotor.name + '"';
-  return "coordinate " + std::to_string(index);
+  return system.layout()->label_of_coordinate(static_cast<int>(index));
 }
 
 void Findings::add_violation(Law law, const Case& one) {

@@ -43,7 +43,9 @@ EquilibriumCorrector::EquilibriumCorrector(std::function<PosedSystem(double)> po
   require_suited(posed);
   const auto found = find_equilibrium(*posed.system, posed.guess, posed.time, posed.turning);
   const FlatSample flat = found->sample(0);
-  const Scales scales = EquilibriumSolver(Problem(posed.system), flat.q, posed.time, posed.turning).scales();
+  length_ = found->statistics.length;
+  const Scales scales =
+      EquilibriumSolver(Problem(posed.system), flat.q, posed.time, posed.turning, length_).scales();
   for (std::size_t i = 0; i < flat.q.size(); ++i) scale_.push_back(scales.unit(i));
   begin_.x = Eigen::VectorXd::Zero(static_cast<Index>(scale_.size()) + 1);
   for (std::size_t i = 0; i < scale_.size(); ++i) begin_.x[static_cast<Index>(i)] = flat.q[i] / scale_[i];
@@ -71,7 +73,8 @@ void EquilibriumCorrector::find_symmetries() {
     const double duration = frame.rotates() ? 1.0 / frame.rate() : 1.0;
     const Problem problem(posed.system);
     const Start start = consistent_start(
-        problem, all, v, {.t_end = posed.time + duration, .t_start = posed.time, .assemble = true});
+        problem, all, v,
+        {.t_end = posed.time + duration, .t_start = posed.time, .assemble = true, .length = length_});
     Symmetries found(problem, start, posed.time);
     if (found.size() == 0) return;
     kept_ = found.commuting(q, frame);
@@ -98,7 +101,7 @@ EquilibriumCorrector::Here EquilibriumCorrector::at(double p, const Eigen::Vecto
   if (posed.system->coordinates() != q.size() || posed.system->rows() != begin_.lambda.size())
     throw InvalidScene("Branches of scene \"" + posed.system->layout()->scene +
                        "\": for another value of the parameter it has other points or constraints");
-  EquilibriumSolver balance(Problem(posed.system), q, posed.time, posed.turning);
+  EquilibriumSolver balance(Problem(posed.system), q, posed.time, posed.turning, length_);
   return {std::move(posed.system), std::move(balance), posed.turning};
 }
 

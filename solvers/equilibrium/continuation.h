@@ -137,6 +137,7 @@ class EquilibriumCorrector final : public Corrector {
                                          const Linear& all);
   void finish(const Here& here, const EquilibriumSolver::State& s, Node& node) const;
 
+  double length_ = 0.0;  // of the scene where the branch begins
   std::optional<Symmetries> symmetries_{};
   Eigen::MatrixXd kept_{};  // coefficients of those that the frame keeps, columns
 };

@@ -43,6 +43,9 @@ class Equilibrium {
   /// long as a copy of the Equilibrium is.
   [[nodiscard]] Sample<D> sample() const& { return {*state_->layout, state_->sample(0)}; }
   void sample() const&& = delete;  // keep the Equilibrium first
+  /// The same as arrays, with the length in its statistics to which the search was relative, see Options.
+  [[nodiscard]] const Record& record() const& { return *state_; }
+  void record() const&& = delete;
   /// The motion of a steady one; null if its turning is all of it.
   [[nodiscard]] const UniformMotion* motion() const { return motion_.get(); }
   /// Its rotation, of one that `equilibrium` found; in the plane about an axis along z.

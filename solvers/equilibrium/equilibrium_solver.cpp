@@ -4,6 +4,7 @@
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/equilibrium.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
+#include <dalembert/solvers/equilibrium/static_length.h>
 
 #include <algorithm>
 #include <array>
@@ -16,6 +17,8 @@ namespace dalembert {
 
 namespace {
 
+/// In lengths of the scene: leaps over nothing.
+constexpr double short_step = 0.1;
 constexpr int most_corrections = 60, most_halvings = 6, most_descents = 2000;
 /// A sum of forces counts as 0 below this many roundings of the largest of them.
 constexpr double roundings = 100.0;
@@ -52,11 +55,11 @@ void require_bilateral(const System& system) {
 }  // namespace
 
 EquilibriumSolver::EquilibriumSolver(const Problem& problem, std::span<const double> guess, double time,
-                                     const UniformRotation<3>& turning)
-    : EquilibriumSolver(problem, guess, time, frame_of(time, turning, *problem.system().layout())) {}
+                                     const UniformRotation<3>& turning, double length)
+    : EquilibriumSolver(problem, guess, time, frame_of(time, turning, *problem.system().layout()), length) {}
 
 EquilibriumSolver::EquilibriumSolver(const Problem& problem, std::span<const double> guess, double time,
-                                     RotatingFrame frame, double longest)
+                                     RotatingFrame frame, double length, double longest)
     : problem_(problem), system_(&problem_.system()), time_(time), frame_(std::move(frame)) {
   const System& system = *system_;
   require_frictionless(system);
@@ -65,8 +68,12 @@ EquilibriumSolver::EquilibriumSolver(const Problem& problem, std::span<const dou
   frame_.velocity(guess, v);
   // No run begins here; the time of a radian of rotation, where there is one.
   const double duration = frame_.rotates() ? 1.0 / frame_.rate() : longest;
-  Start start =
-      consistent_start(problem, guess, v, {.t_end = time + duration, .t_start = time, .assemble = true});
+  Options options{.t_end = time + duration, .t_start = time, .assemble = true, .length = length};
+  Start start = consistent_start(problem, guess, v, options);
+  if (start.scales.length_from_path) {
+    options.length = static_length(system, frame_, time, start.q, start.lambda);
+    start = consistent_start(problem, guess, v, options);
+  }
   q0_ = std::move(start.q);
   lambda0_ = std::move(start.lambda);
   rows_ = std::move(start.rows);
@@ -82,12 +89,11 @@ EquilibriumSolver::State EquilibriumSolver::start() const {
   return s;
 }
 
-/// Gives each coordinate of a particle the largest force on any of them.
-void EquilibriumSolver::share_by_particle(std::span<double> forces) const {
+void EquilibriumSolver::share_by_particle(std::span<double> numbers) const {
   const Layout& layout = *system_->layout();
   for (const auto& particle : layout.particles) {
-    const auto own = forces.subspan(static_cast<std::size_t>(particle.coordinate),
-                                    static_cast<std::size_t>(layout.dimension));
+    const auto own = numbers.subspan(static_cast<std::size_t>(particle.coordinate),
+                                     static_cast<std::size_t>(layout.dimension));
     std::ranges::fill(own, *std::ranges::max_element(own));
   }
 }
@@ -238,13 +244,19 @@ bool EquilibriumSolver::step(const State& s, std::span<const double> shift, std:
   return std::ranges::all_of(x, [](double value) { return std::isfinite(value); });
 }
 
+/// The largest part of a step, in units of the coordinates.
+double EquilibriumSolver::lengths_of(const std::vector<double>& x) const {
+  double most = 0.0;
+  for (std::size_t i = 0; i < q0_.size(); ++i) most = std::max(most, std::abs(x[i]) / scales_.unit(i));
+  return most;
+}
+
 /// The part of a step downhill that ends in the valley it leads into: where the forces have turned against
 /// it, if they lead on again farther away. It is looked for at distances that grow; a short step leaps over
 /// nothing.
 double EquilibriumSolver::part_in_the_valley(const State& s, const std::vector<double>& x) const {
-  constexpr double short_step = 0.1, growth = 1.25;
-  double length = 0.0;
-  for (std::size_t i = 0; i < s.q.size(); ++i) length = std::max(length, std::abs(x[i]) / scales_.unit(i));
+  constexpr double growth = 1.25;
+  const double length = lengths_of(x);
   if (!(power(s, x) > 0.0)) return 1.0;
   double turned = 1.0;
   for (double part = short_step / length; part < growth; part *= growth) {
@@ -276,15 +288,22 @@ EquilibriumSolver::State EquilibriumSolver::moved(const State& s, const std::vec
 }
 
 /// Line search: as far along a step as the residual falls enough, relative to the forces where the step
-/// begins: where a single force acts on a particle the residual relative to its own would always be 1.
+/// begins: where a single force acts on a particle the residual relative to its own would always be 1. A step
+/// leaves curved constraints by its square, which may be more than the residual where the stiffness vanishes;
+/// a short one then counts once it is back on them (Maratos effect: Nocedal, Wright, Numerical
+/// Optimization, 15.5).
 bool EquilibriumSolver::improve(State& s, const std::vector<double>& x) const {
   double fraction = part_in_the_valley(s, x);
+  const bool is_short = fraction * lengths_of(x) <= short_step;
+  const auto falls = [&](const State& next) {
+    return relative_residual(next, s.acting) <
+           (1.0 - constants.sufficient_decrease * fraction) * s.relative_residual;
+  };
   for (int halving = 0; halving <= most_halvings; ++halving, fraction *= 0.5) {
     try {
       State next = moved(s, x, fraction);
-      if (!(relative_residual(next, s.acting) <
-            (1.0 - constants.sufficient_decrease * fraction) * s.relative_residual))
-        continue;
+      const bool left = next.relative_violation > s.relative_violation;
+      if (!falls(next) && !(is_short && left && project(next) && falls(next))) continue;
       s = std::move(next);
       return true;
     } catch (const EquationFault&) {
@@ -299,8 +318,7 @@ bool EquilibriumSolver::improve(State& s, const std::vector<double>& x) const {
 /// scene, whose end says less of what lies between, less by the square of its lengths.
 bool EquilibriumSolver::leaps_uphill(const State& s, const std::vector<double>& x) const {
   if (power(s, x) >= 0.0 || s.round_off) return false;
-  double lengths = 1.0;
-  for (std::size_t i = 0; i < s.q.size(); ++i) lengths = std::max(lengths, std::abs(x[i]) / scales_.unit(i));
+  const double lengths = std::max(1.0, lengths_of(x));
   try {
     return relative_residual(moved(s, x, 1.0), s.acting) * lengths * lengths > 0.25 * s.relative_residual;
   } catch (const EquationFault&) {
@@ -526,6 +544,7 @@ std::shared_ptr<const Record> EquilibriumSolver::record(const State& found) cons
                         system_->elastic_energy(s.lambda);
   auto record = std::make_shared<Record>();
   record->layout = system_->layout();
+  record->statistics.length = scales_.length;
   record->append({time_, s.q, s.v, a, s.lambda, forces, energy, unique});
   return record;
 }

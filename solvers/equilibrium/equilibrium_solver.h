@@ -38,15 +38,18 @@ class EquilibriumSolver {
     bool round_off = false;
   };
 
-  /// Projects the guess onto the constraint manifold. Throws InconsistentStart, NoEquilibrium.
+  /// Projects the guess onto the constraint manifold. `length` is the scene's; 0: its own, see Options, or
+  /// static_length. Throws InconsistentStart, NoEquilibrium.
   EquilibriumSolver(const Problem& problem, std::span<const double> guess, double time,
-                    const UniformRotation<3>& turning);
+                    const UniformRotation<3>& turning, double length = 0.0);
   /// The scene's time is at most `longest`, if the frame does not rotate.
   EquilibriumSolver(const Problem& problem, std::span<const double> guess, double time, RotatingFrame frame,
-                    double longest = std::numeric_limits<double>::infinity());
+                    double length = 0.0, double longest = std::numeric_limits<double>::infinity());
 
   /// v, R1, R2 and relative residual of a state's q and lambda. Throws EquationFault.
   void evaluate(State& s) const;
+  /// Gives each coordinate of a particle the largest number of any of them.
+  void share_by_particle(std::span<double> numbers) const;
   /// Independent rows there.
   [[nodiscard]] ActiveRows rows_at(const State& s) const;
   /// The guess, with the multipliers of the motion that begins there.
@@ -80,6 +83,7 @@ class EquilibriumSolver {
   /// The residual of a state relative to the forces in another.
   [[nodiscard]] static double relative_residual(const State& s, std::span<const double> acting);
   [[nodiscard]] bool step(const State& s, std::span<const double> shift, std::vector<double>& x) const;
+  [[nodiscard]] double lengths_of(const std::vector<double>& x) const;
   [[nodiscard]] static double power(const State& s, const std::vector<double>& x);
   [[nodiscard]] State moved(const State& s, const std::vector<double>& x, double part) const;
   [[nodiscard]] double part_in_the_valley(const State& s, const std::vector<double>& x) const;
@@ -90,7 +94,6 @@ class EquilibriumSolver {
   void newton(State& s, std::span<const double> shift) const;
   [[nodiscard]] bool has_other_multipliers(State& s) const;
   void measure_stiffness(const State& s);
-  void share_by_particle(std::span<double> forces) const;
   void share_along_rows(std::span<const double> w);
   [[nodiscard]] std::string remedy(std::size_t row) const;
   [[noreturn]] void refuse(const State& s, const std::string& why) const;

@@ -71,21 +71,30 @@ double stiffness_along(const EquilibriumSolver& balance, const EquilibriumSolver
   return sum;
 }
 
-/// Whether the stiffness along a mode exceeds its change within the square root of round-off, to which a
-/// position is known where the stiffness vanishes: for a bead at the turning point of a cubic it does not.
+/// Whether the stiffness along a mode exceeds its change within what a position is known to: the square root
+/// of round-off, as for a bead at the turning point of a cubic, and farther where the forces still balance to
+/// round-off, as about a column under its critical load.
 bool is_known(const EquilibriumSolver& balance, const FlatSample& at, const Mode& mode) {
-  const double way = std::sqrt(epsilon) * balance.scales().length;
   std::vector<double> u;
   for (const auto& x : mode.shape) u.push_back(x.real());
   EquilibriumSolver::State here = balance.start();
   std::ranges::copy(at.q, here.q.begin());
   here.lambda.assign(at.lambda.begin(), at.lambda.end());
   balance.evaluate(here);
-  const double own = stiffness_along(balance, here, u);
-  for (const double side : {way, -way}) {
-    EquilibriumSolver::State s = here;
-    for (std::size_t i = 0; i < u.size(); ++i) s.q[i] += side * u[i];
-    if (balance.project(s) && std::abs(stiffness_along(balance, s, u) - own) > std::abs(own)) return false;
+  const double own = stiffness_along(balance, here, u), length = balance.scales().length;
+  for (const double side : {1.0, -1.0}) {
+    for (double way = std::sqrt(epsilon) * length; way < length; way *= 2.0) {
+      EquilibriumSolver::State s = here;
+      for (std::size_t i = 0; i < u.size(); ++i) s.q[i] += side * way * u[i];
+      if (!balance.project(s)) break;
+      if (std::abs(stiffness_along(balance, s, u) - own) > std::abs(own)) return false;
+      double force = 0.0, rounding = 0.0;
+      for (std::size_t i = 0; i < u.size(); ++i) {
+        force += s.force[i] * u[i];
+        rounding += roundings_of_a_sum * epsilon * s.acting[i] * std::abs(u[i]);
+      }
+      if (std::abs(force) > rounding) break;
+    }
   }
   return true;
 }
@@ -247,6 +256,50 @@ std::vector<double> allowed(const System& system, const LinearTerms& terms, doub
   return u;
 }
 
+/// K where everything is displaced by u.
+LinearTerms::Entries displaced_stiffness(const EquilibriumSolver& balance, const FlatSample& at,
+                                         std::span<const double> u, double part) {
+  std::vector<double> q(at.q.begin(), at.q.end()), v(q.size());
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] += part * u[i];
+  balance.frame().velocity(q, v);
+  return linear_terms(balance.system(), balance.frame(), {at.time, q, v}, at.lambda).stiffness;
+}
+
+/// Throws where a force has a kink: on its two sides the stiffness is another, however near they are. What is
+/// smooth differs in proportion to the distance.
+void require_no_kink(const EquilibriumSolver& balance, const FlatSample& at, const LinearTerms& terms) {
+  const System& system = balance.system();
+  std::vector<double> u(at.q.size()), largest_of_row(at.q.size());
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] = std::sin(static_cast<double>(i + 1));
+  u = allowed(system, terms, balance.high_stiffness(), std::move(u));
+  const double most = largest(u), rounding = std::sqrt(epsilon);
+  if (most == 0.0) return;
+  for (double& x : u) x *= rounding * balance.scales().length / most;
+  LinearTerms::Entries before, behind, near_before, near_behind;
+  try {
+    before = displaced_stiffness(balance, at, u, -1.0), behind = displaced_stiffness(balance, at, u, 1.0);
+    near_before = displaced_stiffness(balance, at, u, -1.0 / 16.0);
+    near_behind = displaced_stiffness(balance, at, u, 1.0 / 16.0);
+  } catch (const EquationFault&) {
+    return;  // as beside the only point where an equation is defined
+  }
+  for (const auto* side : {&near_before, &near_behind})
+    for (const auto& k : *side)
+      largest_of_row[k.row()] = std::max(largest_of_row[k.row()], std::abs(k.value()));
+  balance.share_by_particle(largest_of_row);
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    const std::size_t row = before[k].row();
+    const double jump = std::abs(near_behind[k].value() - near_before[k].value());
+    if (jump <= rounding * terms.roundings * largest_of_row[row] ||
+        jump <= 0.5 * std::abs(behind[k].value() - before[k].value()))
+      continue;
+    throw InvalidScene("Normal modes of scene \"" + system.layout()->scene +
+                       "\": " + system.layout()->label_of_coordinate(static_cast<int>(row)) +
+                       " is held by forces that have a kink at the equilibrium, with another stiffness on "
+                       "either side: small motions have no linear equations there; run them");
+  }
+}
+
 /// Throws unless the equations of small motions are the same later, in the rotating frame.
 void require_constant(const System& system, const EquilibriumSolver& balance, const FlatSample& at,
                       const LinearTerms& terms) {
@@ -316,17 +369,21 @@ const char* name(Stability stability) {
   return "undecided";
 }
 
-Modes find_modes(const System& system, const FlatSample& at, const UniformRotation<3>& turning,
+Modes find_modes(const System& system, const Record& state, const UniformRotation<3>& turning,
                  const ModesOptions& options, const UniformMotion* motion) {
+  const FlatSample at = state.sample(0);
   require_same_size(system, at);
   const Problem problem(system);
-  const EquilibriumSolver balance = motion ? EquilibriumSolver(problem, at.q, at.time, RotatingFrame(*motion))
-                                           : EquilibriumSolver(problem, at.q, at.time, turning);
+  const double length = state.statistics.length;
+  const EquilibriumSolver balance =
+      motion ? EquilibriumSolver(problem, at.q, at.time, RotatingFrame(*motion), length)
+             : EquilibriumSolver(problem, at.q, at.time, turning, length);
   require_equilibrium(balance, at);
   require_smooth(system, at);
   LinearTerms terms = linear_terms(system, balance.frame(), {at.time, at.q, at.v}, at.lambda);
   terms.roundings = balance.scales().roundings_of_difference(at.q);
   require_constant(system, balance, at, terms);
+  require_no_kink(balance, at, terms);
   std::optional<ReversibleMotion> reversible;
   if (motion != nullptr) reversible.emplace(problem, at, *motion);
   const auto reverses = [&](std::size_t part) { return reversible && reversible->is_stable(part); };

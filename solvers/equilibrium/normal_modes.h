@@ -42,7 +42,7 @@ namespace detail {
 
 /// For a System and what `find_equilibrium` gave, out of which `normal_modes` makes NormalModes.
 /// About a steady motion `motion` stands for the turning.
-[[nodiscard]] Modes find_modes(const System& system, const FlatSample& at, const UniformRotation<3>& turning,
+[[nodiscard]] Modes find_modes(const System& system, const Record& found, const UniformRotation<3>& turning,
                                const ModesOptions& options, const UniformMotion* motion = nullptr);
 
 /// The small motions about an equilibrium, read by handle. Functions of a mode k throw InvalidArgument if
@@ -146,10 +146,9 @@ template <int D>
   const System system = scene.system();
   if (!detail::same_elements(*system.layout(), equilibrium.layout()))
     throw InvalidArgument("This equilibrium belongs to another scene than \"" + scene.name() + '"');
-  return {
-      system.layout(),
-      find_modes(system, equilibrium.sample().flat(), equilibrium.turning(), options, equilibrium.motion()),
-      equilibrium.left_out()};
+  return {system.layout(),
+          find_modes(system, equilibrium.record(), equilibrium.turning(), options, equilibrium.motion()),
+          equilibrium.left_out()};
 }
 
 }  // namespace dalembert

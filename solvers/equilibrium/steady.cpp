@@ -195,7 +195,7 @@ class SteadySearch {
     motion->symmetric = X;
     const MatrixXd fixing = same * dense::kernel(X, rank_threshold);
     for (Index k = 0; k < fixing.cols(); ++k) motion->fixing.push_back(symmetries_.motion(fixing.col(k)).A);
-    const EquilibriumSolver balance(problem_, flat(q_), time_, RotatingFrame(*motion), scales_.time);
+    const EquilibriumSolver balance(problem_, flat(q_), time_, RotatingFrame(*motion), 0.0, scales_.time);
     EquilibriumSolver::State s = balance.start();
     std::ranges::copy(flat(lambda_), s.lambda.begin());
     balance.evaluate(s);

@@ -127,6 +127,30 @@ struct Loaded {
   }
 };
 
+/// x + x^3 = P has no fold, x^3 - x = P two, where |P| = 2/(3 sqrt 3) and x^2 = 1/3.
+TEST(Branches, OfALoneParticleHaveTheFoldsOfItsForce) {
+  for (const double x : {-1.5, -1.0, 1.2})
+    for (const double from : {-2.0, -1.0, -0.7, 0.6}) {
+      for (const double sign : {1.0, -1.0}) {
+        const auto diagram = follow_branches<2>(
+            [&](double P) {
+              Scene<2> scene;
+              const auto p = scene.add_particle({.mass = 1.0, .position = {x, 0.0}}, "p");
+              scene.add(OnCurve{p, Plane<2>{}});
+              scene.add(potential(points(p), [=](auto r) {
+                const auto square = r.x() * r.x();
+                return 0.25 * square * square + 0.5 * sign * square - P * r.x();
+              }));
+              return Posed<2>{std::move(scene)};
+            },
+            {.from = from, .to = -from});
+        ASSERT_EQ(diagram.folds.size(), sign > 0.0 ? 0U : 2U) << x << ' ' << from;
+        for (const auto& fold : diagram.folds)
+          EXPECT_NEAR(std::abs(fold.parameter), 2.0 / (3.0 * std::sqrt(3.0)), located) << x << ' ' << from;
+      }
+    }
+}
+
 TEST(Branches, BeginAlongThemselvesHoweverSteep) {
   // dx/dp = 10 ranges: far from the axis of the parameter.
   Loaded loaded;

@@ -92,6 +92,72 @@ TEST(Equilibrium, HeavyParticleInAQuarticWellHasZeroFrequency) {
   }
 }
 
+/// A well of which one side is stiffer: at its bottom there is no frequency, whichever side is looked at.
+TEST(NormalModes, AtAKinkAreRefused) {
+  for (const bool compared : {false, true}) {
+    Scene<2> scene;
+    const auto p = scene.add_particle({.mass = 1.0, .position = {0.3, 0.0}}, "bead");
+    scene.add(OnCurve{p, Plane<2>{}});
+    scene.add(potential(points(p), [compared](auto r) {
+      const auto x = r.x(), right = max(x, 0.0 * x);
+      return compared ? (x > 0.0 ? 1.5 * x * x : 0.5 * x * x) : right * right + 0.5 * x * x;
+    }));
+    EXPECT_THAT([&] { (void)normal_modes(scene, equilibrium(scene)); },
+                ThrowsMessage<InvalidScene>(HasSubstr("particle \"bead\" along x is held by forces that have "
+                                                      "a kink at the equilibrium")));
+  }
+}
+
+/// Nor is where the stiffness vanishes without a kink, or one that the motion cannot reach.
+TEST(NormalModes, BesideAKinkOrAtAJumpOfHigherOrderAreFound) {
+  Scene<2> scene;
+  const auto p = scene.add_particle({.mass = 1.0, .position = {0.3, 0.0}}, "bead");
+  scene.add(OnCurve{p, Plane<2>{}});
+  scene.add(potential(points(p), [](auto r) {
+    const auto x = r.x(), y = max(r.y(), 0.0 * x), right = max(x, 0.0 * x);
+    return 0.5 * x * x + y * y + right * right * right * right;
+  }));
+  EXPECT_NEAR(normal_modes(scene, equilibrium(scene)).frequency(0), 1.0, rounding);
+}
+
+/// m g l (cos a - 1) + k a^2/2 with k = m g l: a^4 is left, and what it balances to round-off leaves a
+/// position known to its cube root.
+TEST(NormalModes, AtACriticalLoadAreNotDecided) {
+  for (const double a : {0.01, 0.3, -0.7, 1.4}) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -10.0}});
+    const auto p = scene.add_particle({.mass = 1.0, .position = {std::sin(a), std::cos(a)}});
+    scene.add(Distance{Fixed<2>{}, p, 1.0});
+    scene.add(potential(points(p), [](auto r) {
+      const auto angle = atan2(r.x(), r.y());
+      return 5.0 * angle * angle;
+    }));
+    const auto at = equilibrium(scene);
+    EXPECT_NEAR(at.sample().position(p).x(), 0.0, std::cbrt(rounding)) << a;
+    const auto modes = normal_modes(scene, at);
+    EXPECT_EQ(modes.frequency(0), 0.0) << a;
+    EXPECT_EQ(modes.stability(), Stability::undecided) << a;
+  }
+}
+
+/// A single particle has no length but that of its forces, which at the equilibrium are round-off.
+TEST(NormalModes, OfALoneParticleAreThoseOfItsWell) {
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  for (const double k : {1e-2, 1e-6, 1e-10})
+    for (const double at : {0.0, 1.1}) {
+      Scene<2> scene;
+      const auto p = scene.add_particle({.mass = 1.0, .position = {at + 0.1, at + 0.2}});
+      scene.add(potential(points(p), [=](auto r) {
+        const auto x = r.x() - at, y = r.y() - at, along = c * x + s * y, across = c * y - s * x;
+        return 0.5 * (k * along * along + across * across);
+      }));
+      const auto modes = normal_modes(scene, equilibrium(scene));
+      ASSERT_EQ(modes.size(), 2U) << k << ' ' << at;
+      EXPECT_NEAR(modes.frequency(0), std::sqrt(k), 1e-4 * std::sqrt(k)) << k << ' ' << at;
+      EXPECT_NEAR(modes.frequency(1), 1.0, rounding) << k << ' ' << at;
+    }
+}
+
 TEST(Equilibrium, IsTheOneDownhill) {
   // V = cos x - 0.2 x: from 1.2 downhill to 3.343, a minimum where sin x = -0.2; a full Newton step leads to
   // -1.9 and on to the minimum of the next valley, uphill.
