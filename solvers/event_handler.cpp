@@ -72,8 +72,11 @@ FlatSample EventHandler::read(Integration& integration, double t) {
 void EventHandler::locate(Integration& integration, Stop& stop) {
   if (conditional_ != nullptr && integration.start().scales.length_from_path)
     conditional_->adopt(integration.scales_at_step());  // what a run claims of its results only grows
+  if (conditional_ != nullptr && conditional_->slides_in_space())
+    conditional_->begin_step(read(integration, integration.start_of_step()));
   const EventWatch::Read reader = [&](double t) { return read(integration, t); };
   const auto all = watch_.locate({reader, integration.time(), integration.degree(), integration.at_end()});
+  if (take_step_again(all, integration, stop)) return;
   std::vector<EventRecord> found;
   for (const auto& one : all)
     if (one.wanted) found.push_back(one.record);
@@ -110,7 +113,22 @@ void EventHandler::locate(Integration& integration, Stop& stop) {
   std::ranges::copy_if(all, std::back_inserter(stop.not_reached),
                        [&](const auto& one) { return one.record.time > until && !is_here(one); });
   if (conditional_ != nullptr)
-    conditional_->require_open(read(integration, changes_there ? stop.time : integration.time()));
+    conditional_->require_open(
+        read(integration, changes_there || stop.ends_run ? stop.time : integration.time()));
+}
+
+/// From where it began, if it has gone past a rest in space: then towards it.
+bool EventHandler::take_step_again(const std::vector<EventWatch::Found>& all, Integration& integration,
+                                   Stop& stop) {
+  if (conditional_ == nullptr) return false;
+  const auto passes = std::ranges::find_if(all, [&](const EventWatch::Found& one) {
+    return !was_asked_for(one.record) &&
+           conditional_->passes_rest(one.record.source - asked_for_, read(integration, one.record.time));
+  });
+  if (passes == all.end()) return false;
+  const double t = integration.start_of_step();
+  stop = {t, false, {{passes->record.source, t}}, all};
+  return true;
 }
 
 void EventHandler::audit_and_list(const EventRecord& one, Integration& integration) {

@@ -55,6 +55,7 @@ class EventHandler {
 
  private:
   FlatSample read(Integration& integration, double t);
+  bool take_step_again(const std::vector<EventWatch::Found>& all, Integration& integration, Stop& stop);
   void audit_and_list(const EventRecord& one, Integration& integration);
   void list(const EventRecord& one, const FlatSample& at, const Integration& integration);
   [[nodiscard]] bool changes(const EventRecord& one) const;

@@ -1,5 +1,8 @@
 #include "dalembert/solvers/contact/coming_to_rest.h"
 
+#include <dalembert/solvers/base/numbers.h>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -26,16 +29,20 @@ Vector3d rates(const SlipCoupling& its, double mu, const Vector3d& x) {
 }  // namespace
 
 std::optional<double> time_to_rest(const SlipCoupling& its, double mu, const Vector2d& u, double least) {
-  constexpr double step = 0.05;  // of the time in which rho or theta could change by 1: errors of 1e-7
+  constexpr double step = 0.05;  // in which log rho or theta change by as much: errors of 1e-7
   constexpr int most_steps = 20000;
   const double fastest = its.c.norm() + mu * std::abs(its.N_0[0]) * its.S.norm();
   if (fastest == 0.0) return std::nullopt;
-  const double h = step / fastest, doubled = std::log(2.0 * u.norm()), ended = std::log(least);
+  const double longest = 1.0 / fastest;  // what decays is stable then
+  const double doubled = std::log(2.0 * u.norm()), ended = std::log(least);
   Vector3d x(std::log(u.norm()), std::atan2(u[1], u[0]), 0.0);
   for (int i = 0; i < most_steps; ++i) {
-    const Vector3d k1 = rates(its, mu, x), k2 = rates(its, mu, x + 0.5 * h * k1),
-                   k3 = rates(its, mu, x + 0.5 * h * k2), k4 = rates(its, mu, x + h * k3);
-    if (x[0] <= ended) return x[2] - (k1[0] < 0.0 ? k1[2] / k1[0] : 0.0);
+    const Vector3d k1 = rates(its, mu, x);
+    const double turning = std::abs(k1[1]), h = std::min(longest, step / std::hypot(k1[0], turning));
+    if (x[0] <= ended || (k1[0] < 0.0 && turning <= epsilon * fastest))
+      return x[2] - (k1[0] < 0.0 ? k1[2] / k1[0] : 0.0);  // what is left is straight
+    const Vector3d k2 = rates(its, mu, x + 0.5 * h * k1), k3 = rates(its, mu, x + 0.5 * h * k2),
+                   k4 = rates(its, mu, x + h * k3);
     x += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
     if (!(x[0] < doubled)) return std::nullopt;
   }

@@ -82,6 +82,11 @@ Change ConditionalConstraints::replace_system(const std::shared_ptr<const System
   return resolve_friction(contacts_.resolve(at, touching), at);
 }
 
+bool ConditionalConstraints::passes_rest(std::size_t function, const FlatSample& at) const {
+  const std::size_t first = contacts_.size();
+  return function >= first && friction_.passes_rest(function - first, {at.time, at.q, at.v});
+}
+
 void ConditionalConstraints::adopt(const Scales& scales) {
   contacts_.adopt(scales);
   friction_.adopt(scales);

@@ -54,6 +54,10 @@ class ConditionalConstraints {
                                       std::span<const double> impulses);
   /// The scales of the run, where they differ from those of the constraints that always hold.
   void adopt(const Scales& scales);
+  /// See DryFriction.
+  [[nodiscard]] bool slides_in_space() const { return friction_.slides_in_space(); }
+  void begin_step(const FlatSample& at) { friction_.begin_step({at.time, at.q, at.v}); }
+  [[nodiscard]] bool passes_rest(std::size_t function, const FlatSample& at) const;
   /// See Contacts.
   [[nodiscard]] bool open_pulling(const FlatSample& now, Change& change);
 

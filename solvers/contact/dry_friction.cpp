@@ -84,6 +84,23 @@ void DryFriction::adopt(const Scales& scales) {
   }
 }
 
+bool DryFriction::slides_in_space() const {
+  return std::ranges::any_of(all_, [](const Rough& r) { return r.is_fast_in_space(); });
+}
+
+void DryFriction::begin_step(const Instant& at) {
+  find_slip(at);
+  for (Rough& r : all_)
+    if (const VectorXd u = slip(r); r.is_fast_in_space() && u.norm() > r.slow) r.direction = u.normalized();
+}
+
+bool DryFriction::passes_rest(std::size_t function, const Instant& at) const {
+  const Rough& r = all_[function / kinds];
+  if (!r.is_fast_in_space() || static_cast<Watched>(function % kinds) != speed) return false;
+  find_slip(at);
+  return slip(r).norm() <= r.still;
+}
+
 void DryFriction::replace_system(std::shared_ptr<const System> stated, const Instant& at) {
   stated_ = std::move(stated);
   for (Rough& r : all_) read_law(r);
@@ -133,8 +150,8 @@ double DryFriction::round_off_of(const Rough& rough, std::span<const double> a,
 
 /// Steps carry what slides past rest, with friction in the direction that it had, up to where this function
 /// tells that it rested. A single slip velocity has one direction or the other. Two have none at rest: slow
-/// ones keep the direction that they have. Something that slides without moving, to round-off, does not
-/// trigger.
+/// ones keep the direction that they have; fast ones that rest for a moment within a step have turned back
+/// since it began. Something that slides without moving, to round-off, does not trigger.
 double DryFriction::switching(std::size_t function, const FlatSample& now) const {
   const Rough& r = all_[function / kinds];
   const auto watched = static_cast<Watched>(function % kinds);
@@ -149,9 +166,13 @@ double DryFriction::switching(std::size_t function, const FlatSample& now) const
     return bound * bound - part(r, now.lambda).squaredNorm() + std::numeric_limits<double>::min();
   }
   const bool slow = r.mode == Mode::slides && r.pace != Pace::fast;
-  if (watched == speed && !slow && !r.shared) return 1.0;
+  const bool turns = watched == speed && r.is_fast_in_space();
+  if (watched == speed && !slow && !r.shared && !turns) return 1.0;
   if (slip_at_ != now.time) find_slip({now.time, now.q, now.v});
   const VectorXd u = slip(r);
+  if (turns) return u.dot(r.direction) + no_slip(r);
+  if (watched == speed && r.mode == Mode::slides && r.pace == Pace::straight)
+    return 4.0 * r.still * r.still - (u - u.dot(r.direction) * r.direction).squaredNorm();
   if (watched == speed) return 2.0 * (slow ? r.slow : no_slip(r)) - u.norm();
   return r.rows == 1 || slow ? u.dot(r.direction) + no_slip(r) : u.norm() - r.slow;
 }
@@ -239,12 +260,16 @@ void DryFriction::require_no_impulse(std::span<const double> impulses, const Ins
   double momentum = 0.0;
   for (std::size_t i = 0; i < at.v.size(); ++i)
     momentum = std::max(momentum, stated_->masses()[i] * std::abs(at.v[i]) / lengths[i]);
+  // What takes away no more than velocities err by is no impact.
   const auto changes_momentum = [&](std::size_t row) {
-    double largest_change = 0.0;
-    for (const std::size_t k : stated_->row(row))
-      largest_change =
-          std::max(largest_change, std::abs(e.w[k] * impulses[row]) / lengths[stated_->w_columns()[k]]);
-    return largest_change > rounding * momentum;
+    for (const std::size_t k : stated_->row(row)) {
+      const std::size_t i = stated_->w_columns()[k];
+      const double change = std::abs(e.w[k] * impulses[row]);
+      if (change / lengths[i] > rounding * momentum &&
+          change > stated_->masses()[i] * scales_.velocity_error(i, at.v[i], tolerance_))
+        return true;
+    }
+    return false;
   };
   const double none = rounding * largest(impulses);
   for (const Rough& r : all_) {

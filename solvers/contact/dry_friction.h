@@ -34,6 +34,12 @@ class DryFriction {
   DryFriction(std::shared_ptr<const System> stated, const Scales& scales, double tolerance,
               const Instant& at);
 
+  [[nodiscard]] bool slides_in_space() const;
+  /// Before the step from there is looked at: what slides fast in space has this direction, see `switching`.
+  void begin_step(const Instant& at);
+  /// Whether a switching function has fallen as what slides fast in space passes rest straight ahead. (Its
+  /// friction has reversed in that step, which must be taken once more.)
+  [[nodiscard]] bool passes_rest(std::size_t function, const Instant& at) const;
   /// Goes on with these equations, whose parameters may differ.
   void replace_system(std::shared_ptr<const System> stated, const Instant& at);
   void adopt(const Scales& scales);
@@ -61,11 +67,13 @@ class DryFriction {
 
  private:
   /// What is left until it sticks or slides; the normal force, if that may change its sign; and what is left
-  /// until a slip that counts as slow, or as none, no longer does.
+  /// until a slip that counts as slow, or as none, no longer does, or until a fast one in space has turned
+  /// back.
   enum Watched : std::size_t { mode, sign, speed, kinds };
   enum class Mode { absent, sticks, slides };
-  /// Of two slip velocities that slide: slow ones leave rest, or come to it in the direction that they have.
-  enum class Pace { fast, leaves, ends };
+  /// Of two slip velocities that slide: slow ones leave rest, or come to it in the direction that they have;
+  /// so do fast ones that are seen to rest straight ahead.
+  enum class Pace { fast, straight, leaves, ends };
   /// The slowness by which it has that direction at any speed.
   static constexpr double only_direction = 1e100;
   struct Rough {
@@ -86,6 +94,10 @@ class DryFriction {
     std::optional<double> turns{};          // of a slip that ends: how much later it rests for its turning
     std::optional<double> let_go{};         // when it began to slide, its bound reached
     bool at_rest = false, reached = false;  // when what happens now began: no slip; |sigma| at its bound
+
+    [[nodiscard]] bool is_fast_in_space() const {
+      return mode == Mode::slides && rows == 2 && pace == Pace::fast;
+    }
   };
   /// Accelerations and multipliers with the modes as they are.
   struct Motion {
@@ -116,6 +128,7 @@ class DryFriction {
                                       const std::vector<std::size_t>& open, const Instant& at) const;
 
   void set_mode_by_slip(Rough& rough, const std::vector<std::size_t>& open, double t, Triggered triggered);
+  static void end_straight(Rough& rough, const Eigen::VectorXd& direction);
   [[nodiscard]] double same_time(double t) const;
   void rest_with_others(const std::vector<std::size_t>& open, const Instant& at);
   void find_way_to_rest(Rough& rough, const std::vector<std::size_t>& open, const Instant& at);

@@ -92,12 +92,23 @@ void DryFriction::set_mode_by_slip(Rough& rough, const std::vector<std::size_t>&
     return;
   }
   rough.shared = false;
+  if (own(rough, triggered, speed) && rough.is_fast_in_space()) return end_straight(rough, u.normalized());
+  if (rough.pace == Pace::straight && slid && !own(rough, triggered, speed) && u.dot(rough.direction) > 0.0)
+    return;
   if (slow && u.norm() < 2.0 * rough.slow && u.dot(rough.direction) > 0.0) return;
   rough.mode = Mode::slides;
   rough.direction = u.normalized();
   rough.blur = 0.0;
   rough.pace = rough.rows == 2 && (due || u.norm() < rough.slow) ? Pace::leaves : Pace::fast;
   rough.turns.reset();
+}
+
+/// Comes to rest in this direction, however fast it is.
+void DryFriction::end_straight(Rough& rough, const VectorXd& direction) {
+  rough.direction = direction;
+  rough.pace = Pace::straight;
+  rough.blur = only_direction;
+  rough.turns = 0.0;
 }
 
 /// What others that are at rest leave no slip is at rest, too: the slow slip that it still has is an error of

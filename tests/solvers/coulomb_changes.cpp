@@ -324,6 +324,28 @@ TEST_P(CoulombChanges, PuckComesToRestInTimeUnderAVaryingForce) {
 }
 
 // A change of what slides along a rough incline is no impact: its normal part is round-off.
+/// A particle that hangs nearby is let go: nothing else moves, so that all speeds and impulses are round-off.
+TEST_P(CoulombChanges, ChangeElsewhereIsNoImpactOnWhatSticks) {
+  for (const double angle : {0.3, 0.8, 1.1}) {
+    const Vec<2> normal(-std::sin(angle), std::cos(angle));
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto block = scene.add_particle({.mass = 1.0}, "block");
+    const Plane<2> incline{{0.0, 0.0}, normal};
+    const auto floor = scene.add(OnCurve{block, incline}, "floor");
+    scene.add(coulomb(floor, Slip{block, incline}, 1.1 * std::tan(angle)), "rough");
+    const auto load = scene.add_particle({.mass = 1.0, .position = {3.0, 0.0}}, "load");
+    const auto hook = scene.add(Coincident{load, Fixed<2>{{3.0, 0.0}}}, "hook");
+    const auto run = simulate(scene, options(1.0),
+                              {{.name = "let go",
+                                .function = [](const Sample<2>& now) { return now.time() - 0.35; },
+                                .change = [hook](Scene<2>& next) { next.release(hook); }}});
+    ASSERT_EQ(run.events().size(), 1U) << angle;
+    EXPECT_NEAR(run.position(load, 10).y(), -0.5 * g * 0.65 * 0.65, bound()) << angle;
+    EXPECT_NEAR(run.position(block, 10).norm(), 0.0, bound()) << angle;
+  }
+}
+
 TEST_P(CoulombChanges, KickAlongAnInclineIsNoImpact) {
   constexpr double mu = 0.2, kick = 0.7;
   for (const double angle : {0.1, 0.3, 0.5, 0.7}) {
