@@ -150,7 +150,10 @@ void Contacts::find_forces(const FlatSample& now) const {
 /// its round-off in all of the run. What acts elsewhere tells nothing about how exactly it is known.
 double Contacts::no_pull(const Contact& contact, const FlatSample& now) const {
   find_forces(now);
-  double net = 0.0, others = 0.0, noise = no_acceleration(contact, now.q), inverse_mass = 0.0;
+  double net = 0.0, others = 0.0, inverse_mass = 0.0;
+  // One that was closed without a force is neither pressed nor left, to round-off.
+  double noise = no_acceleration(contact, now.q) +
+                 (contact.bears || friction_ ? 0.0 : round_off() * own_acceleration(contact));
   for (const std::size_t k : stated_->row(contact.row)) {
     const std::size_t i = stated_->w_columns()[k];
     const double w = e_.w[k], mass = stated_->masses()[i];

@@ -136,6 +136,7 @@ class Contacts {
   std::vector<Eigen::Index> open_separating(const std::vector<std::size_t>& touched, const Eigen::VectorXd& U,
                                             double t, Change& change);
   [[nodiscard]] double still(const Contact& contact) const;
+  [[nodiscard]] double own_acceleration(const Contact& contact) const;
   void update_rates(const Instant& at);
   [[nodiscard]] bool add_slow(const Instant& at, std::vector<std::size_t>& touched) const;
   void close(const std::vector<std::size_t>& touched, const std::vector<std::size_t>& triggered,

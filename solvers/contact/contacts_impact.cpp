@@ -120,6 +120,11 @@ void Contacts::rest(const Coupling& coupling, const std::vector<std::size_t>& to
   coupling.apply_impulses(P, change.v, change.impulses);
 }
 
+/// Of its gap, where the scene's speeds change in the scene's time.
+double Contacts::own_acceleration(const Contact& contact) const {
+  return scales_.speed() / scales_.time * contact.gradient;
+}
+
 /// Rates that count as 0, of velocities at the start and after impacts at one time.
 double Contacts::still(const Contact& contact) const {
   return start_tolerance * scales_.speed() * contact.gradient;
@@ -259,7 +264,12 @@ void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& to
   for (const auto& island : coupling.islands()) {
     Coupling::Places own;
     std::ranges::set_intersection(island, resting, std::back_inserter(own));
-    const VectorXd free = all(own);
+    VectorXd free = all(own);
+    // What neither leaves nor is pressed yet, to round-off, stays closed.
+    for (Index k = 0; k < free.size(); ++k) {
+      const Contact& c = contacts_[touched[static_cast<std::size_t>(own[static_cast<std::size_t>(k)])]];
+      if (std::abs(free[k]) <= round_off() * own_acceleration(c)) free[k] = 0.0;
+    }
     const Eigen::MatrixXd S = coupling.S(own);
     const auto lambda = complementary_solution(S, free);
     if (!lambda)
@@ -285,7 +295,7 @@ void Contacts::open_or_close(std::size_t i, const std::vector<std::size_t>& trig
   // A force that has fallen to 0 goes on falling: the contact opens, though nothing separates it yet. So does
   // one that has fallen at this very time, before another: it stays open.
   const Contact& c = contacts_[i];
-  const double own = scales_.speed() / scales_.time * c.gradient * pair.unit;
+  const double own = own_acceleration(c) * pair.unit;
   const bool fallen = c.closed ? among(triggered, i) : c.opened_at == t && c.rate_at_opening == 0.0;
   const bool falls =
       fallen && pair.force <= accuracy_.of_positions() * std::max(pair.largest, own) * pair.unit;

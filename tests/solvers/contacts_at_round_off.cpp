@@ -123,5 +123,40 @@ TEST(ContactsBesideFriction, BounceDownToRoundOff) {
   }
 }
 
+/// A bob on a string is let go from the horizontal, in a scene that is turned: its string is neither slack nor
+/// taut there but for round-off, and then carries 3 m g sin of the angle.
+TEST_P(ContactsAtRoundOff, StringFromTheHorizontalIsTautAtOnce) {
+  for (const double turned : {0.0, 0.4, 1.3, 2.9, 4.1}) {
+    const Vec<2> down(std::sin(turned), -std::cos(turned)), across(std::cos(turned), std::sin(turned));
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{Vec<2>(g * down)});
+    const auto bob = scene.add_particle({.mass = 1.0, .position = across});
+    const auto string = scene.add(unilateral(Distance{Fixed<2>{}, bob, 1.0}, {.allowed = Allowed::negative}));
+    const auto run = simulate(scene, options(0.5));
+    EXPECT_TRUE(run.events().empty()) << turned;
+    const double sine = run.position(bob, 10).dot(down);
+    EXPECT_NEAR(-run.multiplier(string, 10), 3.0 * g * sine, 10.0 * bound * g) << turned;
+  }
+}
+
+/// In balance between two springs at a wall that bears nothing, and then pressed against it by t: it stays, and
+/// the wall bears t.
+TEST_P(ContactsAtRoundOff, WhatRestsBesideAWallIsPressedAgainstIt) {
+  for (const double k : {7.0, 130.0})
+    for (const double x : {0.1, 0.7, 1.1}) {
+      Scene<2> scene;
+      const auto block = scene.add_particle({.mass = 1.0, .position = {x, 0.0}});
+      scene.add(OnCurve{block, Plane<2>{}});
+      scene.add(Spring{Fixed<2>{{x - 0.3, 0.0}}, block, k, 0.2});
+      scene.add(Spring{Fixed<2>{{x + 0.3, 0.0}}, block, k, 0.2});
+      const auto wall = scene.add(unilateral(OnCurve{block, Plane<2>{{x, 0.0}, {-1.0, 0.0}}}));
+      scene.add(force_law(points(block), [](auto t, auto, auto) { return vec(1.0 * t, 0.0 * t); }));
+      const auto run = simulate(scene, options(1.0));
+      EXPECT_TRUE(run.events().empty()) << k << ' ' << x;
+      EXPECT_NEAR(run.multiplier(wall, 10), 1.0, bound) << k << ' ' << x;
+      EXPECT_NEAR(run.position(block, 10).x(), x, bound) << k << ' ' << x;
+    }
+}
+
 }  // namespace
 }  // namespace dalembert::contacts_at_round_off_test
