@@ -28,6 +28,8 @@ Integration::Integration(const Problem& problem, Start start, const Options& opt
   state_ = {start.q, start.v};
   if (problem.system().compliant()) compliant_ = CompliantMultipliers(start.lambda.size());
   segment_ = make_segment(problem, std::move(start), options.t_start, options.stepper);
+  const Comparisons& comparisons = segment_->comparisons;
+  if (comparisons.chosen()) behind_ = {options.t_start, options.t_start, *comparisons.held()};
   const auto number = [](std::size_t equations) { return static_cast<int>(equations); };
   const auto& rows = this->start().rows.rows;
   const std::size_t active = rows.size();
@@ -59,15 +61,20 @@ Options Integration::options_from(double t, Stepper by) const {
   return options;
 }
 
+/// The sides behind a switch that was left at this time. (What slides may be other batches than before.)
+std::optional<Comparisons::Behind> Integration::behind_at(const System& system, double t) const {
+  if (!behind_ || behind_->t != t) return std::nullopt;
+  Comparisons::Behind behind = *behind_;
+  behind.sides.resize(std::min(behind.sides.size(), system.stated_batches()));
+  return behind;
+}
+
 /// From `start` at time t.
 std::unique_ptr<Integration::Segment> Integration::make_segment(const Problem& problem, Start start, double t,
                                                                 Stepper by) const {
   const double tolerance = tolerance_of_a_step(by, options_.tolerance);
-  if (behind_ && behind_->t == t) {
-    // What slides may be other batches than before.
-    Comparisons::Behind behind = *behind_;
-    behind.sides.resize(std::min(behind.sides.size(), problem.system().stated_batches()));
-    Comparisons there(problem, start, tolerance, behind);
+  if (auto behind = behind_at(problem.system(), t)) {
+    Comparisons there(problem, start, tolerance, *std::move(behind));
     return make_segment(problem, std::move(start), t, by, std::move(there));
   }
   Comparisons comparisons(problem, start, t, tolerance);
@@ -84,7 +91,7 @@ std::unique_ptr<Integration::Segment> Integration::make_segment(const Problem& p
   std::unique_ptr<TimeStepper> stepper;
   {
     const Branches holding(nullptr, comparisons.held());
-    if (start.scales.waits_for_path) measure_path(problem, start, options);
+    if (start.scales.waits_for_path) measure_path(problem, start, options, comparisons.held());
     stepper = make_stepper(problem, start, options);
   }
   OutputProjection output(problem, start, options_.tolerance);
@@ -239,15 +246,12 @@ void Integration::watch_sliding() {
 void Integration::restart_with_constraints(double t, std::shared_ptr<const System> system,
                                            std::span<const double> q, std::span<const double> v) {
   const Problem problem(std::move(system));
+  const auto behind = behind_at(problem.system(), t);
+  const Branches holding(nullptr, behind ? &behind->sides : nullptr);
   // A path starts again: the shorter flights behind impacts are held to the tolerance as the first ones are.
   Start next = dalembert::restart_with_constraints(problem, start(), t, q, v, options_.tolerance);
-  if (next.scales.length_from_path) {  // a first step, see IdaStepper, must advance the time
-    const double rounding = constants.roundings_of_path * epsilon * std::abs(t);
-    PathExtent extent = next.scales.extent;
-    const double first = Accuracy(options_.tolerance).first_implicit_step();
-    extent.length = std::max(extent.length, extent.speed * rounding / first);
-    next.scales.adopt(extent);
-  }
+  if (next.scales.length_from_path)
+    next.scales.adopt_for_first_step(next.scales.extent, t, options_.tolerance);
   enter_segment(make_segment(problem, std::move(next), t, options_.stepper));
 }
 

@@ -72,6 +72,8 @@ class Integration {
   [[nodiscard]] Scales scales(double t) const;
   /// The same where the last step began.
   [[nodiscard]] const Scales& scales_at_step() const { return scales_at_step_; }
+  /// When the last step began.
+  [[nodiscard]] double start_of_step() const { return from_; }
   /// The constraint whose force has grown without bound where the last step ended, in words; empty if there
   /// is none.
   [[nodiscard]] std::string unbounded_multiplier();
@@ -104,6 +106,7 @@ class Integration {
   void extend_path(Scales& scales, double t, State& at) const;
   [[nodiscard]] Start start_of_rest(double t) const;
   [[nodiscard]] Options options_from(double t, Stepper by) const;
+  [[nodiscard]] std::optional<Comparisons::Behind> behind_at(const System& system, double t) const;
   [[nodiscard]] std::unique_ptr<Segment> make_segment(const Problem& problem, Start start, double t,
                                                       Stepper by) const;
   [[nodiscard]] std::unique_ptr<Segment> make_segment(const Problem& problem, Start start, double t,

@@ -3,9 +3,12 @@
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/erk/erk.h>
+#include <dalembert/solvers/manifold/first_scales.h>
+#include <dalembert/solvers/run/comparisons.h>
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -33,17 +36,14 @@ double length_of_round_off(const Start& start, double step, double tolerance) {
   return start.scales.extended_by(start.q, still, step, tolerance).length;
 }
 
-/// Nothing acts on what is free to move, or all that is no angle is held: what its forces would do in no time
-/// is no path. (Friction holds for a while only, and wheels have their levers.)
+/// Nothing acts on what is free to move, or all that is no angle is held, for good or by friction: what its
+/// forces would do in no time is no path. (Wheels have their levers.)
 bool has_no_path(const System& system, const Start& start) {
   if (start.scales.lever > 0.0) return false;
   if (start.scales.forced == 0.0) return true;
-  std::vector<char> rough(system.rows(), 0);
-  for (const std::size_t number : system.frictional_constraints())
-    for (const std::size_t r : system.layout()->constraints[number].own_rows()) rough[r] = 1;
   std::ptrdiff_t held = 0;
   for (const std::size_t r : start.rows.rows) {
-    bool of_lengths = rough[r] == 0;
+    bool of_lengths = true;
     for (const std::size_t k : system.row(r))
       of_lengths = of_lengths && !start.scales.is_angle[system.w_columns()[k]];
     held += of_lengths ? 1 : 0;
@@ -51,12 +51,33 @@ bool has_no_path(const System& system, const Start& start) {
   return held >= std::ranges::count(start.scales.is_angle, 0);
 }
 
+/// A time in a step, which began at `from`, up to which what presses what slides has not changed its sign,
+/// where friction turns: at least half as far as that.
+double end_of_sliding(const Problem& problem, const Start& start, TimeStepper& step, double from, double to) {
+  const System& system = problem.system();
+  if (!system.slides()) return to;
+  Manifold manifold(problem, start.rows, start.scales.lengths());
+  std::vector<double> q(start.q), v(start.v), a(q.size()), lambda(system.rows());
+  const auto turned = [&](double t) {
+    step.interpolate(t, q, v);
+    if (!manifold.accelerate({t, q, v}, a)) return true;
+    manifold.multipliers(lambda);
+    return std::ranges::any_of(system.multiplier_force_pattern(), [&](const System::Entry& entry) {
+      return lambda[entry.column] * start.lambda[entry.column] < 0.0;
+    });
+  };
+  double t = to;
+  while (t > from && turned(t)) t = std::midpoint(from, t);
+  return t;
+}
+
 /// A scene without a length of its own gets that of the path of a first step.
 Start first_start(const Problem& problem, std::span<const double> q, std::span<const double> v,
-                  const Options& options, double nearest_contact) {
+                  const Options& options, double nearest_contact, double lever = 0.0) {
   Start start = consistent_start(problem, q, v, options, nearest_contact);
   if (!std::exchange(start.scales.length_from_path, false)) return start;
-  const double round_off = measure_path(problem, start, options);
+  if (start.scales.lever == 0.0) start.scales.lever = lever;
+  const double round_off = measure_path(problem, start, options, nullptr);
   if (!start.scales.waits_for_path || start.scales.length > round_off) return start;
   Options still = options;
   still.length = std::max(1.0, round_off);
@@ -65,22 +86,58 @@ Start first_start(const Problem& problem, std::span<const double> q, std::span<c
   return start;
 }
 
+/// Also of slips, which are in force only where friction sticks. 0 where something is not defined.
+double lever_of_all(const System& stated, const Instant& at) {
+  auto e = stated.evaluation();
+  try {
+    stated.evaluate(at, e);
+  } catch (const EquationFault&) {
+    return 0.0;
+  }
+  const auto angles = stated.angles();
+  return least_lever(stated, e, {angles.begin(), angles.end()});
+}
+
+/// The sides on which comparisons with the time go on from the start. (Where something moves to depends on
+/// what holds it.)
+Branches::Sides sides_behind(const Problem& problem, const Start& start, const Options& options) {
+  if (!problem.system().rheonomic() && !problem.system().has_timed_forces()) return {};
+  const Comparisons comparisons(problem, start, options.t_start, options.tolerance);
+  if (!comparisons.chosen()) return {};
+  Branches::Sides sides = *comparisons.held();
+  for (std::size_t b = 0; b < sides.size(); ++b)
+    if (!problem.system().timed_batch(b)) sides[b].clear();
+  return sides;
+}
+
 }  // namespace
 
-double measure_path(const Problem& problem, Start& start, const Options& options) {
+double measure_path(const Problem& problem, Start& start, const Options& options,
+                    const Branches::Sides* sides) {
   Options looking = options;
   looking.tolerance = Options{}.tolerance;  // the scene's length is its own, whatever is asked of the run
   Start moving = start;
   moving.scales.length_from_path = true;
   moving.scales.waits_for_path = false;
   try {
+    const double t = options.t_start;
+    Comparisons comparisons = sides ? Comparisons(problem, moving, looking.tolerance, {t, t, *sides})
+                                    : Comparisons(problem, moving, t, looking.tolerance);
+    const Branches holding(nullptr, comparisons.held());
     ErkStepper first(problem, moving, looking);
     first.step(options.t_end);
-    const PathExtent& path = first.scales().extent;
+    PathExtent path = first.scales().extent;
+    const auto switched = comparisons.leave(first);
+    const double to = end_of_sliding(problem, start, first, t, switched ? switched->at.t : first.time());
+    if (to < first.time()) {  // what is behind is not of the motion
+      std::vector<double> q(start.q.size()), v(q.size());
+      first.interpolate(to, q, v);
+      path = moving.scales.extended_by(q, v, to - t, looking.tolerance);
+    }
     const double round_off = length_of_round_off(start, path.step, looking.tolerance);
     start.scales.waits_for_path = path.length <= round_off && has_no_path(problem.system(), start);
     if (start.scales.waits_for_path) return round_off;
-    moving.scales.adopt(path);
+    moving.scales.adopt_for_first_step(path, t, options.tolerance);
     start = std::move(moving);
   } catch (const StepFailure&) {  // the run will stop, and say why
   }
@@ -97,15 +154,19 @@ Opening open_run(const std::shared_ptr<const System>& stated, std::span<const do
     return {nullptr, {}, problem, std::move(start), scales};
   }
   require_no_force_reads(*stated);
-  const double nearest = nearest_contact(*stated, {options.t_start, q, v});
-  const Start free = first_start(Problem(stated->without(numbers)), q, v, options, nearest);
+  const double nearest = nearest_contact(*stated, {options.t_start, q, v}),
+               lever = lever_of_all(*stated, {options.t_start, q, v});
+  const Problem always(stated->without(numbers));
+  const Start free = first_start(always, q, v, options, nearest, lever);
   const Instant at{options.t_start, free.q, free.v};
+  const Branches::Sides sides = sides_behind(always, free, options);
+  const Branches holding(nullptr, &sides);
   const auto open_with = [&](const Scales& scales) {
     auto conditional = std::make_unique<ConditionalConstraints>(stated, scales, options.tolerance, at,
                                                                 options.t_end - options.t_start);
     Change change = conditional->resolve_start(at);
     const Problem problem(change.system);
-    Start start = first_start(problem, change.q, change.v, options, nearest);
+    Start start = first_start(problem, change.q, change.v, options, nearest, lever);
     return Opening{std::move(conditional), std::move(change), problem, std::move(start), scales};
   };
   Opening opening = open_with(free.scales);

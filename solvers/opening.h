@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/core/autodiff/branches.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/base/options.h>
 #include <dalembert/solvers/contact/change.h>
@@ -22,9 +23,11 @@ struct Opening {
   Scales given;  ///< in which it was told what touches, sticks and separates
 };
 
-/// Gives the start of a scene without a length of its own that of the path of a first step. Where nothing but
-/// round-off moves on it the start waits for another; returns how long such a path is.
-double measure_path(const Problem& problem, Start& start, const Options& options);
+/// Gives the start of a scene without a length of its own that of the path of a first step, up to where it
+/// leaves the sides of comparisons, or those that it is on. Where nothing but round-off moves on it the start
+/// waits for another; returns how long such a path is.
+double measure_path(const Problem& problem, Start& start, const Options& options,
+                    const Branches::Sides* sides);
 
 /// Of what a scene states, from a guess of its state. A scene without a characteristic length gets that of a
 /// first explicit step, whose error is within the tolerance of its own length. Throws InconsistentStart;

@@ -42,8 +42,8 @@ double smallest_radius(const System& system, const Instant& at, const System::Ev
   return 1.0 / curvature;
 }
 
-/// Of the rows that hold both, the least length by which a radian moves what is a length: the radius of a
-/// wheel, the arm of a hinge. 0 if there is none.
+}  // namespace
+
 double least_lever(const System& system, const System::Evaluation& e, const std::vector<char>& is_angle) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t r = 0; r < system.rows(); ++r) {
@@ -55,8 +55,6 @@ double least_lever(const System& system, const System::Evaluation& e, const std:
   }
   return std::isfinite(least) ? least : 0.0;
 }
-
-}  // namespace
 
 std::vector<double> forced_acceleration(const System& system, const System::Evaluation& e) {
   std::vector<double> a(e.force);
@@ -84,7 +82,7 @@ void set_length(const System& system, const Instant& at, const System::Evaluatio
   // What is slower than would show in the positions is at rest, as where a motion reverses.
   const double shown = std::max(epsilon * largest_of_lengths(at.q, scales.is_angle), Scales::least);
   if (std::isinf(radius) && v > 0.0 && a > 0.0 && v * v / a > shown) scales.length = v * v / a;
-  if (std::isinf(scales.length)) scales.length = v + a > 0.0 ? v + a : 1.0;
+  if (std::isinf(scales.length)) scales.length = v + a > Scales::least ? v + a : 1.0;
   if (scales.length_from_path) {
     scales.length = std::min(scales.length, std::max(nearest_contact, epsilon * scales.length));
   }

@@ -28,4 +28,9 @@ void set_length(const System& system, const Instant& at, const System::Evaluatio
 [[nodiscard]] double time_scale(const System& system, const System::Evaluation& e, const Start& start,
                                 double duration);
 
+/// Of the rows in force that hold both, the least length by which a radian moves what is a length: the radius
+/// of a wheel, the arm of a hinge. 0 if there is none.
+[[nodiscard]] double least_lever(const System& system, const System::Evaluation& e,
+                                 const std::vector<char>& is_angle);
+
 }  // namespace dalembert

@@ -1,5 +1,6 @@
 #include "dalembert/solvers/manifold/scales.h"
 
+#include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 
@@ -66,6 +67,12 @@ void Scales::adopt(const PathExtent& next) {
   extent = next;
   length = extent.length;
   time = length / extent.speed;
+}
+
+void Scales::adopt_for_first_step(PathExtent next, double t, double tolerance) {
+  const double rounding = constants.roundings_of_path * epsilon * std::abs(t);
+  next.length = std::max(next.length, next.speed * rounding / Accuracy(tolerance).first_implicit_step());
+  adopt(next);
 }
 
 double Scales::velocity_error(std::size_t i, double v, double tolerance) const {

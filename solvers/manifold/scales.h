@@ -60,6 +60,8 @@ struct Scales {
   [[nodiscard]] PathExtent extended_by(std::span<const double> q, std::span<const double> v, double h,
                                        double tolerance) const;
   void adopt(const PathExtent& next);
+  /// The same at time t, which a first step, see IdaStepper, must advance.
+  void adopt_for_first_step(PathExtent next, double t, double tolerance);
   /// A rounding of the coordinate farthest from 0.
   [[nodiscard]] double largest_rounding(std::span<const double> q) const;
   /// Roundings of a difference of positions, at least one: far from the origin as many as these are farther

@@ -306,9 +306,20 @@ bool Comparisons::differ(const Motion& there, const Branches::Sides& before, con
     const double effect = scales_.time * std::abs(other.a[i] - one.a[i]);
     if (!(effect <= scales_.velocity_error(i, there.v[i], tolerance_))) return true;
   }
-  const double least = tolerance_ * std::max(largest(lambda), largest(lambda_));
+  // Of all that acts on what a row moves: of forces elsewhere one may be any part.
+  std::vector<double> acting(there.v.size());
+  const auto& e = manifold_->equations();
+  for (std::size_t i = 0; i < acting.size(); ++i)
+    acting[i] =
+        std::abs(e.force[i]) + system_->masses()[i] * std::max(std::abs(one.a[i]), std::abs(other.a[i]));
   for (std::size_t r = 0; r < lambda.size(); ++r)
-    if (!(std::abs(lambda_[r] - lambda[r]) <= least)) return true;
+    for (const std::size_t k : system_->row(r))
+      acting[system_->w_columns()[k]] +=
+          std::abs(e.w[k]) * std::max(std::abs(lambda[r]), std::abs(lambda_[r]));
+  for (std::size_t r = 0; r < lambda.size(); ++r)
+    for (const std::size_t k : system_->row(r))
+      if (!(std::abs(e.w[k] * (lambda_[r] - lambda[r])) <= tolerance_ * acting[system_->w_columns()[k]]))
+        return true;
   return false;
 }
 

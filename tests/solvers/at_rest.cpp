@@ -32,6 +32,27 @@ TEST_P(AtRest, ALoneParticleIsMovedByAForceThatSwitchesOn) {
   }
 }
 
+/// Friction holds it wherever it lies, until a push of F > mu m g.
+TEST_P(AtRest, ALoneBlockOnARoughTableIsPushed) {
+  constexpr double g = 10.0, mu = 0.05, F = 3.0, a = F - mu * g, on = 2.0;
+  for (const double x : {0.0, 1e-9, -3e-5, 1.0})
+    for (const bool one_sided : {false, true}) {
+      Scene<2> scene;
+      scene.add(UniformGravity<2>{{0.0, -g}});
+      const auto block = scene.add_particle({.mass = 1.0, .position = {x, 0.0}}, "block");
+      const OnCurve table{block, Plane<2>{}};
+      const Slip slip{block, Plane<2>{}};
+      if (one_sided) {
+        scene.add(coulomb(scene.add(unilateral(table), "table"), slip, mu), "friction");
+      } else {
+        scene.add(coulomb(scene.add(table, "table"), slip, mu), "friction");
+      }
+      scene.add(force_law(points(block),
+                          [](auto t, auto, auto) { return vec(t > on ? F + 0.0 * t : 0.0 * t, 0.0 * t); }));
+      EXPECT_NEAR(simulate(scene, options(on + 2.0)).position(block, 4).x(), x + 2.0 * a, error()) << x;
+    }
+}
+
 /// Its path leads through lengths of which no square is a number.
 TEST_P(AtRest, ALoneParticleIsMovedByAForceThatSetsInGently) {
   Scene<2> scene;

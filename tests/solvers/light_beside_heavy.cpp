@@ -57,6 +57,29 @@ TEST_P(LightBesideHeavy, IsLiftedHoweverFastItSpins) {
 }
 
 /// A cup on the deck of a ship that is braked more and more: m b t reaches mu m g.
+/// From t = 0.55 by twice what friction holds, for 0.2: a jump that is nothing beside the load of the other.
+TEST_P(LightBesideHeavy, SlidesByAPushThatSwitchesOn) {
+  constexpr double mu = 0.3, on = 0.55, lasts = 0.2;
+  for (const double m : {1e-2, 1e-4, 1e-6}) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto light = scene.add_particle({.mass = m}, "light");
+    const auto floor = scene.add(OnCurve{light, Plane<2>{}}, "floor");
+    scene.add(coulomb(floor, Slip{light, Plane<2>{}}, mu), "rough");
+    scene.add(force_law(points(light), [m](auto t, auto, auto) {
+      return vec(t > on && t < on + lasts ? 2.0 * mu * m * g + 0.0 * t : 0.0 * t, 0.0 * t);
+    }));
+    const auto heavy = scene.add_particle({.mass = 1.0, .position = {3.0, 0.0}, .velocity = {1.0, 0.0}});
+    scene.add(OnCurve{heavy, Plane<2>{}});
+    const auto run = simulate(scene, options(1.0));
+    ASSERT_EQ(run.events().size(), 2U) << m;
+    EXPECT_EQ(run.events()[0].kind, EventKind::slides);
+    EXPECT_NEAR(run.events()[0].time, on, error()) << m;
+    EXPECT_EQ(run.events()[1].kind, EventKind::sticks);
+    EXPECT_NEAR(run.events()[1].time, on + 2.0 * lasts, error()) << m;
+  }
+}
+
 TEST_P(LightBesideHeavy, SlidesByItsOwnFriction) {
   constexpr double m = 0.2, mu = 0.3, b = 10.0;
   for (const double M : {1.0, 1e5, 1e9}) {

@@ -64,6 +64,65 @@ TEST_P(LoneBodies, StickWhereTheyStartFarFromTheOrigin) {
   }
 }
 
+/// A start at a wall has no way to the nearest contact; its first steps advance the time.
+TEST_P(LoneBodies, GoOnFromAnImpactBetweenTwoWalls) {
+  for (const double v : {0.7, 1.9, 2.6}) {
+    Scene<2> scene;
+    const auto ball = scene.add_particle({.mass = 1.0, .position = {0.3, 0.0}, .velocity = {v, 0.0}});
+    scene.add(OnCurve{ball, Plane<2>{}});
+    for (const double wall : {0.0, 1.0})
+      scene.add(
+          unilateral(OnCurve{ball, Plane<2>{{wall, 0.0}, {1.0 - 2.0 * wall, 0.0}}}, {.restitution = 1.0}));
+    const auto run = simulate(scene, options(2.0));
+    for (const auto& from : {run.event_sample(0), run.sample_after(0)}) {
+      const auto rest = simulate(scene, from, options(2.0));
+      EXPECT_NEAR((rest.position(ball, 10) - run.position(ball, 10)).norm(), 0.0, bound) << v;
+    }
+  }
+}
+
+/// A disc of radius R spins in a corner, mu on both walls: N_1 = m g/(1 + mu^2) on the floor, mu N_1 on the
+/// wall, and so M = mu (1 + mu) m g R/(1 + mu^2). Its centre is held; how long the run is does not matter.
+TEST_P(LoneBodies, SpinInACornerHoweverLongTheRun) {
+  constexpr double m = 4.0, R = 0.15, mu = 0.2, w = 50.0, inertia = 0.5 * m * R * R;
+  const double slows = mu * (1.0 + mu) / (1.0 + mu * mu) * m * g * R / inertia;
+  for (const double t_end : {2.0, 20.0, 200.0}) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto centre = scene.add_particle({.mass = m, .position = {R, R}});
+    const auto spin = scene.add_rotor({.inertia = inertia, .angular_velocity = w});
+    const auto floor = scene.add(OnCurve{centre, Plane<2>{{0.0, R}, {0.0, 1.0}}}),
+               wall = scene.add(OnCurve{centre, Plane<2>{{R, 0.0}, {1.0, 0.0}}});
+    scene.add(coulomb(
+        floor,
+        nonholonomic(points(centre, spin), [](auto, auto, auto v, auto rate) { return v.x() + R * rate[0]; }),
+        mu));
+    scene.add(coulomb(
+        wall,
+        nonholonomic(points(centre, spin), [](auto, auto, auto v, auto rate) { return v.y() - R * rate[0]; }),
+        mu));
+    const auto run = simulate(scene, options(t_end));
+    ASSERT_EQ(run.events().size(), 2U) << t_end;
+    EXPECT_NEAR(run.events()[0].time, w / slows, bound) << t_end;
+    EXPECT_NEAR(run.angle(spin, 10), 0.5 * w * w / slows, bound * w) << t_end;
+  }
+}
+
+/// By m g t: where that has grown to the weight both are round-off of each other, however far the origin is.
+TEST_P(LoneBodies, AreLiftedFarFromTheOrigin) {
+  for (const double x : {0.0, 7.3, 812.4}) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto block = scene.add_particle({.mass = 1.3, .position = {x, 2.0 * x}});
+    scene.add(unilateral(OnCurve{block, Plane<2>{{x, 2.0 * x}}}));
+    scene.add(force_law(points(block), [](auto t, auto, auto) { return vec(0.0 * t, 1.3 * g * t); }));
+    const auto run = simulate(scene, options(2.0));
+    ASSERT_EQ(run.events().size(), 1U) << x;
+    EXPECT_NEAR(run.events()[0].time, 1.0, bound) << x;
+    EXPECT_NEAR(run.position(block, 10).y(), 2.0 * x + g / 6.0, error_of(run)) << x;
+  }
+}
+
 TEST_P(LoneBodies, MayEndTheirRunWhereTheyTurn) {
   // x'' = -x -+ f: from 1 it turns at -(1 - 2 f) after pi, and so on. Near to that, too, the steps before and
   // after are what they usually are.

@@ -72,6 +72,32 @@ TEST_P(PushesByTime, OfATableAreThoseOfEachOfItsPieces) {
   EXPECT_NEAR(pushed(push), rest - std::sin(rest), error());
 }
 
+/// Of more than friction holds: 6 N on 1 kg with mu m g = 3 N, and what then slides comes to rest.
+TEST_P(PushesByTime, LetARoughBlockSlideOnce) {
+  for (const double a : {0.3, 0.5, 0.75}) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -10.0}});
+    const auto block = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
+    const auto table = scene.add(OnCurve{block, Plane<2>{}});
+    scene.add(coulomb(table, Slip{block, Plane<2>{}}, 0.3));
+    scene.add(force_law(points(block), [a](auto t, auto, auto) {
+      return vec(t > a && t < a + 0.2 ? 6.0 + 0.0 * t : 0.0 * t, 0.0 * t);
+    }));
+    const auto run =
+        simulate(scene, {.t_end = 2.0, .tolerance = GetParam().tolerance, .stepper = GetParam().stepper});
+    ASSERT_EQ(run.events().size(), 2U) << a;
+    EXPECT_EQ(run.events()[0].kind, EventKind::slides);
+    EXPECT_NEAR(run.events()[0].time, a, 1e-12);
+    for (const auto& from : {run.event_sample(0), run.sample_after(0)}) {
+      const auto rest = simulate(
+          scene, from, {.t_end = 2.0, .tolerance = GetParam().tolerance, .stepper = GetParam().stepper});
+      EXPECT_NEAR(rest.position(block, 100).x(), run.position(block, 100).x(), error()) << a;
+    }
+    EXPECT_EQ(run.events()[1].kind, EventKind::sticks);
+    EXPECT_NEAR(run.events()[1].time, a + 0.4, error());
+  }
+}
+
 TEST_P(PushesByTime, AreKeptInALedger) {
   constexpr double period = 0.6;
   double right = 0.0;
