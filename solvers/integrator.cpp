@@ -142,8 +142,11 @@ struct DALEMBERT_HIDDEN Integrator::Run {
       if (t < now.t) continue;
       if (t > now.t) guarded([&] { go_to(t); });
       observe(now.flat());
-      if (ended()) break;
+      if (ended()) return;
     }
+    if (now.t >= options.t_end) return;  // events are those of the whole run
+    guarded([&] { go_to(options.t_end); });
+    if (ended()) observe(now.flat());
   }
 
   void require_not_stopped() const {

@@ -155,6 +155,29 @@ TEST_P(Events, ChangeNothingOfTheMotion) {
   EXPECT_EQ(plain.statistics().steps, watched.statistics().steps);
 }
 
+/// From 1 m it strikes at sqrt(2/g); which samples are asked for changes nothing of that.
+TEST_P(Events, AreThoseOfTheWholeRunWhereverItsSamplesEnd) {
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -9.81}});
+  const auto ball = scene.add_particle({.mass = 1.0, .position = {0.0, 1.0}});
+  scene.add(unilateral(OnCurve{ball, Plane<2>{}}, {.restitution = 0.5}));
+  const std::vector<Event<2>> end{
+      {"end", [](const Sample<2>& now) { return now.time() - 0.9; }, Crossing::rising, true}};
+  Options options{.t_end = 1.0, .tolerance = GetParam().tolerance, .stepper = GetParam().stepper};
+  const auto all = simulate(scene, options, end);
+  ASSERT_EQ(all.events().size(), 2U);
+  options.times = {0.1, 0.2};
+  const auto few = simulate(scene, options, end);
+  options.times.clear();
+  options.sample_interval = 0.7;
+  const auto wide = simulate(scene, options, end);
+  for (const auto* run : {&few, &wide}) {
+    ASSERT_EQ(run->events().size(), 2U);
+    for (const std::size_t i : {0U, 1U}) EXPECT_NEAR(run->events()[i].time, all.events()[i].time, bound);
+    EXPECT_EQ(run->times().back(), run->events()[1].time);
+  }
+}
+
 TEST_P(Events, EndStepsOfASimulationAsWell) {
   const Pendulum pendulum(1.0);
   Simulation<2> simulation(
