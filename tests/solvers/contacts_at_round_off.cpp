@@ -123,8 +123,8 @@ TEST(ContactsBesideFriction, BounceDownToRoundOff) {
   }
 }
 
-/// A bob on a string is let go from the horizontal, in a scene that is turned: its string is neither slack nor
-/// taut there but for round-off, and then carries 3 m g sin of the angle.
+/// A bob on a string is let go from the horizontal, in a scene that is turned: its string is neither slack
+/// nor taut there but for round-off, and then carries 3 m g sin of the angle.
 TEST_P(ContactsAtRoundOff, StringFromTheHorizontalIsTautAtOnce) {
   for (const double turned : {0.0, 0.4, 1.3, 2.9, 4.1}) {
     const Vec<2> down(std::sin(turned), -std::cos(turned)), across(std::cos(turned), std::sin(turned));
@@ -139,8 +139,8 @@ TEST_P(ContactsAtRoundOff, StringFromTheHorizontalIsTautAtOnce) {
   }
 }
 
-/// In balance between two springs at a wall that bears nothing, and then pressed against it by t: it stays, and
-/// the wall bears t.
+/// In balance between two springs at a wall that bears nothing, and then pressed against it by t: it stays,
+/// and the wall bears t.
 TEST_P(ContactsAtRoundOff, WhatRestsBesideAWallIsPressedAgainstIt) {
   for (const double k : {7.0, 130.0})
     for (const double x : {0.1, 0.7, 1.1}) {
