@@ -236,32 +236,38 @@ double SampleLaws::own_force(std::size_t r) const {
   return inverse_mass > 0.0 ? acceleration / inverse_mass : 0.0;
 }
 
-/// What roundings of single forces make of it, which may cancel each other before anything is in balance with
-/// them: where a pull has just grown as large as a weight.
-double SampleLaws::roundings_of_forces(std::size_t r, const FlatSample& sample) const {
+/// What makes it uncertain though nothing is in balance with it: roundings of single forces that cancel each
+/// other, where a pull has just grown as large as a weight; and the error of a position that a spring has
+/// where it is relaxed.
+double SampleLaws::own_uncertainty(std::size_t r, const FlatSample& sample) const {
   const Layout& layout = *acting_->layout();
   const Instant at{sample.time, sample.q, sample.v};
+  auto displaced = acting_->evaluation();
   double acceleration = 0.0, inverse_mass = 0.0;
   for (const std::size_t k : acting_->row(r)) {
     const std::size_t i = acting_->w_columns()[k];
     const double mass = acting_->masses()[i];
     inverse_mass += e_.w[k] * e_.w[k] / mass;
+    std::vector<double> q(sample.q.begin(), sample.q.end());
+    q[i] += limits_.accuracy * (limits_.angle[i] ? 1.0 : limits_.length);
+    acting_->evaluate({sample.time, q, sample.v}, displaced);
+    acceleration += std::abs(e_.w[k] * (displaced.force[i] - e_.force[i])) / mass;
     const auto* particle = layout.particle_at(static_cast<int>(i));
     const auto first = particle ? static_cast<std::size_t>(particle->coordinate) : i;
     std::vector<double> force(particle ? static_cast<std::size_t>(layout.dimension) : 1);
     for (std::size_t f = 0; f < layout.forces.size(); ++f) {
       if (layout.applied->on(f, at, sample.lambda, static_cast<int>(first), particle ? mass : 0.0, force))
-        acceleration += std::abs(e_.w[k] * force[i - first]) / mass;
+        acceleration += limits_.round_off * std::abs(e_.w[k] * force[i - first]) / mass;
     }
   }
-  return inverse_mass > 0.0 ? limits_.round_off * acceleration / inverse_mass : 0.0;
+  return inverse_mass > 0.0 ? acceleration / inverse_mass : 0.0;
 }
 
 void SampleLaws::check_contacts(const FlatSample& sample, Findings& findings) const {
   for (const Contact& c : contacts_) {
     const double pull = std::max(-c.sign * sample.lambda[c.row], 0.0);
     double most = 2.0 * limits_.relative(own_force(c.row));
-    if (pull > most) most += 2.0 * roundings_of_forces(c.row, sample);
+    if (pull > most) most += 2.0 * own_uncertainty(c.row, sample);
     findings.weigh(Law::no_pull, row(c.row), sample.time, pull, most);
     const double depth = -c.sign * g_[c.row];
     const double rounding = limits_.by_time(sample.time, u_[c.row]);

@@ -48,7 +48,7 @@ class SampleLaws {
   [[nodiscard]] double position_limit(std::span<const double> w, const System& of, std::size_t r,
                                       const FlatSample& sample) const;
   [[nodiscard]] double own_force(std::size_t r) const;
-  [[nodiscard]] double roundings_of_forces(std::size_t r, const FlatSample& sample) const;
+  [[nodiscard]] double own_uncertainty(std::size_t r, const FlatSample& sample) const;
   [[nodiscard]] double slow_slip(std::size_t r) const;
   [[nodiscard]] double velocity_limit(std::size_t r, const FlatSample& sample) const;
 

@@ -152,7 +152,7 @@ double Contacts::no_pull(const Contact& contact, const FlatSample& now) const {
   find_forces(now);
   double net = 0.0, others = 0.0, inverse_mass = 0.0;
   // One that was closed without a force is neither pressed nor left, to round-off.
-  double noise = no_acceleration(contact, now.q) +
+  double noise = no_acceleration(contact, now.q) + 2.0 * contact.accepted +
                  (contact.bears || friction_ ? 0.0 : round_off() * own_acceleration(contact));
   for (const std::size_t k : stated_->row(contact.row)) {
     const std::size_t i = stated_->w_columns()[k];
@@ -343,6 +343,7 @@ void Contacts::open(Contact& contact, double t, double rate) const {
 void Contacts::close(Contact& contact, double t) {
   if (!contact.closed) contact.closed_at = t;
   contact.closed = true;
+  contact.accepted = 0.0;
 }
 
 void Contacts::open(std::size_t contact, double t, double rate, Change& change) {

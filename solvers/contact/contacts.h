@@ -106,6 +106,7 @@ class Contacts {
     bool moved = false;  // closed, but a change of the scene has set its surface moving
     double closed_at = 0.0;
     bool bears = false;                 // by the forces of (2) that were found when it was last closed
+    double accepted = 0.0;              // the acceleration away from it, by which it was closed all the same
     std::optional<double> opened_at{};  // if it was closed before
     double rate_at_opening = 0.0;
     double gap_at_opening = 0.0;  // at most 0: round-off of times and positions
@@ -137,6 +138,9 @@ class Contacts {
                                             double t, Change& change);
   [[nodiscard]] double still(const Contact& contact) const;
   [[nodiscard]] double own_acceleration(const Contact& contact) const;
+  [[nodiscard]] Eigen::VectorXd accelerations_without(Coupling& coupling,
+                                                      const std::vector<std::size_t>& touched,
+                                                      const Instant& at);
   void update_rates(const Instant& at);
   [[nodiscard]] bool add_slow(const Instant& at, std::vector<std::size_t>& touched) const;
   void close(const std::vector<std::size_t>& touched, const std::vector<std::size_t>& triggered,

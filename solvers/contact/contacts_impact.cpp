@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 /// Sets to 0 what is round-off of the largest, each in its own unit.
 void clear_round_off(VectorXd& x, const VectorXd& unit, double largest) {
   for (Index i = 0; i < x.size(); ++i)
-    if (std::abs(x[i]) * unit[i] <= round_off() * largest) x[i] = 0.0;
+    if (unit[i] > 0.0 && std::abs(x[i]) * unit[i] <= round_off() * largest) x[i] = 0.0;
 }
 
 /// The units that make rates of different contacts comparable.
@@ -255,21 +255,41 @@ std::vector<Index> Contacts::open_separating(const std::vector<std::size_t>& tou
   return resting;
 }
 
+/// Those that close nothing. What neither leaves nor is pressed, to round-off, has none; nor has what leaves
+/// no faster than accelerations are known, and is pressed soon: an error of its positions is what parts it.
+VectorXd Contacts::accelerations_without(Coupling& coupling, const std::vector<std::size_t>& touched,
+                                         const Instant& at) {
+  VectorXd free = coupling.accelerations_without(at);
+  std::vector<Index> slow;
+  for (Index k = 0; k < free.size(); ++k) {
+    const Contact& c = contacts_[touched[static_cast<std::size_t>(k)]];
+    if (std::abs(free[k]) <= round_off() * own_acceleration(c)) free[k] = 0.0;
+    if (free[k] > 0.0 && free[k] <= accuracy_.of_positions() * own_acceleration(c)) slow.push_back(k);
+  }
+  if (slow.empty()) return free;
+  const double while_after = accuracy_.short_time() * scales_.time;
+  std::vector<double> q(at.q.begin(), at.q.end());
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] += while_after * at.v[i];
+  const VectorXd soon = coupling.accelerations_without({at.t + while_after, q, at.v});
+  (void)coupling.accelerations_without(at);  // it goes on from there
+  for (const Index k : slow) {
+    Contact& c = contacts_[touched[static_cast<std::size_t>(k)]];
+    if (soon[k] < 0.0) c.accepted = std::exchange(free[k], 0.0);
+  }
+  return free;
+}
+
 /// Solves (2) for the velocities after the change, of each island; closes and opens.
 void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& touched,
                           const std::vector<std::size_t>& triggered, const std::vector<Index>& resting,
                           const Instant& at, Change& change) {
-  const VectorXd all = coupling.accelerations_without({at.t, at.q, change.v});
+  for (const std::size_t i : touched) contacts_[i].accepted = 0.0;
+  const VectorXd all = accelerations_without(coupling, touched, {at.t, at.q, change.v});
   std::vector<Pair> pairs(touched.size());
   for (const auto& island : coupling.islands()) {
     Coupling::Places own;
     std::ranges::set_intersection(island, resting, std::back_inserter(own));
-    VectorXd free = all(own);
-    // What neither leaves nor is pressed yet, to round-off, stays closed.
-    for (Index k = 0; k < free.size(); ++k) {
-      const Contact& c = contacts_[touched[static_cast<std::size_t>(own[static_cast<std::size_t>(k)])]];
-      if (std::abs(free[k]) <= round_off() * own_acceleration(c)) free[k] = 0.0;
-    }
+    const VectorXd free = all(own);
     const Eigen::MatrixXd S = coupling.S(own);
     const auto lambda = complementary_solution(S, free);
     if (!lambda)
@@ -302,8 +322,10 @@ void Contacts::open_or_close(std::size_t i, const std::vector<std::size_t>& trig
   if ((pair.acceleration > 0.0 && pair.force == 0.0) || falls) {
     open(i, t, 0.0, change);
   } else {
+    const double accepted = contacts_[i].accepted;
     close(contacts_[i], t);
     contacts_[i].bears = pair.force > 0.0;
+    contacts_[i].accepted = accepted;
   }
 }
 
