@@ -132,6 +132,7 @@ class Contacts {
     double time, since, uncertain;
   };
   [[nodiscard]] std::vector<Limit> limits_of_impacts(const Change& change, const Instant& at);
+  static void come_to_rest(Contact& contact, double t, Change& change);
   void rest(const Coupling& coupling, const std::vector<std::size_t>& touching,
             const std::vector<Limit>& limits, Eigen::VectorXd& U, Change& change);
   std::vector<Eigen::Index> open_separating(const std::vector<std::size_t>& touched, const Eigen::VectorXd& U,

@@ -125,6 +125,15 @@ double Contacts::own_acceleration(const Contact& contact) const {
   return scales_.speed() / scales_.time * contact.gradient;
 }
 
+/// Of what an impact has left so slowly that it has not parted from the surface again: by no more than this
+/// hop is it not known when.
+void Contacts::come_to_rest(Contact& contact, double t, Change& change) {
+  const double hop = t - contact.impacts.last();
+  contact.impacts.add(t);
+  const double limit = contact.impacts.limit();
+  change.events.push_back({contact.number, std::isfinite(limit) ? limit : t, EventKind::rested, hop});
+}
+
 /// Rates that count as 0, of velocities at the start and after impacts at one time.
 double Contacts::still(const Contact& contact) const {
   return start_tolerance * scales_.speed() * contact.gradient;
@@ -191,6 +200,7 @@ Change Contacts::resolve(const Instant& at, const std::vector<std::size_t>& trig
                          std::abs(rate) <= accuracy_.of_velocities() * scales_.speed() * c.gradient;
     const bool slow = known_roughly && std::abs(rate) <= still(c);
     if ((c.closed && !c.moved) || returns || slow || std::abs(rate) <= no_rate(c)) rate = 0.0;
+    if (returns && c.impacts.last() == c.opened_at) come_to_rest(contacts_[touched[k]], at.t, change);
   }
   if (U.minCoeff() < 0.0) {
     solve_impact(*coupling, touched, at.t, U, change);

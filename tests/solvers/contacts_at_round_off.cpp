@@ -182,6 +182,25 @@ TEST_P(ContactsAtRoundOff, WhatIsStruckWithARelaxedSpringIsPressed) {
     }
 }
 
+/// A ball of small restitution e: its hops take e^k of the first, and end at the limit of their sum, though
+/// the last are shorter than a step can tell.
+TEST_P(ContactsAtRoundOff, WhatHardlyBouncesComesToRest) {
+  for (const double e : {0.03, 0.05, 0.1, 0.3}) {
+    constexpr double h = 0.4;
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto ball = scene.add_particle({.mass = 1.0, .position = {0.3, h}});
+    scene.add(unilateral(OnCurve{ball, Plane<2>{}}, {.restitution = e}));
+    scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}, .velocity = {1.0, 2.0}});
+    const double falls = std::sqrt(2.0 * h / g), rests = falls * (1.0 + 2.0 * e / (1.0 - e));
+    const auto run = simulate(scene, options(rests + 1.0));
+    ASSERT_FALSE(run.events().empty()) << e;
+    EXPECT_EQ(run.events().back().kind, EventKind::rested) << e;
+    // A hop that does not part from the floor, by the error of a step in a gap, lasts for its root.
+    EXPECT_NEAR(run.events().back().time, rests, 10.0 * std::sqrt(tolerance)) << e;
+  }
+}
+
 /// A valve that rests on its seat is lifted by its cam: nothing but the cam moves it, and the seat opens.
 TEST_P(ContactsAtRoundOff, WhatIsDrivenOffItsSeatLeavesIt) {
   Scene<2> scene;
