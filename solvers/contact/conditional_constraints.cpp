@@ -65,7 +65,7 @@ std::optional<std::size_t> ConditionalConstraints::fallen(const FlatSample& behi
   contacts_.forget_instant();
   for (std::size_t i = 0; i < functions(); ++i)
     if (switching(i, behind) < 0.0) return i;
-  return std::nullopt;
+  return contacts_.driven_apart({behind.time, behind.q, behind.v});
 }
 
 Change ConditionalConstraints::resolve_jump(const Instant& at) {

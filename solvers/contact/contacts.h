@@ -88,6 +88,8 @@ class Contacts {
   /// With friction accelerations are not those of (2): what touches and does not separate is closed then,
   /// what has fallen open, and `open_pulling` finds what else opens.
   Change resolve(const Instant& at, const std::vector<std::size_t>& triggered);
+  /// The first closed one, if there is any, that others drive apart, whatever its force is: no pull shows it.
+  [[nodiscard]] std::optional<std::size_t> driven_apart(const Instant& at) const;
   /// Where the forces of closed contacts are not determined those of least norm may pull, where dry friction
   /// reads them or all cannot push, though others, those of (2), push: opens the contacts without a force by
   /// these; with friction the one that pulls most.
@@ -124,7 +126,9 @@ class Contacts {
                                                   const std::vector<std::size_t>& triggered) const;
   [[nodiscard]] std::vector<std::size_t> numbers(const std::vector<std::size_t>& chosen) const;
   [[nodiscard]] std::shared_ptr<const System> only(const std::vector<std::size_t>& in_force) const;
-  void solve_impact(const Coupling& coupling, const std::vector<std::size_t>& touching, double t,
+  [[nodiscard]] Eigen::MatrixXd coupled(const Coupling& coupling, const std::vector<Eigen::Index>& places,
+                                        std::span<const double> q) const;
+  void solve_impact(const Coupling& coupling, const std::vector<std::size_t>& touching, const Instant& at,
                     Eigen::VectorXd& U, Change& change) const;
   /// Of the impacts that accumulate in an island; the time since which each contact of them was struck.
   struct Limit {

@@ -1,4 +1,5 @@
 #include <dalembert/core/linear/dense.h>
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/contact/contacts.h>
 #include <dalembert/solvers/contact/coupling.h>
 #include <dalembert/solvers/contact/round_off.h>
@@ -39,9 +40,22 @@ std::vector<std::size_t> those_at(const Coupling::Places& places, const std::vec
 
 }  // namespace
 
+/// S of contacts of one island. Gradients are known to the rounding of positions over the scene's length:
+/// what couples two contacts by no more is none.
+Eigen::MatrixXd Contacts::coupled(const Coupling& coupling, const std::vector<Eigen::Index>& places,
+                                  std::span<const double> q) const {
+  Eigen::MatrixXd S = coupling.S(places);
+  const double directions = std::max(1.0, scales_.rounding(q) / (epsilon * scales_.length));
+  const VectorXd unit = units(S);
+  for (Index i = 0; i < S.rows(); ++i)
+    for (Index j = 0; j < S.cols(); ++j)
+      if (i != j && std::abs(S(i, j)) * unit[i] * unit[j] <= round_off() * directions) S(i, j) = 0.0;
+  return S;
+}
+
 /// Solves (1), of each island. U becomes U+.
-void Contacts::solve_impact(const Coupling& coupling, const std::vector<std::size_t>& touching, double t,
-                            VectorXd& U, Change& change) const {
+void Contacts::solve_impact(const Coupling& coupling, const std::vector<std::size_t>& touching,
+                            const Instant& at, VectorXd& U, Change& change) const {
   VectorXd P = VectorXd::Zero(U.size());
   for (const auto& island : coupling.islands()) {
     const VectorXd before = U(island);
@@ -50,9 +64,10 @@ void Contacts::solve_impact(const Coupling& coupling, const std::vector<std::siz
     VectorXd q = before;
     for (Index i = 0; i < q.size(); ++i)
       q[i] *= 1.0 + contacts_[its[static_cast<std::size_t>(i)]].restitution;
-    const Eigen::MatrixXd S = coupling.S(island);
+    const Eigen::MatrixXd S = coupled(coupling, island, at.q);
     const auto p = complementary_solution(S, q);
-    if (!p) refuse(its, t, "no impulses end their approach; the constraints drive them against each other");
+    if (!p)
+      refuse(its, at.t, "no impulses end their approach; the constraints drive them against each other");
     VectorXd after = before + S * *p;
     const VectorXd unit = units(S);
     const double largest = before.cwiseProduct(unit).cwiseAbs().maxCoeff();
@@ -63,7 +78,7 @@ void Contacts::solve_impact(const Coupling& coupling, const std::vector<std::siz
       const bool shares = before[i] < 0.0 && std::abs(after[i] - rebound) * unit[i] <= round_off() * largest;
       if (!((*p)[i] > 0.0) && !shares) continue;
       after[i] = rebound;
-      change.events.push_back({contacts_[its[static_cast<std::size_t>(i)]].number, t, EventKind::struck});
+      change.events.push_back({contacts_[its[static_cast<std::size_t>(i)]].number, at.t, EventKind::struck});
     }
     U(island) = after;
     P(island) = *p;
@@ -203,7 +218,7 @@ Change Contacts::resolve(const Instant& at, const std::vector<std::size_t>& trig
     if (returns && c.impacts.last() == c.opened_at) come_to_rest(contacts_[touched[k]], at.t, change);
   }
   if (U.minCoeff() < 0.0) {
-    solve_impact(*coupling, touched, at.t, U, change);
+    solve_impact(*coupling, touched, at, U, change);
     if (const auto limits = limits_of_impacts(change, at); !limits.empty()) {
       for (std::size_t i = 0; i < contacts_.size(); ++i) {
         const auto limit = std::ranges::find(limits, contacts_[i].island, &Limit::island);
@@ -265,6 +280,26 @@ std::vector<Index> Contacts::open_separating(const std::vector<std::size_t>& tou
   return resting;
 }
 
+std::optional<std::size_t> Contacts::driven_apart(const Instant& at) const {
+  std::vector<std::size_t> closed;
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    if (contacts_[i].closed) closed.push_back(i);
+  if (closed.empty()) return std::nullopt;
+  Coupling coupling(only(closed), numbers(closed), at);
+  const VectorXd free = coupling.accelerations_without(at);
+  stated_->evaluate(at, e_);
+  for (std::size_t k = 0; k < closed.size(); ++k) {
+    const Contact& c = contacts_[closed[k]];
+    double alone = 0.0;  // what a force would do without the other constraints
+    for (const std::size_t j : stated_->row(c.row))
+      alone += e_.w[j] * e_.w[j] / stated_->masses()[stated_->w_columns()[j]];
+    const auto place = static_cast<Index>(k);
+    if (coupling.S({place})(0, 0) <= round_off() * alone && free[place] > round_off() * own_acceleration(c))
+      return closed[k];
+  }
+  return std::nullopt;
+}
+
 /// Those that close nothing. What neither leaves nor is pressed, to round-off, has none; nor has what leaves
 /// no faster than accelerations are known, and is pressed soon: an error of its positions is what parts it.
 VectorXd Contacts::accelerations_without(Coupling& coupling, const std::vector<std::size_t>& touched,
@@ -300,7 +335,7 @@ void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& to
     Coupling::Places own;
     std::ranges::set_intersection(island, resting, std::back_inserter(own));
     const VectorXd free = all(own);
-    const Eigen::MatrixXd S = coupling.S(own);
+    const Eigen::MatrixXd S = coupled(coupling, own, at.q);
     const auto lambda = complementary_solution(S, free);
     if (!lambda)
       refuse(those_at(island, touched), at.t,

@@ -73,7 +73,9 @@ void DryFriction::set_mode_by_slip(Rough& rough, const std::vector<std::size_t>&
   const bool due = own(rough, triggered, mode),
              just = slid && rough.let_go && t - *rough.let_go <= same_time(t);
   rough.at_rest = rough.reached = false;
-  if (std::ranges::find(open, rough.pressed_by) != open.end()) {
+  const bool exerts_nothing =
+      rough.mu_static == 0.0 || std::ranges::find(open, rough.pressed_by) != open.end();
+  if (exerts_nothing) {
     rough.mode = Mode::absent;
     return;
   }

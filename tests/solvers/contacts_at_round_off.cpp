@@ -201,15 +201,45 @@ TEST_P(ContactsAtRoundOff, WhatHardlyBouncesComesToRest) {
   }
 }
 
-/// A valve that rests on its seat is lifted by its cam: nothing but the cam moves it, and the seat opens.
+/// A valve that rests on its seat is lifted by its cam, at once or after a dwell: nothing but the cam moves
+/// it, and the seat opens.
 TEST_P(ContactsAtRoundOff, WhatIsDrivenOffItsSeatLeavesIt) {
-  Scene<2> scene;
-  const auto valve = scene.add_particle({.mass = 1.0, .position = {0.3, 0.0}});
-  scene.add(Prescribed{valve, [](auto t) { return vec(0.3 + 0.0 * t, 0.1 * (1.0 - cos(2.0 * t))); }});
-  const auto seat = scene.add(unilateral(OnCurve{valve, Plane<2>{}}));
-  const auto run = simulate(scene, options(1.0));
-  EXPECT_NEAR(run.position(valve, 10).y(), 0.1 * (1.0 - std::cos(2.0)), bound);
-  EXPECT_EQ(run.multiplier(seat, 10), 0.0);
+  for (const double dwell : {0.0, 0.35}) {
+    Scene<2> scene;
+    const auto valve = scene.add_particle({.mass = 1.0, .position = {0.3, 0.0}});
+    scene.add(Prescribed{valve, [dwell](auto t) {
+                           const auto lasts = max(t - dwell, 0.0 * t);
+                           return vec(0.3 + 0.0 * t, 0.1 * (1.0 - cos(2.0 * lasts)));
+                         }});
+    const auto seat = scene.add(unilateral(OnCurve{valve, Plane<2>{}}));
+    const auto run = simulate(scene, options(1.0));
+    EXPECT_NEAR(run.position(valve, 10).y(), 0.1 * (1.0 - std::cos(2.0 * (1.0 - dwell))), bound) << dwell;
+    EXPECT_EQ(run.multiplier(seat, 10), 0.0) << dwell;
+    EXPECT_EQ(run.events().size(), dwell > 0.0 ? 1U : 0U);
+  }
+}
+
+/// Two balls on a floor collide far from the origin: the direction between them is known to the rounding of
+/// positions over their distance, and presses no floor.
+TEST_P(ContactsAtRoundOff, ImpactAlongAFloorFarAwayIsNoneOfTheFloor) {
+  constexpr double d = 0.3, gap = 0.5, v = 2.0, e = 0.5;
+  for (const double turned : {0.3, 1.1, 2.3})
+    for (const double far : {0.0, 321.7, 854.2}) {
+      const Vec<2> along(std::cos(turned), std::sin(turned)), up(-std::sin(turned), std::cos(turned)),
+          o(far, -far);
+      Scene<2> scene;
+      scene.add(UniformGravity<2>{Vec<2>(-g * up)});
+      const auto first = scene.add_particle({.mass = 1.0, .position = o, .velocity = Vec<2>(v * along)}),
+                 second = scene.add_particle({.mass = 1.0, .position = Vec<2>(o + (d + gap) * along)});
+      for (const auto& ball : {first, second}) scene.add(unilateral(OnCurve{ball, Plane<2>{o, up}}));
+      scene.add(unilateral(Distance{first, second, d}, {.restitution = e}));
+      auto options = this->options(2.0 * gap / v);
+      options.tolerance = std::max(options.tolerance, 1e-10);  // a length is known to 1e-13 there
+      const auto run = simulate(scene, options);
+      ASSERT_EQ(run.events().size(), 1U) << turned << ' ' << far;
+      EXPECT_EQ(run.events()[0].kind, EventKind::struck);
+      EXPECT_NEAR(run.velocity(second, 10).dot(along), 0.5 * (1.0 + e) * v, 1e-8);
+    }
 }
 
 }  // namespace

@@ -108,6 +108,29 @@ TEST_P(LoneBodies, SpinInACornerHoweverLongTheRun) {
   }
 }
 
+/// The wall of that corner is smooth: mu m g R alone slows it.
+TEST_P(LoneBodies, SpinInACornerWithASmoothWall) {
+  constexpr double m = 4.0, R = 0.15, mu = 0.2, w = 50.0, slows = mu * g / (0.5 * R);
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto centre = scene.add_particle({.mass = m, .position = {R, R}});
+  const auto spin = scene.add_rotor({.inertia = 0.5 * m * R * R, .angular_velocity = w});
+  const auto floor = scene.add(OnCurve{centre, Plane<2>{{0.0, R}, {0.0, 1.0}}}),
+             wall = scene.add(OnCurve{centre, Plane<2>{{R, 0.0}, {1.0, 0.0}}});
+  scene.add(coulomb(
+      floor,
+      nonholonomic(points(centre, spin), [](auto, auto, auto v, auto rate) { return v.x() + R * rate[0]; }),
+      mu));
+  scene.add(coulomb(
+      wall,
+      nonholonomic(points(centre, spin), [](auto, auto, auto v, auto rate) { return v.y() - R * rate[0]; }),
+      0.0));
+  const auto run = simulate(scene, options(3.0));
+  ASSERT_EQ(run.events().size(), 1U);
+  EXPECT_EQ(run.events()[0].kind, EventKind::sticks);
+  EXPECT_NEAR(run.events()[0].time, w / slows, bound);
+}
+
 /// By m g t: where that has grown to the weight both are round-off of each other, however far the origin is.
 TEST_P(LoneBodies, AreLiftedFarFromTheOrigin) {
   for (const double x : {0.0, 7.3, 812.4}) {
