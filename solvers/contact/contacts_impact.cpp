@@ -287,14 +287,9 @@ std::optional<std::size_t> Contacts::driven_apart(const Instant& at) const {
   if (closed.empty()) return std::nullopt;
   Coupling coupling(only(closed), numbers(closed), at);
   const VectorXd free = coupling.accelerations_without(at);
-  stated_->evaluate(at, e_);
   for (std::size_t k = 0; k < closed.size(); ++k) {
-    const Contact& c = contacts_[closed[k]];
-    double alone = 0.0;  // what a force would do without the other constraints
-    for (const std::size_t j : stated_->row(c.row))
-      alone += e_.w[j] * e_.w[j] / stated_->masses()[stated_->w_columns()[j]];
     const auto place = static_cast<Index>(k);
-    if (coupling.S({place})(0, 0) <= round_off() * alone && free[place] > round_off() * own_acceleration(c))
+    if (coupling.is_held(place) && free[place] > round_off() * own_acceleration(contacts_[closed[k]]))
       return closed[k];
   }
   return std::nullopt;

@@ -52,6 +52,7 @@ Coupling::Coupling(std::shared_ptr<const System> of, const std::vector<std::size
   }
   group();
   respond();
+  find_held(contacts);
 }
 
 void Coupling::group() {
@@ -78,6 +79,23 @@ void Coupling::respond() {
   for (auto& x : responses_) matrix_.solve(x);
 }
 
+/// A small S_jj may also be that of something light on something heavy: the rows tell, as they do which
+/// constraints are redundant.
+void Coupling::find_held(const std::vector<std::size_t>& contacts) {
+  for (std::size_t j = 0; j < rows_.size(); ++j) {
+    double alone = 0.0;
+    for (const std::size_t k : system_->row(rows_[j]))
+      alone += e_.w[k] * e_.w[k] / system_->masses()[system_->w_columns()[k]];
+    bool held = along(j, responses_[turns_[j]]) <= round_off() * alone;
+    if (held) {
+      std::vector<std::size_t> besides = contacts;
+      besides.erase(besides.begin() + static_cast<std::ptrdiff_t>(j));
+      held = rows_besides(*system_, besides, e_).size() == others_.size();
+    }
+    held_.push_back(held);
+  }
+}
+
 Eigen::MatrixXd Coupling::S(const Places& contacts) const {
   const auto n = static_cast<Index>(contacts.size());
   Eigen::MatrixXd S(n, n);
@@ -85,7 +103,9 @@ Eigen::MatrixXd Coupling::S(const Places& contacts) const {
     return static_cast<std::size_t>(contacts[static_cast<std::size_t>(i)]);
   };
   for (Index j = 0; j < n; ++j)
-    for (Index i = 0; i < n; ++i) S(i, j) = along(contact(i), responses_[turns_[contact(j)]]);
+    for (Index i = 0; i < n; ++i)
+      S(i, j) =
+          held_[contact(i)] || held_[contact(j)] ? 0.0 : along(contact(i), responses_[turns_[contact(j)]]);
   return S;
 }
 
@@ -129,11 +149,22 @@ VectorXd Coupling::accelerations_without(const Instant& at) {
   std::ranges::copy(e_.force, x.begin());
   add_compliant_forces(x);
   for (std::size_t r = 0; r < others_.size(); ++r) x[e_.force.size() + r] = -gamma[others_.rows[r]];
+  std::vector<double> terms(e_.force.size());  // of each coordinate: |F| + |W_b|^T |lambda_b|
+  for (std::size_t i = 0; i < terms.size(); ++i) terms[i] = std::abs(x[i]);
   matrix_.solve(x);
+  for (std::size_t r = 0; r < others_.size(); ++r)
+    for (const std::size_t k : system_->row(others_.rows[r]))
+      terms[system_->w_columns()[k]] += std::abs(e_.w[k] * x[terms.size() + r]);
   VectorXd accelerations(static_cast<Index>(rows_.size()));
   for (Index i = 0; i < accelerations.size(); ++i) {
     const auto c = static_cast<std::size_t>(i);
-    accelerations[i] = along(c, x) + signs_[c] * gamma[rows_[c]];
+    const double gamma_c = gamma[rows_[c]], acceleration = along(c, x) + signs_[c] * gamma_c;
+    double largest = std::abs(gamma_c);
+    for (const std::size_t k : system_->row(rows_[c])) {
+      const std::size_t column = system_->w_columns()[k];
+      largest += std::abs(e_.w[k]) * terms[column] / system_->masses()[column];
+    }
+    accelerations[i] = std::abs(acceleration) <= round_off() * largest ? 0.0 : acceleration;
   }
   return accelerations;
 }

@@ -1,3 +1,4 @@
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/tests/solvers/with_events.h>
 
 #include <gtest/gtest.h>
@@ -239,6 +240,71 @@ TEST_P(ContactsAtRoundOff, ImpactAlongAFloorFarAwayIsNoneOfTheFloor) {
       ASSERT_EQ(run.events().size(), 1U) << turned << ' ' << far;
       EXPECT_EQ(run.events()[0].kind, EventKind::struck);
       EXPECT_NEAR(run.velocity(second, 10).dot(along), 0.5 * (1.0 + e) * v, 1e-8);
+    }
+}
+
+/// A ball strikes one end of a rod whose other end is hinged at a point of a floor, and does not move: the
+/// hinge takes the impulse, the floor none, however hard something pulls at the hinge. P (1 + 3/m) = 2 v.
+/// Three roundings of the pull change the speed of the other end, which feels m/3, and an impulse by twice as
+/// much.
+TEST_P(ContactsAtRoundOff, ImpactOnAHingedRodIsNoneOfTheFloorAtItsHinge) {
+  constexpr double L = 1.3, m = 2.5, v = 1.7, d = 0.1, gap = 0.2, t_end = 0.2, P = 2.0 * v / (1.0 + 3.0 / m);
+  for (const double turned : {0.3, 1.1, 2.3, 4.0})
+    for (const double pull : {0.0, 1e9}) {
+      const Vec<2> along(std::cos(turned), std::sin(turned)), up(-std::sin(turned), std::cos(turned)),
+          hinge(0.7, -0.4), end(hinge + L * along);
+      Scene<2> scene;
+      const auto rod = add_thin_rod(scene, {.mass = m, .start = hinge, .end = end}, "rod");
+      const auto ball = scene.add_particle(
+          {.mass = 1.0, .position = Vec<2>(end + (d + gap) * up), .velocity = Vec<2>(-v * up)});
+      scene.add(Coincident{rod.start(), Fixed<2>{hinge}});
+      const auto floor = scene.add(unilateral(OnCurve{rod.start(), Plane<2>{hinge, up}}));
+      const auto hit = scene.add(unilateral(Distance{ball, rod.end(), d}, {.restitution = 1.0}));
+      scene.add(force_law(points(rod.start()), [=](auto t, auto, auto u) {
+        return (0.0 * u + vec(0.6, 0.8) * (pull * t * t)).eval();
+      }));
+      const auto run = simulate(scene, options(t_end));
+      ASSERT_EQ(run.events().size(), 1U) << turned << ' ' << pull;
+      EXPECT_EQ(run.events()[0].kind, EventKind::struck);
+      const double of_pull = 6.0 * epsilon * pull * std::pow(t_end, 3) / m;
+      EXPECT_NEAR(run.impulse(hit, 0), P, bound + of_pull) << turned << ' ' << pull;
+      EXPECT_EQ(run.impulse(floor, 0), 0.0) << turned << ' ' << pull;
+    }
+}
+
+/// A box slides on two feet; the edge in front is caught by a step, which holds the foot there. By the
+/// angular momentum about the edge, m v a/2 = (2/3) m a^2 w, and the foot behind opens.
+TEST_P(ContactsAtRoundOff, BoxTripsOverAStepAboutTheFootInFront) {
+  constexpr double m = 10.0, way = 0.5, a = 0.37;
+  for (const double v : {0.5, 1.3, 1.9, 3.7})
+    for (const double turned : {0.0, 0.4, 2.3}) {
+      const Vec<2> along(std::cos(turned), std::sin(turned)), up(-std::sin(turned), std::cos(turned)),
+          edge(0.2, 0.9);
+      Scene<2> scene;
+      scene.add(UniformGravity<2>{Vec<2>(-g * up)});
+      const auto box = add_body(scene,
+                                {.mass = m,
+                                 .inertia = m * a * a / 6.0,
+                                 .centre = Vec<2>(edge - (way + 0.5 * a) * along + 0.5 * a * up),
+                                 .angle = turned,
+                                 .velocity = Vec<2>(v * along)},
+                                "box");
+      const auto behind = box.point({-0.5 * a, -0.5 * a}), before = box.point({0.5 * a, -0.5 * a});
+      const auto rear = scene.add(unilateral(OnCurve{behind, Plane<2>{edge, up}})),
+                 front = scene.add(unilateral(OnCurve{before, Plane<2>{edge, up}}));
+      const auto step = scene.add(Coincident{before, Fixed<2>{edge}}, "step");
+      scene.release(step);
+      const std::vector<Event<2>> events{
+          {.name = "hits",
+           .function = [=](const auto& now) { return (now.position(before) - edge).dot(along); },
+           .crossing = Crossing::rising,
+           .change = [=](Scene<2>& changed) { changed.impose(step); }}};
+      const auto run = simulate(scene, options(way / v + 0.02), events);
+      ASSERT_EQ(run.events().size(), 2U) << v << ' ' << turned;  // the step, and the foot
+      for (const std::size_t k : {0, 1}) EXPECT_EQ(run.impulse(front, k), 0.0) << v << ' ' << turned;
+      EXPECT_NE(run.name_of(run.events()[0]), run.name_of(run.events()[1]));
+      EXPECT_EQ(run.multiplier(rear, run.size() - 1), 0.0) << v << ' ' << turned;
+      EXPECT_NEAR(angular_velocity(run.sample_after(1), box), -3.0 * v / (4.0 * a), bound * v / a) << v;
     }
 }
 
