@@ -301,7 +301,7 @@ TEST_P(ContactsAtRoundOff, BoxTripsOverAStepAboutTheFootInFront) {
            .change = [=](Scene<2>& changed) { changed.impose(step); }}};
       const auto run = simulate(scene, options(way / v + 0.02), events);
       ASSERT_EQ(run.events().size(), 2U) << v << ' ' << turned;  // the step, and the foot
-      for (const std::size_t k : {0, 1}) EXPECT_EQ(run.impulse(front, k), 0.0) << v << ' ' << turned;
+      for (const std::size_t k : {0U, 1U}) EXPECT_EQ(run.impulse(front, k), 0.0) << v << ' ' << turned;
       EXPECT_NE(run.name_of(run.events()[0]), run.name_of(run.events()[1]));
       EXPECT_EQ(run.multiplier(rear, run.size() - 1), 0.0) << v << ' ' << turned;
       EXPECT_NEAR(angular_velocity(run.sample_after(1), box), -3.0 * v / (4.0 * a), bound * v / a) << v;
