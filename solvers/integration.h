@@ -46,11 +46,13 @@ class Integration {
   bool go_behind_switch();
   /// The sides behind the switch that has been left last.
   [[nodiscard]] const Branches::Sides& behind_switch() const { return behind_->sides; }
-  /// Calls f with the equations as they are read at this time: at a switch before it, and behind it once it
-  /// has been left.
+  /// Calls f with the equations as they are read at this time: at a switch, as far as times are not told from
+  /// its own, before it, and behind it once it has been left.
   template <class F>
-  decltype(auto) as_read(double t, const F& f) {
-    if (!(switch_ && switch_->at.t == t) && !(behind_ && behind_->t == t)) return f();
+  decltype(auto) as_read(double t, const F& f) const {
+    const bool before = switch_ && t <= switch_->at.t && t >= switch_->at.t - switch_->ahead;
+    const bool behind = behind_ && t >= behind_->t && t <= behind_->checked;
+    if (!before && !behind) return f();
     const Branches holding = segment_->hold();
     return f();
   }

@@ -25,8 +25,7 @@ ErkStepper::FrictionSwitches::FrictionSwitches(RungeKutta& method, const System&
     : rk_(method), switches_(system), multipliers_(system.rows()) {}
 
 void ErkStepper::FrictionSwitches::make_room(const Problem& problem, const Start& start) {
-  if (!switches_.any()) return;
-  sticking_.emplace(problem, start, rk_.tolerance);
+  if (switches_.any()) sticking_.emplace(problem, start, rk_.tolerance);
   short_of_ = beyond_ = rk_.to;
   for (Slope* side : {&rk_.from.side, &rk_.to.side, &rk_.middle.side, &rk_.next.side, &short_of_.side,
                       &beyond_.side, &stage_side_, &behind_side_})
@@ -40,7 +39,7 @@ void ErkStepper::FrictionSwitches::find_side(Node& node) {
 }
 
 void ErkStepper::FrictionSwitches::find_side_again() {
-  if (!switches_.any()) return;
+  if (!any()) return;
   std::vector<double> unused(rk_.n);
   rk_.require(rk_.manifold.accelerate({rk_.to.t, rk_.to.q, rk_.halves(rk_.to.va).first}, unused));
   find_side(rk_.to);
@@ -48,9 +47,10 @@ void ErkStepper::FrictionSwitches::find_side_again() {
 
 /// Whether a stage of a step from `to` lies behind a switch.
 void ErkStepper::FrictionSwitches::check_switch(std::size_t i, double t) {
-  if (!counts(i) || !switches_.any()) return;
+  if (!counts(i) || !any()) return;
   rk_.manifold.multipliers(multipliers_);
   switches_.find({t, rk_.stage_q, rk_.halves(rk_.stage(i)).first}, multipliers_, stage_side_);
+  passed_rest_ = passed_rest_ || switches_.slide_turned(rk_.to.side, stage_side_);
   if (switches_.same(rk_.to.side, stage_side_)) return;
   if (passed_switch_ && !switches_.same(behind_side_, stage_side_)) passed_several_ = true;
   passed_switch_ = true;
@@ -85,10 +85,13 @@ double ErkStepper::FrictionSwitches::effect_of_switch(const Node& a, const Node&
   return rk_.weighted_norm();
 }
 
-/// That is known if all behind it lies on the side on which the step ends.
+/// That is known if all behind it lies on the side on which the step ends. (A step that ends behind a rest
+/// shows it; it is then taken again.)
 double ErkStepper::FrictionSwitches::error_of_switch(double step) {
-  if (!switches_.any()) return 0.0;
+  if (!any()) return 0.0;
   find_side(rk_.next);
+  if (passed_rest_ && !switches_.slide_turned(rk_.to.side, rk_.next.side))
+    return std::numeric_limits<double>::infinity();
   const bool ends_behind = !switches_.same(rk_.to.side, rk_.next.side);
   if (passed_switch_ && (passed_several_ || !ends_behind || !switches_.same(behind_side_, rk_.next.side)))
     return std::numeric_limits<double>::infinity();
@@ -193,7 +196,7 @@ void ErkStepper::FrictionSwitches::read(const Node& node, Motion& out) const {
 }
 
 void ErkStepper::FrictionSwitches::find_first_side() {
-  if (!switches_.any()) return;
+  if (!switches_.any()) return find_side_again();
   read(rk_.to, before_switch_);
   const Departure departure = sticking_->leave(before_switch_.instant(), before_switch_.a, rk_.to.side);
   if (departure.held_by) throw StepFailure{sticking_->would_stick(*departure.held_by), rk_.to.t};

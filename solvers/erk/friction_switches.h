@@ -25,7 +25,7 @@ class ErkStepper::FrictionSwitches {
   void find_side_again();
 
   /// An attempt starts; its stage i is at t.
-  void start_attempt() { passed_switch_ = passed_several_ = false; }
+  void start_attempt() { passed_switch_ = passed_several_ = passed_rest_ = false; }
   void check_switch(std::size_t i, double t);
   /// The most that a switch between two nodes, crossed in one step, may contribute to its error, over the
   /// tolerance.
@@ -46,6 +46,7 @@ class ErkStepper::FrictionSwitches {
   std::optional<StepFailure> end;  ///< what the run ends with where the last step ended
 
  private:
+  [[nodiscard]] bool any() const { return switches_.any() || switches_.any_slides(); }
   void find_side(Node& node);
   [[nodiscard]] bool failed_behind_switch();
   [[nodiscard]] StepFailure why_not_over(Node& before);
@@ -59,7 +60,8 @@ class ErkStepper::FrictionSwitches {
   Motion before_switch_, behind_switch_;  // work
   Slope stage_side_, behind_side_;        // of stages, the latter behind a switch
   bool passed_switch_ = false;            // by the last attempt,
-  bool passed_several_ = false;           // and more than one
+  bool passed_several_ = false;           // and more than one;
+  bool passed_rest_ = false;              // and a rest of what slides
   Node short_of_, beyond_;                // where steps end in front of a switch, and behind it
 };
 

@@ -17,6 +17,8 @@ namespace {
 
 int sign(double x) { return x > 0.0 ? 1 : x < 0.0 ? -1 : 0; }
 
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
 bool wanted(Crossing crossing, int before) {
   return crossing == Crossing::either || (crossing == Crossing::rising) == (before < 0);
 }
@@ -51,6 +53,7 @@ std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
   asked_for_ = beginning.positive;
   resolved_ = beginning.timed ? events_.size() : asked_for_;
   at_from_.clear();
+  rate_at_from_.clear();
   side_.clear();
   leaves_.assign(events_.size(), from_);
   std::vector<Found> jumped;
@@ -68,6 +71,7 @@ std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
       units_[e] = unit_(e);
     }
     at_from_.push_back(value(e, beginning.start));
+    rate_at_from_.push_back(e < asked_for_ ? unknown : rate_(e, beginning.start));
     side_.push_back(e < asked_for_ ? first_side(e, at_from_.back()) : at_from_.back() < 0.0 ? -1 : 1);
     if (before * side_[e] < 0) jumped.push_back({{e, from_}, before, wanted(events_[e].crossing, before)});
     const auto next =
@@ -176,6 +180,28 @@ EventWatch::Place EventWatch::first_place(std::size_t event, const Read& read, c
   return {t, value(event, read(t))};
 }
 
+/// Where a function falls below 0 between two nodes above it, faster than an interpolant shows: it falls at
+/// one, rises at the other, and the tangents there, which lie below what is convex, meet below 0.
+std::vector<EventWatch::Place> EventWatch::dips(std::size_t event, const Read& read, const Values& values) {
+  const auto& [nodes, f] = values.whole;
+  const auto rate = [&](double t) {
+    const double its = rate_(event, read(t));
+    return std::isnan(its) ? 0.0 : its;  // where it touches
+  };
+  std::vector<Place> dips;
+  for (std::size_t j = 1; j < values.rates.size(); ++j) {
+    const double a = nodes[j - 1], b = nodes[j], f_a = f[j - 1], f_b = f[j];
+    const double r_a = values.rates[j - 1], r_b = values.rates[j];
+    if (!(f_a > 0.0 && f_b > 0.0 && r_a < 0.0 && r_b > 0.0)) continue;
+    const double meet = (f_a - f_b + r_b * (b - a)) / (r_b - r_a);
+    if (f_a + r_a * meet > 0.0) continue;
+    const double t = root(rate, a, r_a, b, r_b, 4.0 * epsilon * std::max(std::abs(a), std::abs(b)));
+    const double f_t = value(event, read(t));
+    if (f_t < 0.0 && t > leaves_[event]) dips.push_back({t, f_t});
+  }
+  return dips;
+}
+
 /// The nodes of the interpolants, and the points where one turns towards 0 between two of one sign.
 std::vector<EventWatch::Place> EventWatch::places(std::size_t event, const Read& read,
                                                   const std::vector<Interpolant>& parts) {
@@ -209,9 +235,11 @@ int EventWatch::side_at_end(std::size_t event, const Place& before, const Place&
 }
 
 void EventWatch::find(std::size_t event, const Step& step, const std::vector<Interpolant>& parts,
-                      std::vector<Found>& found) {
+                      const std::vector<Place>& dips, std::vector<Found>& found) {
   const auto function = [&](double t) { return value(event, step.read(t)); };
-  const auto all = places(event, step.read, parts);
+  auto all = places(event, step.read, parts);
+  all.insert(all.end(), dips.begin(), dips.end());
+  std::ranges::sort(all, {}, &Place::t);
   for (std::size_t i = 1; i < all.size(); ++i) {
     const auto [a, f_a] = all[i - 1];
     auto [b, f_b] = all[i];
@@ -284,10 +312,10 @@ std::vector<EventWatch::Found> EventWatch::locate(const Step& step) {
   for (auto& values : seen_) values.clear();
   const int degree = resolved_ > 0 ? std::max(step.degree, least_degree) : step.degree;
   std::vector<Values> all(events_.size());
-  const bool rates = rate_ && resolved_ == asked_for_;
+  const bool rates = static_cast<bool>(rate_);
   for (std::size_t e = 0; e < events_.size(); ++e) {
     all[e].whole = {{from_}, {at_from_[e]}};
-    if (rates && e >= asked_for_) all[e].rates = {std::numeric_limits<double>::quiet_NaN()};
+    if (rates && e >= asked_for_) all[e].rates = {rate_at_from_[e]};
   }
   for (int j = 1; j <= degree; ++j) {
     const double t = chebyshev_node(from_, step.to, j, degree);
@@ -305,9 +333,11 @@ std::vector<EventWatch::Found> EventWatch::locate(const Step& step) {
   std::vector<Found> found;
   for (std::size_t e = 0; e < events_.size(); ++e) {
     const double at_end = all[e].whole.values.back();
+    if (!all[e].rates.empty()) rate_at_from_[e] = all[e].rates.back();
+    const auto low = dips(e, step.read, all[e]);
     const auto parts = resolved(e, step, std::move(all[e]));
     at_from_[e] = at_end;
-    find(e, step, parts, found);
+    find(e, step, parts, low, found);
   }
   std::ranges::stable_sort(found, {}, [](const Found& one) { return one.record.time; });
   from_ = step.to;

@@ -103,13 +103,14 @@ class EventWatch {
                                           const std::vector<Interpolant>& parts);
   [[nodiscard]] int side_at_end(std::size_t event, const Place& before, const Place& end) const;
   void find(std::size_t event, const Step& step, const std::vector<Interpolant>& parts,
-            std::vector<Found>& found);
+            const std::vector<Place>& dips, std::vector<Found>& found);
   /// Of an event, over a step.
   struct Values {
     Interpolant whole{};
     std::vector<double> at_checks{};  ///< if it is resolved
     std::vector<double> rates{};      ///< at the nodes, if they may be known
   };
+  [[nodiscard]] std::vector<Place> dips(std::size_t event, const Read& read, const Values& values);
   [[nodiscard]] bool shows(std::size_t event, const Values& values) const;
   [[nodiscard]] std::vector<Interpolant> resolved(std::size_t event, const Step& step, Values values);
 
@@ -121,6 +122,7 @@ class EventWatch {
   std::size_t asked_for_ = 0;             ///< the first of them; behind are those of contacts
   std::size_t resolved_ = 0;              ///< the first of them may be faster than the motion
   std::vector<double> at_from_;           ///< of each event its value where the last step ended,
+  std::vector<double> rate_at_from_;      ///< its rate there, if it is known,
   std::vector<int> side_;                 ///< its sign there or before, if it is 0; 0 if it never had one,
   std::vector<double> largest_;           ///< and the largest value so far;
   std::vector<double> units_;             ///< of events of contacts, as they are in this step, or of terms;

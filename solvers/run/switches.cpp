@@ -8,12 +8,15 @@
 namespace dalembert {
 
 Switches::Switches(const System& system) : system_(&system) {
+  const std::size_t entries = system.multiplier_force_pattern().size();
   std::string label;
-  for (std::size_t k = 0; k < system.stated_multiplier_force_entries(); ++k) {
+  for (std::size_t k = 0; k < entries; ++k) {
     const std::string own = system.name_of_multiplier_force(k);
-    if (own != std::exchange(label, own)) first_.push_back(k);
+    if (own == std::exchange(label, own)) continue;
+    first_.push_back(k);
+    if (k < system.stated_multiplier_force_entries()) laws_ = first_.size();
   }
-  first_.push_back(system.stated_multiplier_force_entries());
+  first_.push_back(entries);
 }
 
 void Switches::make_room(Slope& slope) const { slope.reserve(system_->multiplier_force_pattern().size()); }
@@ -38,19 +41,25 @@ double Switches::turn(const Slope& a, const Slope& b, std::size_t friction) cons
 
 bool Switches::returns(const Slope& a, const Slope& b, const Slope& c) const {
   if (a.empty() || b.empty() || c.empty()) return false;
-  for (std::size_t i = 0; i + 1 < first_.size(); ++i)
+  for (std::size_t i = 0; i < laws_; ++i)
     if (turn(a, b, i) < 0.0 && !(turn(a, c, i) > 0.0)) return false;
   return true;
 }
 
+bool Switches::slide_turned(const Slope& a, const Slope& b) const {
+  for (std::size_t i = laws_; i + 1 < first_.size(); ++i)
+    if (turn(a, b, i) < 0.0) return true;
+  return false;
+}
+
 std::optional<std::size_t> Switches::turned(const Slope& a, const Slope& b) const {
-  for (std::size_t i = 0; i + 1 < first_.size(); ++i)
+  for (std::size_t i = 0; i < laws_; ++i)
     if (turn(a, b, i) < 0.0) return i;
   return std::nullopt;
 }
 
 bool Switches::rests(const Slope& a) const {
-  for (std::size_t i = 0; i + 1 < first_.size(); ++i)
+  for (std::size_t i = 0; i < laws_; ++i)
     if (turn(a, a, i) == 0.0) return true;
   return false;
 }

@@ -186,5 +186,59 @@ TEST_P(CoulombFrictionInSpace, CoupledPucksAreHeldAgainstTheirAccelerations) {
   }
 }
 
+// Stages of a step that lie behind the rest pushed the block back, and the error estimate was deceived.
+TEST_P(CoulombFrictionInSpace, RestsWhateverTheStep) {
+  constexpr double a = 0.3 * g;
+  for (const double loose : {1e-3, 1e-4}) {
+    for (const double fast : {1.0, 10.0, 100.0}) {
+      for (double v = 0.5; v < 4.0; v += 0.25) {
+        Scene<3> scene;
+        scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
+        const auto block = scene.add_particle({.mass = 1.0, .velocity = {v, 0.0, 0.0}});
+        scene.add_particle({.mass = 1.0, .position = {0.0, 10.0, 0.0}, .velocity = {fast, 0.0, 0.0}});
+        const auto table = scene.add(OnSurface{block, Plane<3>{}});
+        scene.add(coulomb(table, Slip{block, Plane<3>{}}, 0.3));
+        const double rests = v / a;
+        const auto run =
+            simulate(scene, {.t_end = 2.0 * rests, .tolerance = loose, .stepper = GetParam().stepper});
+        ASSERT_EQ(run.events().size(), 1U) << loose << ' ' << fast << ' ' << v;
+        EXPECT_EQ(run.events()[0].kind, EventKind::sticks);
+        // Speeds are known to the tolerance, of the scene's.
+        const double error = 10.0 * run.statistics().accuracy;
+        EXPECT_NEAR(run.events()[0].time, rests,
+                    error * (rests + run.statistics().length / run.statistics().time / a));
+      }
+    }
+  }
+}
+
+// A step that is taken again towards a rest may have begun behind the switch that lets another block go.
+TEST_P(CoulombFrictionInSpace, RestsBehindAPushOfAnother) {
+  constexpr double a = 0.3 * g, push = 6.0;
+  for (double v = 0.5; v < 4.0; v += 0.25) {
+    for (const double part : {0.5, 0.8, 0.9, 0.98}) {
+      const double rests = v / a, from = part * rests;
+      Scene<3> scene;
+      scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
+      const auto first = scene.add_particle({.mass = 1.0, .velocity = {v, 0.0, 0.0}}),
+                 second = scene.add_particle({.mass = 1.0, .position = {0.0, 3.0, 0.0}});
+      for (const auto& block : {first, second}) {
+        const auto table = scene.add(unilateral(OnSurface{block, Plane<3>{}}));
+        scene.add(coulomb(table, Slip{block, Plane<3>{}}, 0.3));
+      }
+      scene.add(force_law(points(second), [from, push](auto t, auto, auto) {
+        return t > from ? vec(push, 0.0, 0.0) : vec(0.0, 0.0, 0.0);
+      }));
+      const auto run = simulate(scene, options(2.0 * rests));
+      ASSERT_EQ(run.events().size(), 2U) << v << ' ' << part;
+      EXPECT_EQ(run.events()[0].kind, EventKind::slides);
+      EXPECT_EQ(run.events()[1].kind, EventKind::sticks);
+      const double since = 2.0 * rests - from;
+      EXPECT_NEAR(run.position(second, run.size() - 1).x(), 0.5 * (push - a) * since * since,
+                  bound * since * since);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::coulomb_in_space_test

@@ -287,5 +287,24 @@ TEST(SharedImpacts, AreWhereAnotherRunMayBegin) {
   }
 }
 
+// The gap dips below 0 for no longer than a step overlooks, by less than forces are known to.
+TEST(SmallBalls, MeetWhateverTheStep) {
+  constexpr double speed = 2.0, apart = 0.7, loose = 1e-4;
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    for (double size = 1e-4; size < 0.02; size *= 1.1) {
+      Scene<2> scene;
+      const auto ball = scene.add_particle({.mass = 1.0, .velocity = {speed, 0.0}}),
+                 struck = scene.add_particle({.mass = 3.0, .position = {apart + size, 0.0}});
+      const auto touch = scene.add(unilateral(Distance{ball, struck, size}, {.restitution = 0.5}));
+      const double meet = apart / speed;
+      const auto run = simulate(scene, {.t_end = 2.0 * meet, .tolerance = loose, .stepper = stepper});
+      ASSERT_EQ(run.events().size(), 1U) << size;
+      EXPECT_NEAR(run.events()[0].time, meet, 10.0 * loose * meet);
+      // (1 + e) of the reduced mass, 3/4.
+      EXPECT_NEAR(run.impulse(touch, 0), 1.5 * 0.75 * speed, 10.0 * loose * speed);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::impacts_test
