@@ -30,14 +30,11 @@ std::vector<FlatEvent> with_switching(std::vector<FlatEvent> events,
   return events;
 }
 
-EventWatch::Rate rates_of_switching(std::size_t asked_for, const ConditionalConstraints* conditional) {
+EventWatch::OfContacts of_contacts(std::size_t asked_for, const ConditionalConstraints* conditional) {
   if (conditional == nullptr) return {};
-  return [=](std::size_t event, const FlatSample& now) { return conditional->rate(event - asked_for, now); };
-}
-
-EventWatch::Unit units_of_switching(std::size_t asked_for, const ConditionalConstraints* conditional) {
-  if (conditional == nullptr) return {};
-  return [=](std::size_t event) { return conditional->unit(event - asked_for); };
+  return {[=](std::size_t event, const FlatSample& at) { return conditional->rate(event - asked_for, at); },
+          [=](std::size_t event) { return conditional->unit(event - asked_for); },
+          [=](std::size_t event) { return conditional->margin(event - asked_for); }};
 }
 
 }  // namespace
@@ -49,9 +46,8 @@ EventHandler::EventHandler(std::vector<FlatEvent> events, ConditionalConstraints
       conditional_(conditional),
       auditor_(auditor),
       seen_(integration.system(), integration.start(), any_changes_scene(events)),
-      watch_(with_switching(std::move(events), conditional), rates_of_switching(asked_for_, conditional),
-             units_of_switching(asked_for_, conditional), *integration.system().layout(),
-             integration.tolerance()),
+      watch_(with_switching(std::move(events), conditional), of_contacts(asked_for_, conditional),
+             *integration.system().layout(), integration.tolerance()),
       changes_(asked_for_) {}
 
 bool EventHandler::any_changes_scene(const std::vector<FlatEvent>& events) {

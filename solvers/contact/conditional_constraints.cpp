@@ -31,6 +31,10 @@ double ConditionalConstraints::unit(std::size_t function) const {
   return function < contacts_.size() ? contacts_.unit(function) : friction_.unit(function - contacts_.size());
 }
 
+double ConditionalConstraints::margin(std::size_t function) const {
+  return function < contacts_.size() ? 0.0 : friction_.margin(function - contacts_.size());
+}
+
 /// Where contacts are as they are now.
 void ConditionalConstraints::find_modes(const Instant& at, std::optional<std::size_t> triggered,
                                         Change& change) {

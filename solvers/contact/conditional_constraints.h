@@ -33,6 +33,8 @@ class ConditionalConstraints {
   [[nodiscard]] double rate(std::size_t function, const FlatSample& now) const;
   /// The unit of its values as things are now; 0 if that is the size of the values themselves.
   [[nodiscard]] double unit(std::size_t function) const;
+  /// What its values are larger by than what is 0 where it changes, so that round-off changes nothing.
+  [[nodiscard]] double margin(std::size_t function) const;
   /// See Contacts.
   void require_open(const FlatSample& now) { contacts_.require_open(now); }
   void require_separation(const FlatSample& now) const { contacts_.require_separation(now); }

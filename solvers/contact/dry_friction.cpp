@@ -123,8 +123,8 @@ VectorXd DryFriction::part(const Rough& rough, std::span<const double> all) {
 
 VectorXd DryFriction::slip(const Rough& rough) const { return part(rough, u_); }
 
-/// Round-off, but what reverses its friction so late errs by at most twice this speed: a part of a step's
-/// tolerance.
+/// Round-off: a slip that begins with less may have any sign. What reverses its friction so late errs by at
+/// most twice this speed: a part of a step's tolerance.
 double DryFriction::no_slip(const Rough& rough) const {
   return std::min(round_off(), 0.1 * tolerance_) * rough.speed;
 }
@@ -180,6 +180,12 @@ double DryFriction::switching(std::size_t function, const FlatSample& now) const
 double DryFriction::unit(std::size_t function) const {
   const Rough& r = all_[function / kinds];
   return r.mode == Mode::slides && static_cast<Watched>(function % kinds) == mode ? r.speed : 0.0;
+}
+
+double DryFriction::margin(std::size_t function) const {
+  const Rough& r = all_[function / kinds];
+  const bool ends = r.mode == Mode::slides && (r.rows == 1 || r.pace != Pace::fast);
+  return ends && static_cast<Watched>(function % kinds) == mode ? no_slip(r) : 0.0;
 }
 
 /// Starts to slide from rest, whatever small slip is left.

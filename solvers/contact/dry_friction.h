@@ -52,6 +52,8 @@ class DryFriction {
   [[nodiscard]] double switching(std::size_t function, const FlatSample& now) const;
   /// The unit of its values: of what slides a speed; 0 for forces.
   [[nodiscard]] double unit(std::size_t function) const;
+  /// What its values are larger by than a slip that ends.
+  [[nodiscard]] double margin(std::size_t function) const;
 
   /// Decides what sticks, at a state where constraints with these numbers are open. `triggered` is the
   /// switching function that has fallen. Throws StepFailure, naming the constraints, where nothing satisfies

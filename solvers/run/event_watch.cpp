@@ -25,11 +25,10 @@ bool wanted(Crossing crossing, int before) {
 
 }  // namespace
 
-EventWatch::EventWatch(std::vector<FlatEvent> events, Rate rate, Unit unit, const Layout& layout,
+EventWatch::EventWatch(std::vector<FlatEvent> events, OfContacts of_contacts, const Layout& layout,
                        double tolerance)
     : events_(std::move(events)),
-      rate_(std::move(rate)),
-      unit_(std::move(unit)),
+      of_contacts_(std::move(of_contacts)),
       accuracy_(tolerance),
       largest_(events_.size()),
       units_(events_.size()),
@@ -68,10 +67,10 @@ std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
       }
     } else {
       largest_[e] = 0.0;
-      units_[e] = unit_(e);
+      units_[e] = of_contacts_.unit(e);
     }
     at_from_.push_back(value(e, beginning.start));
-    rate_at_from_.push_back(e < asked_for_ ? unknown : rate_(e, beginning.start));
+    rate_at_from_.push_back(e < asked_for_ ? unknown : of_contacts_.rate(e, beginning.start));
     side_.push_back(e < asked_for_ ? first_side(e, at_from_.back()) : at_from_.back() < 0.0 ? -1 : 1);
     if (before * side_[e] < 0) jumped.push_back({{e, from_}, before, wanted(events_[e].crossing, before)});
     const auto next =
@@ -185,7 +184,7 @@ EventWatch::Place EventWatch::first_place(std::size_t event, const Read& read, c
 std::vector<EventWatch::Place> EventWatch::dips(std::size_t event, const Read& read, const Values& values) {
   const auto& [nodes, f] = values.whole;
   const auto rate = [&](double t) {
-    const double its = rate_(event, read(t));
+    const double its = of_contacts_.rate(event, read(t));
     return std::isnan(its) ? 0.0 : its;  // where it touches
   };
   std::vector<Place> dips;
@@ -234,9 +233,17 @@ int EventWatch::side_at_end(std::size_t event, const Place& before, const Place&
   return std::abs(end.value) <= zero && std::abs(before.value) > zero ? 0 : sign(end.value);
 }
 
+/// What was clearly above 0 changes where it is 0, not where its margin is used up.
+double EventWatch::root_of(std::size_t event, const Step& step, const Place& a, const Place& b,
+                           double exact) {
+  const double margin = event < asked_for_ ? 0.0 : of_contacts_.margin(event);
+  const double none = a.value > margin ? margin : 0.0;
+  const auto function = [&](double t) { return value(event, step.read(t)) - none; };
+  return root(function, a.t, a.value - none, b.t, b.value - none, exact);
+}
+
 void EventWatch::find(std::size_t event, const Step& step, const std::vector<Interpolant>& parts,
                       const std::vector<Place>& dips, std::vector<Found>& found) {
-  const auto function = [&](double t) { return value(event, step.read(t)); };
   auto all = places(event, step.read, parts);
   all.insert(all.end(), dips.begin(), dips.end());
   std::ranges::sort(all, {}, &Place::t);
@@ -262,7 +269,7 @@ void EventWatch::find(std::size_t event, const Step& step, const std::vector<Int
     at_root_[event] = 2.0 * exact * std::abs(f_b - f_a) / (b - a);
     const bool asked = wanted(events_[event].crossing, before);
     if (asked || event < asked_for_)
-      found.push_back({{event, root(function, a, f_a, b, f_b, exact)}, before, asked});
+      found.push_back({{event, root_of(event, step, all[i - 1], {b, f_b}, exact)}, before, asked});
   }
 }
 
@@ -308,11 +315,11 @@ std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& ste
 
 std::vector<EventWatch::Found> EventWatch::locate(const Step& step) {
   largest_before_ = largest_;
-  for (std::size_t e = asked_for_; e < events_.size(); ++e) units_[e] = unit_(e);
+  for (std::size_t e = asked_for_; e < events_.size(); ++e) units_[e] = of_contacts_.unit(e);
   for (auto& values : seen_) values.clear();
   const int degree = resolved_ > 0 ? std::max(step.degree, least_degree) : step.degree;
   std::vector<Values> all(events_.size());
-  const bool rates = static_cast<bool>(rate_);
+  const bool rates = static_cast<bool>(of_contacts_.rate);
   for (std::size_t e = 0; e < events_.size(); ++e) {
     all[e].whole = {{from_}, {at_from_[e]}};
     if (rates && e >= asked_for_) all[e].rates = {rate_at_from_[e]};
@@ -323,7 +330,7 @@ std::vector<EventWatch::Found> EventWatch::locate(const Step& step) {
     for (std::size_t e = 0; e < events_.size(); ++e) {
       all[e].whole.nodes.push_back(t);
       all[e].whole.values.push_back(value(e, at));
-      if (rates && e >= asked_for_) all[e].rates.push_back(rate_(e, at));
+      if (rates && e >= asked_for_) all[e].rates.push_back(of_contacts_.rate(e, at));
     }
   }
   for (const double t : resolved_ > 0 ? check_times(from_, step.to, degree) : std::vector<double>{}) {

@@ -43,15 +43,18 @@ class EventWatch {
     bool wanted;
   };
 
-  /// The derivative by time of an event of contacts; NaN if it is not known.
-  using Rate = std::function<double(std::size_t event, const FlatSample& at)>;
-  /// The unit of such an event's values, which changes with what is closed and sticks; 0 if that is the size
-  /// of the values themselves.
-  using Unit = std::function<double(std::size_t event)>;
+  /// What is known of the events of contacts; empty if there are none.
+  struct OfContacts {
+    /// The derivative by time; NaN if it is not known.
+    std::function<double(std::size_t event, const FlatSample& at)> rate;
+    /// The unit of the values, which changes with what is closed and sticks; 0 if that is their own size.
+    std::function<double(std::size_t event)> unit;
+    /// What the values are larger by, so that round-off changes nothing, than what is 0 at the change.
+    std::function<double(std::size_t event)> margin;
+  };
 
-  /// Of a run at this tolerance; `rate` and `unit` may be empty if there are no contacts. Throws
-  /// InvalidArgument for an event without function.
-  EventWatch(std::vector<FlatEvent> events, Rate rate, Unit unit, const Layout& layout, double tolerance);
+  /// Of a run at this tolerance. Throws InvalidArgument for an event without function.
+  EventWatch(std::vector<FlatEvent> events, OfContacts of_contacts, const Layout& layout, double tolerance);
 
   /// Every crossing in a step, in the order of time; of contacts those that were asked for. Throws
   /// StepFailure if a function throws, gives no number or cannot be followed.
@@ -102,6 +105,8 @@ class EventWatch {
   [[nodiscard]] std::vector<Place> places(std::size_t event, const Read& read,
                                           const std::vector<Interpolant>& parts);
   [[nodiscard]] int side_at_end(std::size_t event, const Place& before, const Place& end) const;
+  [[nodiscard]] double root_of(std::size_t event, const Step& step, const Place& a, const Place& b,
+                               double exact);
   void find(std::size_t event, const Step& step, const std::vector<Interpolant>& parts,
             const std::vector<Place>& dips, std::vector<Found>& found);
   /// Of an event, over a step.
@@ -115,8 +120,7 @@ class EventWatch {
   [[nodiscard]] std::vector<Interpolant> resolved(std::size_t event, const Step& step, Values values);
 
   std::vector<FlatEvent> events_;
-  Rate rate_;
-  Unit unit_;
+  OfContacts of_contacts_;
   Accuracy accuracy_;
   double from_ = 0.0;
   std::size_t asked_for_ = 0;             ///< the first of them; behind are those of contacts
