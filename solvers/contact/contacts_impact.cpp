@@ -296,25 +296,28 @@ std::optional<std::size_t> Contacts::driven_apart(const Instant& at) const {
 }
 
 /// Those that close nothing. What neither leaves nor is pressed, to round-off, has none; nor has what leaves
-/// no faster than accelerations are known, and is pressed soon: an error of its positions is what parts it.
+/// no faster than accelerations are known, or for no longer than times are, and is pressed soon: an error of
+/// its positions is what parts it.
 VectorXd Contacts::accelerations_without(Coupling& coupling, const std::vector<std::size_t>& touched,
                                          const Instant& at) {
   VectorXd free = coupling.accelerations_without(at);
-  std::vector<Index> slow;
+  std::vector<Index> leaving;
   for (Index k = 0; k < free.size(); ++k) {
     const Contact& c = contacts_[touched[static_cast<std::size_t>(k)]];
     if (std::abs(free[k]) <= round_off() * own_acceleration(c)) free[k] = 0.0;
-    if (free[k] > 0.0 && free[k] <= accuracy_.of_positions() * own_acceleration(c)) slow.push_back(k);
+    if (free[k] > 0.0) leaving.push_back(k);
   }
-  if (slow.empty()) return free;
+  if (leaving.empty()) return free;
   const double while_after = accuracy_.short_time() * scales_.time;
   std::vector<double> q(at.q.begin(), at.q.end());
   for (std::size_t i = 0; i < q.size(); ++i) q[i] += while_after * at.v[i];
   const VectorXd soon = coupling.accelerations_without({at.t + while_after, q, at.v});
   (void)coupling.accelerations_without(at);  // it goes on from there
-  for (const Index k : slow) {
+  for (const Index k : leaving) {
     Contact& c = contacts_[touched[static_cast<std::size_t>(k)]];
-    if (soon[k] < 0.0) c.accepted = std::exchange(free[k], 0.0);
+    const double known = std::max(accuracy_.of_positions() * own_acceleration(c),
+                                  accuracy_.of_times() / accuracy_.short_time() * (free[k] - soon[k]));
+    if (soon[k] < 0.0 && free[k] <= known) c.accepted = std::exchange(free[k], 0.0);
   }
   return free;
 }

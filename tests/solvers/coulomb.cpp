@@ -1,3 +1,4 @@
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/tests/solvers/with_events.h>
 
 #include <gmock/gmock.h>
@@ -452,6 +453,22 @@ TEST(Coulomb, RefusesWhatItIsNotFor) {
   EXPECT_THROW(scene.scene.add(coulomb(Constraint<1>{}, Slip{scene.block, Plane<2>{}}, 0.1)),
                InvalidArgument);
   EXPECT_THAT([&] { (void)equilibrium(scene.scene); }, ThrowsMessage<InvalidScene>(HasSubstr("\"rough\"")));
+}
+
+// Constant friction brakes in steps of any length without an error: what is left is the round-off of their
+// velocities, in the scene's speed. A slip that had to pass below 0 by a margin ended late by 1e-11.
+TEST_P(CoulombFriction, EndsWhereTheSlipIsZero) {
+  constexpr double a = 0.3 * g, fast = 10.0;
+  for (const double v : {0.5, 1.0, 2.0, 3.0}) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto block = scene.add_particle({.mass = 1.0, .velocity = {v, 0.0}});
+    scene.add_particle({.mass = 1.0, .position = {0.0, 1.0}, .velocity = {fast, 0.0}});
+    scene.add(coulomb(scene.add(OnCurve{block, Plane<2>{}}), Slip{block, Plane<2>{}}, 0.3));
+    const auto run = simulate(scene, options(2.0 * v / a));
+    ASSERT_EQ(run.events().size(), 1U);
+    EXPECT_NEAR(run.events()[0].time, v / a, 100.0 * epsilon * fast / a) << v;
+  }
 }
 
 }  // namespace
