@@ -88,7 +88,8 @@ void Contacts::solve_impact(const Coupling& coupling, const std::vector<std::siz
 }
 
 /// Notes the impacts; the islands where they accumulate, and when they end there: where all that was struck
-/// has no way left. What has no restitution has none at once, beside others that still bounce.
+/// has no way left. What has no restitution has none at once, beside others that still bounce; what loses
+/// nothing always has: between walls that close in its impacts only come faster.
 std::vector<Contacts::Limit> Contacts::limits_of_impacts(const Change& change, const Instant& at) {
   const double t = at.t;
   find_gaps(at);
@@ -99,7 +100,8 @@ std::vector<Contacts::Limit> Contacts::limits_of_impacts(const Change& change, c
     Accumulation& impacts = c.impacts;
     impacts.add(t);
     const double rate = std::abs(psi_[c.row]);
-    const bool ends = (c.closed && !c.moved) || rate <= still(c) || rate * impacts.left() <= error_of_gap(c);
+    const bool hops_end = c.restitution < 1.0 && rate * impacts.left() <= error_of_gap(c);
+    const bool ends = (c.closed && !c.moved) || rate <= still(c) || hops_end;
     if (!ends) bouncing.insert(c.island);
     if (!std::isfinite(impacts.limit()) || !ends) continue;
     auto limit = std::ranges::find(limits, c.island, &Limit::island);

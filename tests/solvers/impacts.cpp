@@ -306,5 +306,26 @@ TEST(SmallBalls, MeetWhateverTheStep) {
   }
 }
 
+// Between walls that close in impacts come faster and faster, and then slower: none of them ends in rest.
+TEST(ElasticBall, LeavesANarrowWedge) {
+  constexpr double loose = 1e-4;
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    for (const double angle : {0.01, 0.02, 0.05, 0.1, 0.2}) {
+      for (double off = 0.1; off < 0.95; off += 0.1) {
+        Scene<2> scene;
+        const Vec<2> at(1.0, off * std::tan(angle));
+        const auto ball = scene.add_particle({.mass = 1.0, .position = at, .velocity = {-1.0, 0.0}});
+        scene.add_particle({.mass = 1.0, .position = {0.0, 5.0}});
+        for (const double side : {-1.0, 1.0}) {
+          const Vec<2> out(std::sin(angle), side * std::cos(angle));
+          scene.add(unilateral(OnCurve{ball, Plane<2>{{0.0, 0.0}, out}}, {.restitution = 1.0}));
+        }
+        const auto run = simulate(scene, {.t_end = 2.0, .tolerance = loose, .stepper = stepper});
+        EXPECT_NEAR(run.velocity(ball, run.size() - 1).norm(), 1.0, 100.0 * loose) << angle << ' ' << off;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::impacts_test
