@@ -11,14 +11,15 @@ std::string fault_of_twins(const Draft<D>& draft, std::string& detail) {
   Draft<D> twin = draft.again(other, {.lean = redundant});
   fill(twin);
   const Ending<D> one = run_of(draft), two = run_of(twin);
-  if (one.run.has_value() != two.run.has_value() || (redundant && one.why.empty() != two.why.empty()))
+  const bool both_run = one.run && two.run;
+  if ((redundant || !both_run) && one.why.empty() != two.why.empty())
     return "only one of the twins is refused: " + one.why + two.why;
   std::string fault;
   if (one.run) fault = fault_of_run(draft, *one.run, one.failed_at, detail);
   // Forces of kinked scenes jump at an instant that no two runs have in common.
   const Measure measure{.of = "twins", .forces = redundant};
   const Run<D> of_twin{twin, two};
-  if (one.run && fault.empty()) fault = fault_of_twin<D>({draft, one}, of_twin, measure, detail);
+  if (both_run && fault.empty()) fault = fault_of_twin<D>({draft, one}, of_twin, measure, detail);
   if (fault.empty() && one.failure) std::rethrow_exception(one.failure);
   return fault;
 }
