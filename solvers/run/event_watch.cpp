@@ -187,7 +187,8 @@ std::vector<EventWatch::Place> EventWatch::dips(std::size_t event, const Read& r
     const double its = of_contacts_.rate(event, read(t));
     return std::isnan(its) ? 0.0 : its;  // where it touches
   };
-  std::vector<Place> dips;
+  const double touches = -round_off() * size(event);
+  std::vector<Place> found;
   for (std::size_t j = 1; j < values.rates.size(); ++j) {
     const double a = nodes[j - 1], b = nodes[j], f_a = f[j - 1], f_b = f[j];
     const double r_a = values.rates[j - 1], r_b = values.rates[j];
@@ -196,9 +197,9 @@ std::vector<EventWatch::Place> EventWatch::dips(std::size_t event, const Read& r
     if (f_a + r_a * meet > 0.0) continue;
     const double t = root(rate, a, r_a, b, r_b, 4.0 * epsilon * std::max(std::abs(a), std::abs(b)));
     const double f_t = value(event, read(t));
-    if (f_t < 0.0 && t > leaves_[event]) dips.push_back({t, f_t});
+    if (f_t < touches && t > leaves_[event]) found.push_back({t, f_t});
   }
-  return dips;
+  return found;
 }
 
 /// The nodes of the interpolants, and the points where one turns towards 0 between two of one sign.
