@@ -145,7 +145,7 @@ double EventHandler::same_time(double t, const Integration& integration) {
 
 Change EventHandler::resolve(const Stop& stop, const FlatSample& at, const Integration& integration) {
   const EventRecord due{stop.changes.front().source, stop.time};
-  // A step that is taken again may have begun behind a switch.
+  // Of contacts on the sides behind a switch, where a step that is taken again began there.
   const auto resolved = [&] { return conditional_->resolve(at, due.source - asked_for_); };
   Change change =
       was_asked_for(due) ? change_scene(due, at, integration) : integration.as_read(stop.time, resolved);

@@ -272,7 +272,7 @@ double Contacts::no_gap(const Contact& contact, std::span<const double> q) const
 }
 
 /// Rates that count as 0: round-off of the scene's own speed, however slow it is just then. What slides back
-/// is found to rest a round-off beyond, see DryFriction::switching.
+/// may be found to rest a round-off beyond, see DryFriction::switching.
 double Contacts::no_rate(const Contact& contact) const {
   return 2.0 * round_off() * scales_.speed() * contact.gradient;
 }
@@ -292,6 +292,7 @@ void Contacts::require_open(const FlatSample& now) {
   find_gaps({now.time, now.q, now.v});
   for (Contact& c : contacts_) {
     const double gap = c.sign * g_[c.row];
+    if (c.closed && c.sign * now.lambda[c.row] > no_pull(c, now)) c.accepted = 0.0;  // it is pressed now
     c.parted = c.parted || gap > error_of_gap(c);
     const double of_time = 8.0 * epsilon * std::abs(now.time * psi_[c.row]);
     if (c.closed || gap >= -error_of_gap(c) - of_time) continue;
@@ -343,7 +344,6 @@ void Contacts::open(Contact& contact, double t, double rate) const {
 void Contacts::close(Contact& contact, double t) {
   if (!contact.closed) contact.closed_at = t;
   contact.closed = true;
-  contact.accepted = 0.0;
 }
 
 void Contacts::open(std::size_t contact, double t, double rate, Change& change) {

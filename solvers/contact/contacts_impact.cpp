@@ -1,4 +1,5 @@
 #include <dalembert/core/linear/dense.h>
+#include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/contact/contacts.h>
 #include <dalembert/solvers/contact/coupling.h>
@@ -87,9 +88,22 @@ void Contacts::solve_impact(const Coupling& coupling, const std::vector<std::siz
   coupling.apply_impulses(P, change.v, change.impulses);
 }
 
+/// Whether what bounces has no way left. What loses nothing always has: between walls that close in, its
+/// impacts come faster, and end in no rest.
+bool Contacts::hops_end(const Contact& contact) const {
+  return contact.restitution < 1.0 &&
+         std::abs(psi_[contact.row]) * contact.impacts.left() <= error_of_gap(contact);
+}
+
+/// Whether the next hop of one that is on its way has none left: it is lower by e^2. (A wall beside a floor
+/// that comes to rest goes on being struck.)
+bool Contacts::next_hop_ends(const Contact& contact, double t) const {
+  const double e = contact.restitution, way = std::abs(psi_[contact.row]) * (t - contact.impacts.last());
+  return e < 1.0 && e * e * way <= error_of_gap(contact);
+}
+
 /// Notes the impacts; the islands where they accumulate, and when they end there: where all that was struck
-/// has no way left. What has no restitution has none at once, beside others that still bounce; what loses
-/// nothing always has: between walls that close in its impacts only come faster.
+/// has no way left. What has no restitution has none at once, beside others that still bounce.
 std::vector<Contacts::Limit> Contacts::limits_of_impacts(const Change& change, const Instant& at) {
   const double t = at.t;
   find_gaps(at);
@@ -100,8 +114,7 @@ std::vector<Contacts::Limit> Contacts::limits_of_impacts(const Change& change, c
     Accumulation& impacts = c.impacts;
     impacts.add(t);
     const double rate = std::abs(psi_[c.row]);
-    const bool hops_end = c.restitution < 1.0 && rate * impacts.left() <= error_of_gap(c);
-    const bool ends = (c.closed && !c.moved) || rate <= still(c) || hops_end;
+    const bool ends = (c.closed && !c.moved) || rate <= still(c) || hops_end(c);
     if (!ends) bouncing.insert(c.island);
     if (!std::isfinite(impacts.limit()) || !ends) continue;
     auto limit = std::ranges::find(limits, c.island, &Limit::island);
@@ -223,9 +236,10 @@ Change Contacts::resolve(const Instant& at, const std::vector<std::size_t>& trig
     solve_impact(*coupling, touched, at, U, change);
     if (const auto limits = limits_of_impacts(change, at); !limits.empty()) {
       for (std::size_t i = 0; i < contacts_.size(); ++i) {
-        const auto limit = std::ranges::find(limits, contacts_[i].island, &Limit::island);
-        if (limit != limits.end() && contacts_[i].impacts.last() >= limit->since && !among(touched, i))
-          touched.push_back(i);
+        const Contact& c = contacts_[i];
+        const auto limit = std::ranges::find(limits, c.island, &Limit::island);
+        const bool struck = limit != limits.end() && c.impacts.last() >= limit->since;
+        if (struck && next_hop_ends(c, at.t) && !among(touched, i)) touched.push_back(i);
       }
       const Instant struck{at.t, at.q, change.v};
       coupling.emplace(only(touched), numbers(touched), struck);
@@ -246,6 +260,7 @@ Change Contacts::resolve(const Instant& at, const std::vector<std::size_t>& trig
   }
   const auto resting = open_separating(touched, U, at.t, change);
   if (friction_) {
+    (void)accelerations_without(*coupling, touched, after);  // what pulls may do so by an error of positions
     close(touched, triggered, resting, at.t, change);
   } else {
     accelerate(*coupling, touched, triggered, resting, at, change);
@@ -302,24 +317,31 @@ std::optional<std::size_t> Contacts::driven_apart(const Instant& at) const {
 /// its positions is what parts it.
 VectorXd Contacts::accelerations_without(Coupling& coupling, const std::vector<std::size_t>& touched,
                                          const Instant& at) {
+  for (const std::size_t i : touched) contacts_[i].accepted = 0.0;
   VectorXd free = coupling.accelerations_without(at);
   std::vector<Index> leaving;
   for (Index k = 0; k < free.size(); ++k) {
-    const Contact& c = contacts_[touched[static_cast<std::size_t>(k)]];
-    if (std::abs(free[k]) <= round_off() * own_acceleration(c)) free[k] = 0.0;
+    Contact& c = contacts_[touched[static_cast<std::size_t>(k)]];
+    const double none = round_off() * own_acceleration(c);
+    if (std::abs(free[k]) <= none) {
+      free[k] = 0.0;
+      c.accepted = none;
+    }
     if (free[k] > 0.0) leaving.push_back(k);
   }
   if (leaving.empty()) return free;
-  const double while_after = accuracy_.short_time() * scales_.time;
+  const double soon = accuracy_.short_time() * scales_.time;
+  const double known_to = constants.most_correction * accuracy_.of_times() * scales_.time;
   std::vector<double> q(at.q.begin(), at.q.end());
-  for (std::size_t i = 0; i < q.size(); ++i) q[i] += while_after * at.v[i];
-  const VectorXd soon = coupling.accelerations_without({at.t + while_after, q, at.v});
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] += soon * at.v[i];
+  const VectorXd then = coupling.accelerations_without({at.t + soon, q, at.v});
   (void)coupling.accelerations_without(at);  // it goes on from there
   for (const Index k : leaving) {
     Contact& c = contacts_[touched[static_cast<std::size_t>(k)]];
-    const double known = std::max(accuracy_.of_positions() * own_acceleration(c),
-                                  accuracy_.of_times() / accuracy_.short_time() * (free[k] - soon[k]));
-    if (soon[k] < 0.0 && free[k] <= known) c.accepted = std::exchange(free[k], 0.0);
+    if (!(then[k] < 0.0)) continue;
+    const double until = soon * free[k] / (free[k] - then[k]);
+    if (until <= known_to || free[k] <= accuracy_.of_positions() * own_acceleration(c))
+      c.accepted = std::exchange(free[k], 0.0);
   }
   return free;
 }
@@ -328,7 +350,6 @@ VectorXd Contacts::accelerations_without(Coupling& coupling, const std::vector<s
 void Contacts::accelerate(Coupling& coupling, const std::vector<std::size_t>& touched,
                           const std::vector<std::size_t>& triggered, const std::vector<Index>& resting,
                           const Instant& at, Change& change) {
-  for (const std::size_t i : touched) contacts_[i].accepted = 0.0;
   const VectorXd all = accelerations_without(coupling, touched, {at.t, at.q, change.v});
   std::vector<Pair> pairs(touched.size());
   for (const auto& island : coupling.islands()) {
@@ -367,10 +388,8 @@ void Contacts::open_or_close(std::size_t i, const std::vector<std::size_t>& trig
   if ((pair.acceleration > 0.0 && pair.force == 0.0) || falls) {
     open(i, t, 0.0, change);
   } else {
-    const double accepted = contacts_[i].accepted;
     close(contacts_[i], t);
     contacts_[i].bears = pair.force > 0.0;
-    contacts_[i].accepted = accepted;
   }
 }
 

@@ -85,8 +85,9 @@ double ErkStepper::FrictionSwitches::effect_of_switch(const Node& a, const Node&
   return rk_.weighted_norm();
 }
 
-/// That is known if all behind it lies on the side on which the step ends. (A step that ends behind a rest
-/// shows it; it is then taken again.)
+/// That is known if all behind it lies on the side on which the step ends. So it is with a rest of what
+/// slides: a step that ends behind it the run takes again; one that only has stages there shows nothing, and
+/// is wrong.
 double ErkStepper::FrictionSwitches::error_of_switch(double step) {
   if (!any()) return 0.0;
   find_side(rk_.next);

@@ -183,10 +183,6 @@ EventWatch::Place EventWatch::first_place(std::size_t event, const Read& read, c
 /// one, rises at the other, and the tangents there, which lie below what is convex, meet below 0.
 std::vector<EventWatch::Place> EventWatch::dips(std::size_t event, const Read& read, const Values& values) {
   const auto& [nodes, f] = values.whole;
-  const auto rate = [&](double t) {
-    const double its = of_contacts_.rate(event, read(t));
-    return std::isnan(its) ? 0.0 : its;  // where it touches
-  };
   const double touches = -round_off() * size(event);
   std::vector<Place> found;
   for (std::size_t j = 1; j < values.rates.size(); ++j) {
@@ -195,6 +191,11 @@ std::vector<EventWatch::Place> EventWatch::dips(std::size_t event, const Read& r
     if (!(f_a > 0.0 && f_b > 0.0 && r_a < 0.0 && r_b > 0.0)) continue;
     const double meet = (f_a - f_b + r_b * (b - a)) / (r_b - r_a);
     if (f_a + r_a * meet > 0.0) continue;
+    const auto rate = [&](double t) {
+      const double its = of_contacts_.rate(event, read(t));
+      if (!std::isnan(its)) return its;  // else it touches, or is below
+      return value(event, read(t + std::sqrt(epsilon) * (b - t))) - value(event, read(t));
+    };
     const double t = root(rate, a, r_a, b, r_b, 4.0 * epsilon * std::max(std::abs(a), std::abs(b)));
     const double f_t = value(event, read(t));
     if (f_t < touches && t > leaves_[event]) found.push_back({t, f_t});

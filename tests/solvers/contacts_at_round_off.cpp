@@ -165,30 +165,37 @@ TEST_P(ContactsAtRoundOff, WhatRestsBesideAWallIsPressedAgainstIt) {
 /// sqrt(k m) v sin(w s), w^2 = k/m with the second's m, and leaves after half a vibration.
 TEST_P(ContactsAtRoundOff, WhatIsStruckWithARelaxedSpringIsPressed) {
   constexpr double m = 2.0, l = 0.3;
-  for (const auto& [k, v, d] : {std::array{100.0, 0.5, 0.2},
-                                {100.0, 0.5, 0.5},
-                                {100.0, 1.0, 0.9},
-                                {300.0, 0.5, 0.5},
-                                {1000.0, 0.5, 0.2},
-                                {1000.0, 0.5, 0.5},
-                                {1000.0, 0.5, 0.9},
-                                {1000.0, 1.0, 0.5},
-                                {1000.0, 1.0, 0.9},
-                                {1000.0, 3.3, 0.9}}) {
-    Scene<2> scene;
-    const auto first = scene.add_particle({.mass = 1.0, .position = {-d, 0.0}, .velocity = {v, 0.0}});
-    const auto second = scene.add_particle({.mass = m, .position = {-d - l, 0.0}, .velocity = {v, 0.0}});
-    for (const auto& one : {first, second}) scene.add(OnCurve{one, Plane<2>{}});
-    scene.add(Spring{first, second, k, l});
-    scene.add(unilateral(OnCurve{first, Plane<2>{{0.0, 0.0}, {-1.0, 0.0}}}));
-    const double w = std::sqrt(k / m), struck = d / v, opens = struck + std::numbers::pi / w;
-    const auto run = simulate(scene, options(opens + 0.2));
-    ASSERT_EQ(run.events().size(), 2U) << k << ' ' << v << ' ' << d;
-    EXPECT_EQ(run.events()[0].kind, EventKind::struck);
-    EXPECT_NEAR(run.events()[0].time, struck, error_of(run));
-    EXPECT_EQ(run.events()[1].kind, EventKind::opened);
-    EXPECT_NEAR(run.events()[1].time, opens, error_of(run)) << k << ' ' << v << ' ' << d;
-  }
+  for (const bool rough : {false, true})
+    for (const auto& [k, v, d] : {std::array{100.0, 0.5, 0.2},
+                                  {100.0, 0.5, 0.5},
+                                  {100.0, 1.0, 0.9},
+                                  {300.0, 0.5, 0.5},
+                                  {1000.0, 0.5, 0.2},
+                                  {1000.0, 0.5, 0.5},
+                                  {1000.0, 0.5, 0.9},
+                                  {1000.0, 1.0, 0.5},
+                                  {1000.0, 1.0, 0.9},
+                                  {1000.0, 3.3, 0.9}}) {
+      Scene<2> scene;
+      const auto first = scene.add_particle({.mass = 1.0, .position = {-d, 0.0}, .velocity = {v, 0.0}});
+      const auto second = scene.add_particle({.mass = m, .position = {-d - l, 0.0}, .velocity = {v, 0.0}});
+      for (const auto& one : {first, second}) scene.add(OnCurve{one, Plane<2>{}});
+      scene.add(Spring{first, second, k, l});
+      scene.add(unilateral(OnCurve{first, Plane<2>{{0.0, 0.0}, {-1.0, 0.0}}}));
+      if (rough) {  // a block that slides elsewhere, all the while
+        scene.add(UniformGravity<2>{{0.0, -g}});
+        const Plane<2> table{{0.0, -2.0}, {0.0, 1.0}};
+        const auto block = scene.add_particle({.mass = 1.0, .position = {0.0, -2.0}, .velocity = {1.0, 0.0}});
+        scene.add(coulomb(scene.add(OnCurve{block, table}), Slip{block, table}, 0.01));
+      }
+      const double w = std::sqrt(k / m), struck = d / v, opens = struck + std::numbers::pi / w;
+      const auto run = simulate(scene, options(opens + 0.2));
+      ASSERT_EQ(run.events().size(), 2U) << k << ' ' << v << ' ' << d;
+      EXPECT_EQ(run.events()[0].kind, EventKind::struck);
+      EXPECT_NEAR(run.events()[0].time, struck, error_of(run));
+      EXPECT_EQ(run.events()[1].kind, EventKind::opened);
+      EXPECT_NEAR(run.events()[1].time, opens, error_of(run)) << k << ' ' << v << ' ' << d;
+    }
 }
 
 /// A ball of small restitution e: its hops take e^k of the first, and end at the limit of their sum, though

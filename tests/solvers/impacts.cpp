@@ -327,5 +327,54 @@ TEST(ElasticBall, LeavesANarrowWedge) {
   }
 }
 
+// Steps end where a force jumps, and between its jumps halves of them: a touch at such a time is not the end
+// of the dip.
+TEST(SmallBalls, MeetWhereAStepLooks) {
+  constexpr double speed = 1.0, apart = 0.3;
+  for (const double loose : {1e-4, 1e-6}) {
+    for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+      for (double size = 1e-4; size < 0.02; size *= 1.2) {
+        Scene<2> scene;
+        const auto ball = scene.add_particle({.mass = 1.0, .velocity = {speed, 0.0}}),
+                   struck = scene.add_particle({.mass = 1.0, .position = {apart + size, 0.0}}),
+                   other = scene.add_particle({.mass = 1.0, .position = {0.0, 1.0}});
+        scene.add(force_law(points(other), [](auto t, auto, auto) { return vec(cos(t), 0.0 * t); }));
+        scene.add(unilateral(Distance{ball, struck, size}, {.restitution = 1.0}));
+        const auto run =
+            simulate(scene, {.t_end = 2.0 * apart / speed, .tolerance = loose, .stepper = stepper});
+        ASSERT_EQ(run.events().size(), 1U) << size;
+        EXPECT_NEAR(run.velocity(struck, run.size() - 1).x(), speed, 10.0 * loose * speed);
+      }
+    }
+  }
+}
+
+// A ball between smooth walls: its hops on the floor end after (1 + e)/(1 - e) of the fall, the walls strike
+// it for ever.
+TEST(ElasticBall, GoesOnBetweenWallsWhereItsHopsEnd) {
+  constexpr double width = 1e-3, speed = 4.0, height = 0.1, e = 0.5;
+  const double rests = std::sqrt(2.0 * height / g) * (1.0 + e) / (1.0 - e);
+  for (const double tolerance : {1e-4, 1e-6}) {
+    for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+      Scene<2> scene;
+      scene.add(UniformGravity<2>{{0.0, -g}});
+      const auto ball =
+          scene.add_particle({.mass = 1.0, .position = {0.5 * width, height}, .velocity = {speed, 0.0}});
+      const auto floor = scene.add(unilateral(OnCurve{ball, Plane<2>{}}, {.restitution = e}));
+      for (const double side : {0.0, 1.0}) {
+        const Plane<2> wall{{side * width, 0.0}, {1.0 - 2.0 * side, 0.0}};
+        scene.add(unilateral(OnCurve{ball, wall}, {.restitution = 1.0}));
+      }
+      const auto run = simulate(scene, {.t_end = 1.5 * rests, .tolerance = tolerance, .stepper = stepper});
+      EXPECT_NEAR(std::abs(run.velocity(ball, run.size() - 1).x()), speed, 100.0 * tolerance * speed);
+      for (const EventRecord& it : run.events()) {
+        if (it.kind != EventKind::rested) continue;
+        EXPECT_EQ(it.source, static_cast<std::size_t>(floor.index));
+        EXPECT_NEAR(it.time, rests, 100.0 * tolerance);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::impacts_test
