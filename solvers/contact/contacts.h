@@ -136,7 +136,8 @@ class Contacts {
     double time, since, uncertain;
   };
   [[nodiscard]] bool hops_end(const Contact& contact) const;
-  [[nodiscard]] bool next_hop_ends(const Contact& contact, double t) const;
+  void drop_uncoupled(const Coupling& coupling, std::size_t own, std::vector<std::size_t>& touched,
+                      std::span<const double> q) const;
   [[nodiscard]] std::vector<Limit> limits_of_impacts(const Change& change, const Instant& at);
   static void come_to_rest(Contact& contact, double t, Change& change);
   void rest(const Coupling& coupling, const std::vector<std::size_t>& touching,

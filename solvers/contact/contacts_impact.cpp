@@ -95,11 +95,18 @@ bool Contacts::hops_end(const Contact& contact) const {
          std::abs(psi_[contact.row]) * contact.impacts.left() <= error_of_gap(contact);
 }
 
-/// Whether the next hop of one that is on its way has none left: it is lower by e^2. (A wall beside a floor
-/// that comes to rest goes on being struck.)
-bool Contacts::next_hop_ends(const Contact& contact, double t) const {
-  const double e = contact.restitution, way = std::abs(psi_[contact.row]) * (t - contact.impacts.last());
-  return e < 1.0 && e * e * way <= error_of_gap(contact);
+/// Of contacts, all but the first `own` ones, keeps those that an impulse at these reaches: beside a floor on
+/// which hops end, a wall across it goes on being struck.
+void Contacts::drop_uncoupled(const Coupling& coupling, std::size_t own, std::vector<std::size_t>& touched,
+                              std::span<const double> q) const {
+  Coupling::Places all;
+  for (std::size_t k = 0; k < touched.size(); ++k) all.push_back(static_cast<Index>(k));
+  const Eigen::MatrixXd S = coupled(coupling, all, q);
+  std::vector<std::size_t> kept(touched.begin(), touched.begin() + static_cast<std::ptrdiff_t>(own));
+  for (std::size_t k = own; k < touched.size(); ++k)
+    if (S.col(static_cast<Index>(k)).head(static_cast<Index>(own)).cwiseAbs().maxCoeff() > 0.0)
+      kept.push_back(touched[k]);
+  touched = std::move(kept);
 }
 
 /// Notes the impacts; the islands where they accumulate, and when they end there: where all that was struck
@@ -235,14 +242,18 @@ Change Contacts::resolve(const Instant& at, const std::vector<std::size_t>& trig
   if (U.minCoeff() < 0.0) {
     solve_impact(*coupling, touched, at, U, change);
     if (const auto limits = limits_of_impacts(change, at); !limits.empty()) {
+      const std::size_t own = touched.size();
       for (std::size_t i = 0; i < contacts_.size(); ++i) {
-        const Contact& c = contacts_[i];
-        const auto limit = std::ranges::find(limits, c.island, &Limit::island);
-        const bool struck = limit != limits.end() && c.impacts.last() >= limit->since;
-        if (struck && next_hop_ends(c, at.t) && !among(touched, i)) touched.push_back(i);
+        const auto limit = std::ranges::find(limits, contacts_[i].island, &Limit::island);
+        if (limit != limits.end() && contacts_[i].impacts.last() >= limit->since && !among(touched, i))
+          touched.push_back(i);
       }
       const Instant struck{at.t, at.q, change.v};
       coupling.emplace(only(touched), numbers(touched), struck);
+      if (touched.size() > own) {
+        drop_uncoupled(*coupling, own, touched, at.q);
+        coupling.emplace(only(touched), numbers(touched), struck);
+      }
       U.conservativeResize(static_cast<Index>(touched.size()));
       rest(*coupling, touched, limits, U, change);
     }
