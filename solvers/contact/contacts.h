@@ -70,8 +70,8 @@ class Contacts {
   /// speed. (That error over the time in which forces hardly change is what is known of it, see Accuracy.) 0
   /// of others: their own size.
   [[nodiscard]] double unit(std::size_t contact) const;
-  /// Notes which open contacts have separated where a step ends, or a change. Throws StepFailure, naming it,
-  /// if one has been penetrated unnoticed.
+  /// Notes which open contacts have separated where a step ends, or a change, and which closed ones are
+  /// pressed. Throws StepFailure, naming it, if one has been penetrated unnoticed.
   void require_open(const FlatSample& now);
 
   /// That no surface approaches what rests on it openly, after a change. Throws StepFailure, naming it: of

@@ -12,6 +12,7 @@
 #include <iterator>
 #include <optional>
 #include <set>
+#include <utility>
 
 /// Contacts at an instant at which they change: impacts, and what is closed after them.
 namespace dalembert {
@@ -95,17 +96,23 @@ bool Contacts::hops_end(const Contact& contact) const {
          std::abs(psi_[contact.row]) * contact.impacts.left() <= error_of_gap(contact);
 }
 
-/// Of contacts, all but the first `own` ones, keeps those that an impulse at these reaches: beside a floor on
-/// which hops end, a wall across it goes on being struck.
+/// Of contacts keeps the first `own` ones and those that an impulse at these reaches, through others or not:
+/// beside a floor on which hops end, a wall across it goes on being struck.
 void Contacts::drop_uncoupled(const Coupling& coupling, std::size_t own, std::vector<std::size_t>& touched,
                               std::span<const double> q) const {
   Coupling::Places all;
   for (std::size_t k = 0; k < touched.size(); ++k) all.push_back(static_cast<Index>(k));
   const Eigen::MatrixXd S = coupled(coupling, all, q);
-  std::vector<std::size_t> kept(touched.begin(), touched.begin() + static_cast<std::ptrdiff_t>(own));
-  for (std::size_t k = own; k < touched.size(); ++k)
-    if (S.col(static_cast<Index>(k)).head(static_cast<Index>(own)).cwiseAbs().maxCoeff() > 0.0)
-      kept.push_back(touched[k]);
+  std::vector<char> reached(touched.size(), 0);
+  std::fill_n(reached.begin(), own, char{1});
+  for (bool more = true; std::exchange(more, false);)
+    for (const Index k : all)
+      for (const Index j : all)
+        if (reached[static_cast<std::size_t>(j)] && !reached[static_cast<std::size_t>(k)] && S(k, j) != 0.0)
+          reached[static_cast<std::size_t>(k)] = more = true;
+  std::vector<std::size_t> kept;
+  for (std::size_t k = 0; k < touched.size(); ++k)
+    if (reached[k]) kept.push_back(touched[k]);
   touched = std::move(kept);
 }
 

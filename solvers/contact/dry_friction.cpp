@@ -174,7 +174,7 @@ double DryFriction::switching(std::size_t function, const FlatSample& now) const
   if (watched == speed && r.mode == Mode::slides && r.pace == Pace::straight)
     return 4.0 * r.still * r.still - (u - u.dot(r.direction) * r.direction).squaredNorm();
   if (watched == speed) return 2.0 * (slow ? r.slow : no_slip(r)) - u.norm();
-  return r.rows == 1 || slow ? u.dot(r.direction) + no_slip(r) : u.norm() - r.slow;
+  return r.ends_along_direction() ? u.dot(r.direction) + no_slip(r) : u.norm() - r.slow;
 }
 
 double DryFriction::unit(std::size_t function) const {
@@ -184,8 +184,8 @@ double DryFriction::unit(std::size_t function) const {
 
 double DryFriction::margin(std::size_t function) const {
   const Rough& r = all_[function / kinds];
-  const bool ends = r.mode == Mode::slides && (r.rows == 1 || r.pace != Pace::fast);
-  return ends && static_cast<Watched>(function % kinds) == mode ? no_slip(r) : 0.0;
+  const bool ends = r.mode == Mode::slides && static_cast<Watched>(function % kinds) == mode;
+  return ends && r.ends_along_direction() ? no_slip(r) : 0.0;
 }
 
 /// Starts to slide from rest, whatever small slip is left.

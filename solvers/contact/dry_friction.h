@@ -97,6 +97,8 @@ class DryFriction {
     std::optional<double> let_go{};         // when it began to slide, its bound reached
     bool at_rest = false, reached = false;  // when what happens now began: no slip; |sigma| at its bound
 
+    /// Of what slides, whether its slip along its direction falls to 0 where it ends; else its size falls.
+    [[nodiscard]] bool ends_along_direction() const { return rows == 1 || pace != Pace::fast; }
     [[nodiscard]] bool is_fast_in_space() const {
       return mode == Mode::slides && rows == 2 && pace == Pace::fast;
     }
