@@ -1,10 +1,8 @@
 #include "dalembert/bench/bicycle_in_time.h"
 
+#include <dalembert/core/linear/dense.h>
 #include <dalembert/dalembert.h>
 #include <dalembert/models/whipple_bicycle.h>
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 #include <string>
 
@@ -32,13 +30,13 @@ Lateral run(double rate, Stepper stepper) {
 
 /// The sum of the modes of the published equations, from upright with a lean rate of 1.
 Lateral linear() {
-  const Eigen::EigenSolver<Eigen::Matrix4d> modes(models::WhippleBicycle{.speed = speed}.published());
-  const Eigen::Vector4cd amplitudes =
-      modes.eigenvectors().partialPivLu().solve(Eigen::Vector4cd(0.0, 0.0, 1.0, 0.0));
+  const auto [values, modes] = dense::complex_eigen(models::WhippleBicycle{.speed = speed}.published());
+  const Eigen::VectorXcd amplitudes = dense::solve(modes, Eigen::Vector4cd(0.0, 0.0, 1.0, 0.0));
   Lateral all(51, 2);
   for (Eigen::Index i = 0; i < all.rows(); ++i) {
-    const Eigen::Vector4cd grown = (modes.eigenvalues() * (0.1 * static_cast<double>(i))).array().exp();
-    all.row(i) = (modes.eigenvectors() * amplitudes.cwiseProduct(grown)).real().head<2>().transpose();
+    const Eigen::VectorXcd grown = (values * (0.1 * static_cast<double>(i))).array().exp();
+    for (Eigen::Index k = 0; k < 2; ++k)
+      all(i, k) = modes.row(k).transpose().cwiseProduct(amplitudes).cwiseProduct(grown).sum().real();
   }
   return all;
 }

@@ -19,22 +19,46 @@ namespace dalembert {
 
 namespace detail {
 
-/// What both constraints need of a disk with its centre at c.
+/// What both constraints need of a disk with its centre at c, on a plane of unit normal N.
 template <class V>
 struct LeaningDisk {
-  V n;        ///< axis
-  V up;       ///< u / |u|
-  V heading;  ///< N x n made a unit vector: horizontal, along the rim at the contact
-  typename V::Scalar sine;
+  using S = typename V::Scalar;
+  V arm_a, arm_b;  ///< from the centre
+  V n;             ///< axis
+  V up;            ///< u / |u|
+  V heading;       ///< N x n made a unit vector: horizontal, along the rim at the contact
+  V across;        ///< heading x N
+  S sine;
 
-  LeaningDisk(const Vec<3>& N, const V& c, const V& a, const V& b) : n((a - c).cross(b - c).normalized()) {
-    const V normal = N.cast<typename V::Scalar>();
-    const V u = normal - normal.dot(n) * n;
-    sine = u.norm();
-    up = u / sine;
-    heading = normal.cross(n) / sine;
-  }
+  LeaningDisk(const Vec<3>& N, const V& c, const V& a, const V& b);
+  /// DiskRolling's equation.
+  [[nodiscard]] VecOf<S, 2> slip(double radius, const V& v, const V& v_a, const V& v_b) const;
 };
+
+template <class V>
+LeaningDisk<V>::LeaningDisk(const Vec<3>& N, const V& c, const V& a, const V& b)
+    : arm_a(a - c), arm_b(b - c), n(arm_a.cross(arm_b).normalized()) {
+  const V normal = N.cast<S>();
+  const V u = normal - normal.dot(n) * n;
+  sine = u.norm();
+  up = u / sine;
+  heading = normal.cross(n) / sine;
+  across = heading.cross(normal);
+}
+
+template <class V>
+VecOf<typename V::Scalar, 2> LeaningDisk<V>::slip(double radius, const V& v, const V& v_a,
+                                                  const V& v_b) const {
+  const V d = -radius * up;
+  const S share_a = d.dot(arm_a) / arm_a.squaredNorm(), share_b = d.dot(arm_b) / arm_b.squaredNorm();
+  const V v_contact = v + share_a * (v_a - v) + share_b * (v_b - v);
+  return VecOf<S, 2>(heading.dot(v_contact), across.dot(v_contact));
+}
+
+/// Compiled in the library for the scalars of 9 inputs: three points in space, of whatever body.
+extern template struct LeaningDisk<VecOf<Dual<9>, 3>>;
+extern template struct LeaningDisk<VecOf<Jet<9>, 3>>;
+extern template struct LeaningDisk<VecOf<HyperDual<9>, 3>>;
 
 [[nodiscard]] inline std::string disk_fault(double radius, const Plane<3>& plane) {
   const std::string fault = positive_fault(radius, "radius");
@@ -107,14 +131,7 @@ struct DiskRolling {
   auto operator()(const auto& c, const auto& r_a, const auto& r_b, const auto& v, const auto& v_a,
                   const auto& v_b) const {
     using V = std::remove_cvref_t<decltype(c)>;
-    using S = typename V::Scalar;
-    const Vec<3> N = plane.normal.normalized();
-    const detail::LeaningDisk<V> disk(N, c, r_a, r_b);
-    const V arm_a = r_a - c, arm_b = r_b - c, d = -radius * disk.up;
-    const S share_a = d.dot(arm_a) / arm_a.squaredNorm(), share_b = d.dot(arm_b) / arm_b.squaredNorm();
-    const V v_contact = v + share_a * (v_a - v) + share_b * (v_b - v);
-    const V across = disk.heading.cross(N.cast<S>());
-    return VecOf<S, 2>(disk.heading.dot(v_contact), across.dot(v_contact));
+    return detail::LeaningDisk<V>(plane.normal.normalized(), c, r_a, r_b).slip(radius, v, v_a, v_b);
   }
   [[nodiscard]] std::string fault() const { return detail::disk_fault(radius, plane); }
 };

@@ -1,11 +1,10 @@
 #include "dalembert/models/steady_motions.h"
 
+#include <dalembert/core/linear/dense.h>
 #include <dalembert/dalembert.h>
 #include <dalembert/models/heavy_top.h>
 #include <dalembert/models/spinning_disk.h>
 #include <dalembert/models/whipple_bicycle.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -67,7 +66,7 @@ void bicycle(std::vector<Compared>& all) {
     const WhippleBicycle p{.speed = static_cast<double>(v)};
     const Scene<3> scene = p.scene().scene;
     const auto modes = normal_modes(scene, steady(scene));
-    const Eigen::Vector4cd published = p.published().eigenvalues();
+    const Eigen::VectorXcd published = dense::eigenvalues(p.published());
     const std::string where = "at " + std::to_string(v) + " m/s";
     for (const std::complex<double>& s : published) {
       if (s.imag() < 0.0) continue;

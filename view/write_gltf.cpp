@@ -55,6 +55,22 @@ void require_finite(const MovingSolid& its) {
   require("the size", its.size);
 }
 
+/// From the direction of a to that of b, by twice the turn to the one halfway; opposite ones have no such,
+/// and any half turn across.
+Eigen::Quaterniond least_rotation(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const Eigen::Vector3d from = a.normalized(), both = from + b.normalized();
+  Eigen::Quaterniond turn;
+  if (both.norm() > 1e-8) {  // else its direction is lost in round-off
+    const Eigen::Vector3d halfway = both.normalized();
+    turn.w() = from.dot(halfway);
+    turn.vec() = from.cross(halfway);
+  } else {
+    turn.w() = 0.0;
+    turn.vec() = from.unitOrthogonal();
+  }
+  return turn;
+}
+
 class AnimatedRun {
  public:
   explicit AnimatedRun(const Record& run) : run_(run), layout_(*run.layout), samples_(told_apart(run)) {
@@ -63,7 +79,7 @@ class AnimatedRun {
       result.times.push_back(static_cast<float>(run.times[i] - run.times.front()));
     result.name = layout_.scene;
     if (layout_.dimension == 3)  // z upwards to y upwards
-      result.turned = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitY());
+      result.turned = least_rotation(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitY());
     result.solids = {unit_sphere(), unit_cylinder(), unit_cube(), unit_sphere()};
     result.colours = {{0.0F, 0.17F, 0.45F}, {0.35F, 0.35F, 0.38F}, {0.85F, 0.45F, 0.1F}, {0.1F, 0.1F, 0.1F}};
     extent_ = extent();
@@ -195,7 +211,7 @@ class AnimatedRun {
   static void turn_to(std::vector<Eigen::Quaterniond>& turned, const Eigen::Vector3d& axis,
                       const Eigen::Vector3d& direction) {
     const Eigen::Quaterniond last = turned.empty() ? Eigen::Quaterniond::Identity() : turned.back();
-    keep(turned, (Eigen::Quaterniond::FromTwoVectors(last * axis, direction) * last).normalized());
+    keep(turned, (least_rotation(last * axis, direction) * last).normalized());
   }
   /// Of the two quaternions of a rotation the one closer to the last: players interpolate between them.
   static void keep(std::vector<Eigen::Quaterniond>& turned, Eigen::Quaterniond next) {

@@ -1,6 +1,6 @@
 #include "dalembert/core/analysis/second_order.h"
 
-#include <dalembert/core/linear/dense.h>
+#include <dalembert/core/linear/products.h>
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +71,7 @@ MatrixXd left_free(const Curvature& its, const MatrixXd& basis) {
   std::vector<Index> free;
   for (Index i = 0; i < values.size(); ++i)
     if (std::abs(values[i]) <= none) free.push_back(i);
-  return dense::product(basis, MatrixXd(vectors(Eigen::all, free)));
+  return basis * MatrixXd(vectors(Eigen::all, free));
 }
 
 }  // namespace

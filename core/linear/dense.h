@@ -10,12 +10,16 @@ namespace dalembert {
 /// once.
 namespace dense {
 
-/// A B; A^T B; and N^T X N, X restricted to the span of the columns of N.
+/// A B; A^T B; A B^T; and N^T X N, X restricted to the span of the columns of N. As operators: products.h.
 [[nodiscard]] Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 [[nodiscard]] Eigen::VectorXd product(const Eigen::MatrixXd& A, const Eigen::VectorXd& x);
 [[nodiscard]] Eigen::MatrixXcd product(const Eigen::MatrixXd& A, const Eigen::MatrixXcd& B);
 [[nodiscard]] Eigen::VectorXcd product(const Eigen::MatrixXd& A, const Eigen::VectorXcd& x);
+[[nodiscard]] Eigen::MatrixXcd product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B);
+[[nodiscard]] Eigen::VectorXcd product(const Eigen::MatrixXcd& A, const Eigen::VectorXcd& x);
 [[nodiscard]] Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+[[nodiscard]] Eigen::VectorXd transposed_product(const Eigen::MatrixXd& A, const Eigen::VectorXd& x);
+[[nodiscard]] Eigen::MatrixXd product_transposed(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 [[nodiscard]] Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B);
 [[nodiscard]] Eigen::MatrixXd restricted(const Eigen::MatrixXd& N, const Eigen::MatrixXd& X);
 /// A, then B, below each other.

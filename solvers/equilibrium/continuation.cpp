@@ -1,6 +1,6 @@
 #include "dalembert/solvers/equilibrium/continuation.h"
 
-#include <dalembert/core/linear/dense.h>
+#include <dalembert/core/linear/products.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/tangent_modes.h>
@@ -170,10 +170,10 @@ bool EquilibriumCorrector::is_singular(const Node& node, Index shape) const {
   Eigen::VectorXd left(n);
   for (Index i = 0; i < n; ++i)
     left[i] = node.stiffness.duals(i, shape) / here.system->masses()[static_cast<std::size_t>(i)];
-  const Eigen::MatrixXd rows = A.block(n, 0, m, n).transpose(),
-                        across = -A.topLeftCorner(n, n).transpose() * left;
+  const Eigen::MatrixXd K = A.topLeftCorner(n, n), rows = A.block(n, 0, m, n).transpose();
+  const Eigen::VectorXd across = -(K.transpose() * left);
   const Eigen::MatrixXd balance = dense::least_squares(rows, across, rank_threshold);
-  const double terms = (A.topLeftCorner(n, n).cwiseAbs().transpose() * left.cwiseAbs()).norm();
+  const double terms = (dense::sizes(K).transpose() * Eigen::VectorXd(left.cwiseAbs())).norm();
   return (rows * balance - across).norm() <= std::sqrt(rank_threshold) * terms;
 }
 
@@ -189,7 +189,7 @@ std::vector<Corrector::Orbit> EquilibriumCorrector::orbits(const Node& node,
   std::vector<Eigen::MatrixXd> all;
   Eigen::MatrixXd coupled = Eigen::MatrixXd::Zero(d, d);
   for (Index k = 0; k < fixing.cols(); ++k) {
-    all.emplace_back(left.transpose() * (symmetries_->motion(fixing.col(k)).A * right));
+    all.emplace_back(left.transpose() * Eigen::MatrixXd(symmetries_->motion(fixing.col(k)).A * right));
     coupled = coupled.cwiseMax(all.back().cwiseAbs()).eval();
   }
   const double least = std::sqrt(rank_threshold) * (d > 0 ? coupled.maxCoeff() : 0.0);

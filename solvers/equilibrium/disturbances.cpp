@@ -1,6 +1,6 @@
 #include "dalembert/solvers/equilibrium/disturbances.h"
 
-#include <dalembert/core/linear/dense.h>
+#include <dalembert/core/linear/products.h>
 #include <dalembert/solvers/equilibrium/equilibrium.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
 

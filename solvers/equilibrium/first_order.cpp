@@ -1,7 +1,7 @@
 #include "dalembert/solvers/equilibrium/first_order.h"
 
 #include <dalembert/core/analysis/rank.h>
-#include <dalembert/core/linear/dense.h>
+#include <dalembert/core/linear/products.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,18 +33,16 @@ FirstOrder first_order(const Tangent& t) {
     lifted = dense::least_squares(t.B, t.E, rank_threshold);
     const Matrix inverse =
         dense::least_squares(t.B, Matrix::Identity(t.B.rows(), t.B.rows()), rank_threshold);
-    lifted_terms = dense::product(dense::sizes(inverse), t.E_terms);
+    lifted_terms = dense::sizes(inverse) * t.E_terms;
     P = orthogonal_complement(t.B.transpose());
   }
   const Index c = P.cols();
   const Matrix p = dense::sizes(P), C = dense::sizes(t.C);
   Matrix matrix(d + c, d + c), size(d + c, d + c);
   matrix.topRows(d) = dense::beside(-lifted, P);
-  matrix.bottomRows(c) = dense::beside(dense::transposed_product(P, dense::product(t.C, lifted) - t.K),
-                                       -dense::restricted(P, t.C));
+  matrix.bottomRows(c) = dense::beside(P.transpose() * (t.C * lifted - t.K), -dense::restricted(P, t.C));
   size.topRows(d) = dense::beside(lifted_terms, p);
-  size.bottomRows(c) = dense::beside(
-      dense::transposed_product(p, dense::product(C, lifted_terms) + t.K_terms), dense::restricted(p, C));
+  size.bottomRows(c) = dense::beside(p.transpose() * (C * lifted_terms + t.K_terms), dense::restricted(p, C));
   return {std::move(P), std::move(matrix), std::move(size), t.known()};
 }
 
@@ -59,8 +57,8 @@ Matrix kernel(const Matrix& A, const Matrix& size, double known) {
 /// A basis of the states at rest: P^T K z = 0, E z = 0.
 Matrix states_at_rest(const Tangent& t, const FirstOrder& f) {
   const Matrix p = dense::sizes(f.P);
-  return kernel(dense::below(dense::transposed_product(f.P, t.K), t.E),
-                dense::below(dense::transposed_product(p, t.K_terms), t.E_terms), t.known());
+  return kernel(dense::below(f.P.transpose() * t.K, t.E), dense::below(p.transpose() * t.K_terms, t.E_terms),
+                t.known());
 }
 
 /// Orthonormal bases of the span of independent columns, and of its complement.
@@ -82,19 +80,19 @@ struct Deflated {
           kernel(dense::restricted(rest, f.matrix), dense::restricted(dense::sizes(rest), f.size), f.known);
       last = std::min(further.cols(), last);
       const auto [steady, others] = split(further.leftCols(last));
-      zeros = dense::beside(zeros, dense::product(rest, steady));
-      rest = dense::product(rest, others);
+      zeros = dense::beside(zeros, rest * steady);
+      rest = rest * others;
     }
   }
   /// The eigenvector of A from one, y, of rest^T A rest.
   [[nodiscard]] Eigen::VectorXcd lift(const Matrix& A, std::complex<double> s,
                                       const Eigen::VectorXcd& y) const {
-    const Eigen::VectorXcd x = dense::product(rest, y);
+    const Eigen::VectorXcd x = rest * y;
     if (zeros.cols() == 0) return x;
     Eigen::MatrixXcd T = -dense::restricted(zeros, A).cast<std::complex<double>>();
     T.diagonal().array() += s;
-    const Matrix across = dense::transposed_product(zeros, A);
-    return x + dense::product(zeros, dense::solve(T, dense::product(across, x)));
+    const Matrix across = zeros.transpose() * A;
+    return x + zeros * dense::solve(T, across * x);
   }
 };
 
@@ -112,11 +110,11 @@ Forms forms(const Tangent& t, const Matrix& beta, std::span<const Solution* cons
     Z.col(k) = some[static_cast<std::size_t>(k)]->z;
     s[k] = some[static_cast<std::size_t>(k)]->s;
   }
-  const Eigen::MatrixXcd rates = Z * s.asDiagonal(), turned = dense::product(beta, Z),
+  const Eigen::MatrixXcd rates = Z * s.asDiagonal(), turned = beta * Z,
                          cross = dense::adjoint_product(rates, turned);
-  Forms f{dense::adjoint_product(rates, rates) + dense::adjoint_product(Z, dense::product(t.K, Z)),
-          cross + cross.adjoint() - dense::adjoint_product(Z, dense::product(t.C, turned)), Vector(m)};
-  const Matrix sizes = Z.cwiseAbs(), terms = dense::product(dense::sizes(t.K), sizes);
+  Forms f{dense::adjoint_product(rates, rates) + dense::adjoint_product(Z, t.K * Z),
+          cross + cross.adjoint() - dense::adjoint_product(Z, t.C * turned), Vector(m)};
+  const Matrix sizes = Z.cwiseAbs(), terms = dense::sizes(t.K) * sizes;
   for (Index k = 0; k < m; ++k) f.size[k] = rates.col(k).squaredNorm() + sizes.col(k).dot(terms.col(k));
   return f;
 }
@@ -156,9 +154,8 @@ bool conserves(const Tangent& t, const Matrix& beta) {
   };
   const double b = beta.norm();
   return same(beta, -beta.transpose(), b) && same(t.C, -t.C.transpose(), t.C.norm()) &&
-         same(dense::product(beta, t.C), dense::product(t.C, beta), b * t.C.norm()) &&
-         same(dense::product(beta, t.K), dense::product(t.K, beta),
-              b * (t.K.norm() + t.zero() / rank_threshold));
+         same(beta * t.C, t.C * beta, b * t.C.norm()) &&
+         same(beta * t.K, t.K * beta, b * (t.K.norm() + t.zero() / rank_threshold));
 }
 
 /// Energies H + c J in other frames in which the state rests as well: conserved, too. A top that sleeps has H
@@ -229,9 +226,9 @@ Solutions solutions(Tangent t) {
         change * (std::isfinite(condition) ? condition : std::numeric_limits<double>::infinity());
     const Eigen::VectorXcd z = deflated.lift(f.matrix, s, right.col(k)).head(t.K.rows());
     const double kinetic = std::norm(s) * z.squaredNorm();
-    const double energy = kinetic + z.dot(dense::product(t.K, z)).real();
+    const double energy = kinetic + z.dot(t.K * z).real();
     const Vector size = z.cwiseAbs();
-    const double unknown = t.known() * size.dot(dense::product(t.K_terms, size));
+    const double unknown = t.known() * size.dot(t.K_terms * size);
     found.others.push_back({s, error, z, energy > rank_threshold * kinetic + unknown});
   }
   steady_by_momenta(t, found.others);

@@ -1,7 +1,7 @@
 #include "dalembert/solvers/equilibrium/floquet.h"
 
 #include <dalembert/core/autodiff/branches.h>
-#include <dalembert/core/linear/dense.h>
+#include <dalembert/core/linear/products.h>
 #include <dalembert/solvers/equilibrium/disturbances.h>
 #include <dalembert/solvers/integrator.h>
 #include <dalembert/solvers/linear/rows.h>

@@ -1,6 +1,6 @@
 #include "dalembert/solvers/equilibrium/lowest_modes.h"
 
-#include <dalembert/core/linear/dense.h>
+#include <dalembert/core/linear/products.h>
 #include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
@@ -295,7 +295,7 @@ std::size_t zeros_of(const System& system, const LinearTerms& terms, std::span<c
   Eigen::MatrixXd U(n, count);
   for (Index k = 0; k < count; ++k)
     U.col(k) = free[static_cast<std::size_t>(k)].x.cwiseQuotient(root_of_masses(system));
-  const Eigen::MatrixXd Z = U.transpose() * (C * U);
+  const Eigen::MatrixXd Z = U.transpose() * Eigen::MatrixXd(C * U);
   if (count == 0) return 0;
   const Eigen::VectorXcd slow = dense::eigenvalues(Z);
   return free.size() + static_cast<std::size_t>(std::ranges::count_if(

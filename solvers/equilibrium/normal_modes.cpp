@@ -1,6 +1,6 @@
 #include "dalembert/solvers/equilibrium/normal_modes.h"
 
-#include <dalembert/core/linear/dense.h>
+#include <dalembert/core/linear/products.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/equilibrium_solver.h>

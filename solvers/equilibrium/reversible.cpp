@@ -2,7 +2,7 @@
 
 #include <dalembert/core/analysis/rank.h>
 #include <dalembert/core/errors.h>
-#include <dalembert/core/linear/dense.h>
+#include <dalembert/core/linear/products.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/disturbances.h>
 #include <dalembert/solvers/equilibrium/reversor.h>

@@ -2,7 +2,7 @@
 
 #include <dalembert/core/analysis/rank.h>
 #include <dalembert/core/errors.h>
-#include <dalembert/core/linear/dense.h>
+#include <dalembert/core/linear/products.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/bodies.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
@@ -30,13 +30,13 @@ using Eigen::VectorXd;
 /// plane z is 0.
 struct Piece {
   BodyParticles particles;
-  Eigen::Matrix3Xd r, v;
+  MatrixXd r, v;
   VectorXd share;  ///< of the mass
   double mass;
 
   Piece(BodyParticles all, const Start& start, int dimension) : particles(std::move(all)), mass(0.0) {
     const auto count = static_cast<Index>(particles.size());
-    r = v = Eigen::Matrix3Xd::Zero(3, count);
+    r = v = MatrixXd::Zero(3, count);
     share.resize(count);
     for (Index i = 0; i < count; ++i) {
       const Layout::Particle& p = *particles[static_cast<std::size_t>(i)];
@@ -55,20 +55,20 @@ struct Piece {
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
     Vector3d momentum = Vector3d::Zero();
     for (Index i = 0; i < r.cols(); ++i) {
-      const Vector3d arm = r.col(i) - centre();
+      const Vector3d arm = r.col(i) - centre(), speed = v.col(i);
       inertia += share[i] * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
-      momentum += share[i] * arm.cross(v.col(i));
+      momentum += share[i] * arm.cross(speed);
     }
     return dense::least_squares(inertia, momentum, rank_threshold);
   }
   /// Weights of sum 1 with sum_j W_ij r_j = M r_i.
   [[nodiscard]] MatrixXd mirrored(const Eigen::Matrix3d& M) const {
-    const auto with_unit = [&](const Eigen::Matrix3Xd& x) {
+    const auto with_unit = [&](const MatrixXd& x) {
       MatrixXd augmented(4, x.cols());
       augmented << x, VectorXd::Constant(x.cols(), r.norm() > 0.0 ? r.norm() : 1.0).transpose();
       return augmented;
     };
-    return dense::least_squares(with_unit(r), with_unit(M * r), rank_threshold).transpose();
+    return dense::least_squares(with_unit(r), with_unit(MatrixXd(M) * r), rank_threshold).transpose();
   }
 };
 
@@ -113,10 +113,10 @@ class Part {
     }
     const MatrixXd free = across(speed);
     if (free.cols() == 0) return all;
-    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+    MatrixXd moments = MatrixXd::Zero(3, 3);
     for (const Piece& piece : pieces_)
-      moments += piece.mass * piece.r * piece.share.asDiagonal() * piece.r.transpose();
-    const MatrixXd axes = free * dense::symmetric_eigen(free.transpose() * moments * free).vectors;
+      moments += piece.mass * (MatrixXd(piece.r * piece.share.asDiagonal()) * piece.r.transpose());
+    const MatrixXd axes = free * dense::symmetric_eigen(dense::restricted(free, moments)).vectors;
     for (Index k = 0; k < axes.cols(); ++k) all.emplace_back(axes.col(k));
     return all;
   }

@@ -1,5 +1,6 @@
 #include "dalembert/solvers/equilibrium/singular_points.h"
 
+#include <dalembert/core/linear/products.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/base/root.h>
 

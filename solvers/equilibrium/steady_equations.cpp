@@ -1,6 +1,6 @@
 #include "dalembert/solvers/equilibrium/steady_equations.h"
 
-#include <dalembert/core/linear/dense.h>
+#include <dalembert/core/linear/products.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/linear_terms.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
@@ -110,14 +110,14 @@ void SteadyEquations::weigh() {
   const MatrixXd still =
       orthogonal_complement(orthogonal_complement(units_.head(n_).cwiseInverse().asDiagonal() * still_));
   auto by_q = J_.topLeftCorner(n_ + m_, n_);
-  by_q -= (by_q * still * still.transpose()).eval();
+  by_q -= MatrixXd(by_q) * still * still.transpose();
   for (Index i = n_; i < J_.rows(); ++i)
     if (const double length = J_.row(i).norm(); length > 0.0) divide_row(i, length);
 }
 
 double SteadyEquations::unbalanced(const MatrixXd& free) const {
   const MatrixXd across = free * free.transpose();
-  const VectorXd left = (across * r_).cwiseAbs(), terms = across.cwiseAbs() * r_terms_;
+  const VectorXd left = (across * r_).cwiseAbs(), terms = dense::sizes(across) * r_terms_;
   double most = 0.0;
   for (Index i = 0; i < left.size(); ++i)
     if (left[i] > 0.0) most = std::max(most, left[i] / terms[i]);
@@ -128,8 +128,8 @@ double SteadyEquations::unbalanced(const MatrixXd& free) const {
 VectorXd SteadyEquations::least_change(const MatrixXd& free) const {
   MatrixXd left = free.transpose() * J_;
   VectorXd right = free.transpose() * r_;
-  const VectorXd least =
-      roundings_of_a_sum * epsilon * free.cwiseAbs().transpose() * J_terms_.rowwise().maxCoeff();
+  const VectorXd least = roundings_of_a_sum * epsilon *
+                         (dense::sizes(free).transpose() * VectorXd(J_terms_.rowwise().maxCoeff()));
   for (Index i = 0; i < left.rows(); ++i) {
     const double length = left.row(i).norm(), unit = length > least[i] ? 1.0 / length : 0.0;
     left.row(i) *= unit;

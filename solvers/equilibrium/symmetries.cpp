@@ -1,7 +1,7 @@
 #include "dalembert/solvers/equilibrium/symmetries.h"
 
 #include <dalembert/core/analysis/rank.h>
-#include <dalembert/core/linear/dense.h>
+#include <dalembert/core/linear/products.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/bodies.h>
 #include <dalembert/solvers/equilibrium/linear_terms.h>
@@ -48,7 +48,7 @@ MatrixXd spin_weights(const MatrixXd& arms, const Vector3d& axis) {
   MatrixXd augmented(4, arms.cols());
   augmented << arms, VectorXd::Constant(arms.cols(), arms.norm()).transpose();
   MatrixXd turned = MatrixXd::Zero(4, arms.cols());
-  turned.topRows(3) = dense::product(cross_matrix(axis), arms);
+  turned.topRows(3) = MatrixXd(cross_matrix(axis)) * arms;
   return dense::least_squares(augmented, turned, rank_threshold).transpose();
 }
 
@@ -68,7 +68,7 @@ Symmetries::Symmetries(const Problem& problem, const Start& start, double time)
     const MatrixXd own = conditions(problem, start, time, sample);
     all = dense::below(all, own);
   }
-  const auto [values, vectors] = dense::symmetric_eigen(dense::transposed_product(all, all));
+  const auto [values, vectors] = dense::symmetric_eigen(all.transpose() * all);
   // Squares: what is 1e-9 of its terms, of a condition whose terms are 1.
   Index zero = 0;
   while (zero < count && values[zero] < rank_threshold * rank_threshold * static_cast<double>(all.rows()))
@@ -143,7 +143,7 @@ void Symmetries::add_bodies(const System& system, const Start& start) {
       share[i] = body[static_cast<std::size_t>(i)]->mass;
     }
     share /= share.sum();
-    const Vector3d centre = dense::product(arms, share);
+    const Vector3d centre = arms * share;
     arms.colwise() -= centre;
     const auto add = [&](const MatrixXd& S, const Eigen::Matrix3d& R) {
       Triplets entries;
@@ -206,11 +206,10 @@ MatrixXd Symmetries::conditions(const Problem& problem, const Start& start, doub
     const Generator& g = generators_[static_cast<std::size_t>(k)];
     const VectorXd X = to.cwiseProduct(g.at(at)), u = to.cwiseProduct(g.A * speed),
                    w = to.cwiseProduct(g.A * acceleration);
-    value.col(k) << product(W_h, X), product(E, X) + product(W_v, u),
-        -product(N_t, VectorXd(product(metric.K, X) + product(metric.C, u) + w));
+    value.col(k) << W_h * X, E * X + W_v * u, -(N_t * VectorXd(metric.K * X + metric.C * u + w));
     const VectorXd X1 = X.cwiseAbs(), u1 = u.cwiseAbs(), w1 = w.cwiseAbs();
-    size.col(k) << product(W_h_size, X1), product(E_size, X1) + product(W_v_size, u1),
-        product(N_t_size, VectorXd(product(K_size, X1) + product(C_size, u1) + w1));
+    size.col(k) << W_h_size * X1, E_size * X1 + W_v_size * u1,
+        N_t_size * VectorXd(K_size * X1 + C_size * u1 + w1);
   }
   // What no force acts on has accelerations of round-off: they tell nothing.
   const Scales& scales = start.scales;
@@ -224,7 +223,7 @@ MatrixXd Symmetries::conditions(const Problem& problem, const Start& start, doub
 }
 
 UniformMotion Symmetries::motion(const VectorXd& y) const {
-  const VectorXd c = dense::product(basis_, y);
+  const VectorXd c = basis_ * y;
   const Index n = generators_.empty() ? 0 : generators_.front().b.size();
   UniformMotion sum{{n, n}, VectorXd::Zero(n)};
   for (Index k = 0; k < c.size(); ++k) {
@@ -264,8 +263,8 @@ MatrixXd Symmetries::commuting(const VectorXd& q, const RotatingFrame& frame) co
 }
 
 MatrixXd Symmetries::displacements(const VectorXd& q, const MatrixXd& some) const {
-  const MatrixXd coefficients = dense::product(basis_, some);
-  MatrixXd X = dense::product(fields(q), some);
+  const MatrixXd coefficients = basis_ * some;
+  MatrixXd X = fields(q) * some;
   // Differences are known to round-off of the positions.
   const double rounding = roundings_of_a_sum * epsilon / rank_threshold;
   VectorXd sizes = VectorXd::Zero(q.size());
@@ -289,13 +288,13 @@ MatrixXd Symmetries::fields(const VectorXd& q) const {
   for (Index k = 0; k < all.cols(); ++k) {
     all.col(k) = generators_[static_cast<std::size_t>(k)].at(q);
   }
-  return dense::product(all, basis_);
+  return all * basis_;
 }
 
 MatrixXd Symmetries::images(const VectorXd& x) const {
   MatrixXd all(x.size(), static_cast<Index>(generators_.size()));
   for (Index k = 0; k < all.cols(); ++k) all.col(k) = generators_[static_cast<std::size_t>(k)].A * x;
-  return dense::product(all, basis_);
+  return all * basis_;
 }
 
 MatrixXd Symmetries::turning() const {

@@ -2,7 +2,7 @@
 
 #include <dalembert/core/analysis/islands.h>
 #include <dalembert/core/analysis/rank.h>
-#include <dalembert/core/linear/dense.h>
+#include <dalembert/core/linear/products.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,12 +38,12 @@ Tangent tangent(const System& system, const LinearTerms& terms, std::vector<std:
             metric.root.asDiagonal() * N,
             dense::restricted(N, metric.K),
             onto(N, metric.C, known),  // 0 where a guide takes up Coriolis forces
-            dense::product(metric.W.bottomRows(velocity_rows), N),
-            dense::product(E, N),
+            MatrixXd(metric.W.bottomRows(velocity_rows)) * N,
+            E * N,
             skew.isZero(0.0),
             metric.root.cwiseInverse().asDiagonal() * N,
             summed(N, metric.K),
-            dense::product(dense::sizes(E), dense::sizes(N)),
+            dense::sizes(E) * dense::sizes(N),
             terms.roundings};
   // What a force sums by itself is not seen: nothing is known better than to round-off of the largest.
   t.K_terms = t.K_terms.cwiseMax(largest_of(t.K)).eval();
@@ -57,19 +57,19 @@ Tangent tangent(const System& system, const LinearTerms& terms, std::vector<std:
 
 void rest_along(const MatrixXd& symmetric, Tangent& t) {
   if (symmetric.cols() == 0) return;
-  const MatrixXd own = dense::transposed_product(t.metric, symmetric(t.coordinates, Eigen::all));
+  const MatrixXd own = t.metric.transpose() * MatrixXd(symmetric(t.coordinates, Eigen::all));
   if (own.isZero(0.0)) return;
   const MatrixXd still = orthogonal_complement(orthogonal_complement(own));
-  const MatrixXd onto_still = dense::product(still, MatrixXd(still.transpose()));
-  t.K -= dense::product(t.K, onto_still);
-  t.E -= dense::product(t.E, onto_still);
-  if (t.symmetric) t.K -= dense::product(onto_still, t.K);
+  const MatrixXd onto_still = still * still.transpose();
+  t.K -= t.K * onto_still;
+  t.E -= t.E * onto_still;
+  if (t.symmetric) t.K -= onto_still * t.K;
 }
 
 void fix(const UniformMotion& motion, Tangent& t) {
   for (const auto& A : motion.fixing) {
     const MatrixXd whole = A, own = whole(t.coordinates, t.coordinates);
-    MatrixXd beta = dense::transposed_product(t.metric, dense::product(own, t.shapes));
+    MatrixXd beta = t.metric.transpose() * (own * t.shapes);
     if (!beta.isZero(rank_threshold)) t.fixing.push_back(std::move(beta));
   }
 }

@@ -1,7 +1,7 @@
 #include "dalembert/solvers/equilibrium/tangent_modes.h"
 
 #include <dalembert/core/analysis/rank.h>
-#include <dalembert/core/linear/dense.h>
+#include <dalembert/core/linear/products.h>
 #include <dalembert/solvers/equilibrium/first_order.h>
 #include <dalembert/solvers/equilibrium/symmetries.h>
 #include <dalembert/solvers/equilibrium/tangent.h>
@@ -23,7 +23,7 @@ using Vector = Eigen::VectorXd;
 
 /// The shape in the system's coordinates, its largest number 1.
 Mode mode(std::complex<double> eigenvalue, const Eigen::VectorXcd& z, const Tangent& t) {
-  Eigen::VectorXcd u = dense::product(t.shapes, z);
+  Eigen::VectorXcd u = t.shapes * z;
   Index largest = 0;
   (void)u.cwiseAbs().maxCoeff(&largest);
   u /= std::complex<double>(u[largest]);
@@ -136,8 +136,8 @@ Decomposed decomposed(const Tangent& t) {
 
 /// Its part along the columns of P.
 Tangent restricted(Tangent t, const Matrix& P) {
-  t.shapes = dense::product(t.shapes, P);
-  t.metric = dense::product(t.metric, P);
+  t.shapes = t.shapes * P;
+  t.metric = t.metric * P;
   t.K = dense::restricted(P, t.K);
   t.K_terms = dense::restricted(dense::sizes(P), t.K_terms);
   return t;
@@ -158,11 +158,11 @@ Matrix symmetric_within(const System& system, const Tangent& t, const Matrix& sy
     root[i] = std::sqrt(system.masses()[t.coordinates[static_cast<std::size_t>(i)]]);
   const Matrix own = orthonormal_span(root.asDiagonal() * symmetric(t.coordinates, Eigen::all));
   if (own.cols() == 0) return none;
-  const Matrix N = root.cwiseInverse().asDiagonal() * t.metric, z = dense::transposed_product(N, own),
-               admitted = dense::product(z, dense::kernel_within(own - dense::product(N, z), known));
+  const Matrix N = root.cwiseInverse().asDiagonal() * t.metric, z = N.transpose() * own,
+               admitted = z * dense::kernel_within(own - N * z, known);
   if (admitted.cols() == 0) return none;
-  const double left = dense::product(t.K, admitted).cwiseAbs().maxCoeff(),
-               terms = dense::product(t.K_terms, dense::sizes(admitted)).maxCoeff();
+  const double left = (t.K * admitted).cwiseAbs().maxCoeff(),
+               terms = (t.K_terms * dense::sizes(admitted)).maxCoeff();
   return left <= known * terms ? admitted : none;
 }
 
@@ -190,8 +190,8 @@ void append_real(const System& system, const Tangent& whole, const Matrix& symme
     if (K.values[k].imag() != 0.0) continue;
     sum.negative = sum.negative != (value < 0.0);
     RealShape one{value, Vector::Zero(all), Vector::Zero(all)};
-    one.shape(t.coordinates) = dense::product(t.shapes, Vector(K.right.col(k).real()));
-    one.dual(t.coordinates) = dense::product(t.metric, Vector(K.left.row(k).transpose().real()));
+    one.shape(t.coordinates) = t.shapes * Vector(K.right.col(k).real());
+    one.dual(t.coordinates) = t.metric * Vector(K.left.row(k).transpose().real());
     found.push_back(std::move(one));
   }
 }
