@@ -2,6 +2,7 @@
 
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/contact/contacts_at_start.h>
 #include <dalembert/solvers/erk/erk.h>
 #include <dalembert/solvers/manifold/first_scales.h>
 #include <dalembert/solvers/run/comparisons.h>

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds and tests.  Usage: tests/run.sh [release|debug|threads|clang]
+# Installs what is missing, builds and tests.  Usage: tests/run.sh [release|debug|threads]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=${1:-release}
@@ -7,7 +7,7 @@ preset=${1:-release}
 compiler=()
 [[ $preset == release ]] || compiler=(clang libclang-rt-dev)
 browser=() # for the pages of runs
-[[ $preset == threads || $preset == clang ]] || browser=(chromium nodejs)
+[[ $preset == threads ]] || browser=(chromium nodejs)
 cmake/dependencies.sh "${compiler[@]}" "${browser[@]}"
 cmake --preset "$preset"
 cmake --build --preset "$preset"

@@ -1,26 +1,21 @@
 #pragma once
 
 #include <dalembert/core/scene/system.h>
-#include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/hidden.h>
-#include <dalembert/solvers/contact/accumulation.h>
 #include <dalembert/solvers/contact/change.h>
-#include <dalembert/solvers/manifold/scales.h>
+#include <dalembert/solvers/contact/contact_accelerations.h>
+#include <dalembert/solvers/contact/contact_accuracy.h>
+#include <dalembert/solvers/contact/contact_forces.h>
+#include <dalembert/solvers/contact/coupling.h>
 
 #include <Eigen/Core>
 
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace DALEMBERT_HIDDEN dalembert {
-
-class Coupling;
-
-/// The distance to the nearest one-sided constraint that is open; infinite if there is none.
-[[nodiscard]] double nearest_contact(const System& stated, const Instant& at);
 
 /// The one-sided constraints of a run: which of them are closed, and what happens where that changes.
 ///
@@ -34,10 +29,7 @@ class Coupling;
 /// is closed: it is in force, like any other constraint, until its force changes its sign.
 ///
 /// Each island of the scene has its own (1) and (2); only those where something happens are looked at.
-///
-/// Where impacts of a contact accumulate (see Accumulation) and at the speed of the last one it would move by
-/// less than the tolerance in the time left, all contacts of its island with an impact since its previous one
-/// come to rest: that changes no later position.
+/// Where impacts accumulate, contacts come to rest, see ContactImpacts.
 class Contacts {
  public:
   /// At a state that satisfies all other constraints, of a run of this duration; whether there is friction
@@ -55,9 +47,12 @@ class Contacts {
   /// there. Throws StepFailure where a gap is negative, naming the contact.
   [[nodiscard]] std::vector<std::size_t> replace_system(std::shared_ptr<const System> stated,
                                                         const Instant& at);
-  void adopt(const Scales& scales) { scales_ = scales; }
+  void adopt(const Scales& scales) { known_.scales = scales; }
   /// The state watched goes on from another one, which may be at the same time.
-  void forget_instant() { gaps_at_ = forces_at_ = never; }
+  void forget_instant() {
+    gaps_.forget();
+    forces_.forget();
+  }
 
   /// A switching function for each, which falls through 0 where the contact opens or closes: the force of a
   /// closed one; the gap of an open one over the time since it opened, which has no root there. (One that has
@@ -99,95 +94,38 @@ class Contacts {
   [[nodiscard]] std::vector<std::size_t> open() const;
 
  private:
-  struct Contact {
-    std::size_t number;  // in the layout
-    std::size_t row;
-    double sign, restitution;
-    std::size_t island;
-    bool closed = false;
-    bool moved = false;  // closed, but a change of the scene has set its surface moving
-    double closed_at = 0.0;
-    bool bears = false;                 // by the forces of (2) that were found when it was last closed
-    double accepted = 0.0;              // the acceleration away from it, by which it was closed all the same
-    std::optional<double> opened_at{};  // if it was closed before
-    double rate_at_opening = 0.0;
-    double gap_at_opening = 0.0;  // at most 0: round-off of times and positions
-    bool parted = true;           // since then the gap has exceeded the error of a step
-    Accumulation impacts{};
-    double gradient = 1.0;  // its length at the start
-  };
-
-  [[nodiscard]] Contact& contact_of(const EventRecord& event);
   [[nodiscard]] static bool among(const std::vector<std::size_t>& all, std::size_t contact);
-  void find_gaps(const Instant& at) const;
-  void find_forces(const FlatSample& now) const;
-  [[nodiscard]] double no_pull(const Contact& contact, const FlatSample& now) const;
+  void find_gaps(const Instant& at) const { gaps_.find(*stated_, at); }
+  [[nodiscard]] double no_pull(const ContactState& contact, const FlatSample& now) const;
   [[nodiscard]] std::vector<std::size_t> touching(const Instant& at,
                                                   const std::vector<std::size_t>& triggered) const;
-  [[nodiscard]] std::vector<std::size_t> numbers(const std::vector<std::size_t>& chosen) const;
-  [[nodiscard]] std::shared_ptr<const System> only(const std::vector<std::size_t>& in_force) const;
-  [[nodiscard]] Eigen::MatrixXd coupled(const Coupling& coupling, const std::vector<Eigen::Index>& places,
-                                        std::span<const double> q) const;
-  void solve_impact(const Coupling& coupling, const std::vector<std::size_t>& touching, const Instant& at,
-                    Eigen::VectorXd& U, Change& change) const;
-  /// Of the impacts that accumulate in an island; the time since which each contact of them was struck.
-  struct Limit {
-    std::size_t island;
-    double time, since, uncertain;
-  };
-  [[nodiscard]] bool hops_end(const Contact& contact) const;
-  void drop_uncoupled(const Coupling& coupling, std::size_t own, std::vector<std::size_t>& touched,
-                      std::span<const double> q) const;
-  [[nodiscard]] std::vector<Limit> limits_of_impacts(const Change& change, const Instant& at);
-  static void come_to_rest(Contact& contact, double t, Change& change);
-  void rest(const Coupling& coupling, const std::vector<std::size_t>& touching,
-            const std::vector<Limit>& limits, Eigen::VectorXd& U, Change& change);
+  [[nodiscard]] std::unique_ptr<Coupling> couple(const std::vector<std::size_t>& contacts,
+                                                 const Instant& at) const;
+  [[nodiscard]] Eigen::VectorXd rates_of(const std::vector<std::size_t>& touched,
+                                         const std::vector<std::size_t>& triggered, const Coupling& coupling,
+                                         const Instant& at, bool known_roughly, Change& change);
+  void strike(std::vector<std::size_t>& touched, std::unique_ptr<Coupling>& coupling, const Instant& at,
+              Eigen::VectorXd& U, Change& change);
   std::vector<Eigen::Index> open_separating(const std::vector<std::size_t>& touched, const Eigen::VectorXd& U,
                                             double t, Change& change);
-  [[nodiscard]] double still(const Contact& contact) const;
-  [[nodiscard]] double own_acceleration(const Contact& contact) const;
-  [[nodiscard]] Eigen::VectorXd accelerations_without(Coupling& coupling,
-                                                      const std::vector<std::size_t>& touched,
-                                                      const Instant& at);
   void update_rates(const Instant& at);
   [[nodiscard]] bool add_slow(const Instant& at, std::vector<std::size_t>& touched) const;
-  void close(const std::vector<std::size_t>& touched, const std::vector<std::size_t>& triggered,
-             const std::vector<Eigen::Index>& resting, double t, Change& change);
-  void accelerate(Coupling& coupling, const std::vector<std::size_t>& touched,
-                  const std::vector<std::size_t>& triggered, const std::vector<Eigen::Index>& resting,
-                  const Instant& at, Change& change);
-  /// What (2) gives for a contact, and the unit and the largest without forces of what it is coupled with.
-  struct Pair {
-    double acceleration = 0.0, force = 0.0, unit = 0.0, largest = 0.0;
-  };
-  void open_or_close(std::size_t contact, const std::vector<std::size_t>& triggered, const Pair& pair,
-                     double t, Change& change);
-  [[noreturn]] void refuse(const std::vector<std::size_t>& contacts, double t, const char* what) const;
-  [[nodiscard]] double error_of_gap(const Contact& contact) const;
-  [[nodiscard]] double no_gap(const Contact& contact, std::span<const double> q) const;
-  [[nodiscard]] double no_rate(const Contact& contact) const;
-  [[nodiscard]] double no_acceleration(const Contact& contact, std::span<const double> q) const;
-  void open(Contact& contact, double t, double rate) const;
-  static void close(Contact& contact, double t);
+  void close_resting(const std::vector<std::size_t>& touched, const std::vector<std::size_t>& triggered,
+                     const std::vector<Eigen::Index>& resting, double t, Change& change);
+  void open_or_close(std::size_t contact, const std::vector<std::size_t>& triggered,
+                     const PairOfContact& pair, double t, Change& change);
   void open(std::size_t contact, double t, double rate, Change& change);
   void rebuild_system();
 
   std::shared_ptr<const System> stated_, system_;
-  Scales scales_;
-  Accuracy accuracy_;
-  double duration_;  // of the run
+  ContactAccuracy known_;
   bool friction_;
-  std::vector<Contact> contacts_;
+  std::vector<ContactState> contacts_;
   std::vector<std::size_t> touching_at_start_;
   bool started_ = false;
   bool everywhere_ = true;  // all islands are to be looked at: at the start, and after a change of the scene
-  mutable std::vector<double> g_, psi_;  // of all rows,
-  static constexpr double never = std::numeric_limits<double>::quiet_NaN();
-  mutable double gaps_at_ = never;      // at this time of the state watched
-  mutable System::Evaluation e_;        // likewise, at `forces_at_`,
-  mutable std::vector<double> forces_;  // with forces on coordinates,
-  mutable std::vector<double> noise_;   // and what springs do not know of them
-  mutable double forces_at_ = never;
+  mutable Gaps gaps_;       // of the state watched,
+  mutable ContactForces forces_;  // and its forces
 };
 
 }  // namespace dalembert

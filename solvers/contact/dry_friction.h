@@ -2,14 +2,15 @@
 
 #include <dalembert/core/results/event.h>
 #include <dalembert/core/scene/system.h>
-#include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/contact/change.h>
-#include <dalembert/solvers/contact/slip_coupling.h>
+#include <dalembert/solvers/contact/friction_equations.h>
+#include <dalembert/solvers/contact/rough_state.h>
 #include <dalembert/solvers/manifold/scales.h>
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -72,88 +73,26 @@ class DryFriction {
   /// until a slip that counts as slow, or as none, no longer does, or until a fast one in space has turned
   /// back.
   enum Watched : std::size_t { mode, sign, speed, kinds };
-  enum class Mode { absent, sticks, slides };
-  /// Of two slip velocities that slide: slow ones leave rest, or come to it in the direction that they have;
-  /// so do fast ones that are seen to rest straight ahead.
-  enum class Pace { fast, straight, leaves, ends };
-  /// The slowness by which it has that direction at any speed.
-  static constexpr double only_direction = 1e100;
-  struct Rough {
-    std::size_t number, row, rows;  // in the layout
-    std::size_t pressed_by = 0, pressing_row = 0;
-    double mu = 0.0, mu_static = 0.0;
-    bool one_sided = false;
-    double sign = 1.0;                         // of lambda
-    double of_lengths = 1.0, of_angles = 0.0;  // what its slip gains by a rate of each
-    // Speeds: the scene's, but of a brake's rotor that of its rim; that may be none, and below which a slip
-    // in space is slow.
-    double speed = 0.0, still = 0.0, slow = 0.0;
-    Mode mode = Mode::absent;
-    bool shared = false;  // sticks, but others constrain the same slip
-    Eigen::VectorXd direction{};
-    Pace pace = Pace::fast;
-    double blur = 0.0;                      // the slowness of `Sliding`
-    std::optional<double> turns{};          // of a slip that ends: how much later it rests for its turning
-    std::optional<double> let_go{};         // when it began to slide, its bound reached
-    bool at_rest = false, reached = false;  // when what happens now began: no slip; |sigma| at its bound
-
-    /// Of what slides, whether its slip along its direction falls to 0 where it ends; else its size falls.
-    [[nodiscard]] bool ends_along_direction() const { return rows == 1 || pace != Pace::fast; }
-    [[nodiscard]] bool is_fast_in_space() const {
-      return mode == Mode::slides && rows == 2 && pace == Pace::fast;
-    }
-  };
-  /// Accelerations and multipliers with the modes as they are.
-  struct Motion {
-    std::vector<double> a, lambda;
-    std::vector<char> unique{};
-  };
+  using Mode = RoughState::Mode;
+  using Pace = RoughState::Pace;
   /// The switching function that has fallen, if one has.
   using Triggered = std::optional<std::size_t>;
 
-  void read_law(Rough& rough) const;
-  void measure_gradients(const Instant& at);
-  [[nodiscard]] double round_off_of(const Rough& rough, std::span<const double> a,
-                                    std::span<const double> lambda) const;
-  [[nodiscard]] static Eigen::VectorXd part(const Rough& rough, std::span<const double> all);
+  [[nodiscard]] const System& stated() const { return *equations_.stated(); }
   void find_slip(const Instant& at) const;
-  [[nodiscard]] Eigen::VectorXd slip(const Rough& rough) const;
-  [[nodiscard]] double no_slip(const Rough& rough) const;
-  [[nodiscard]] bool own(const Rough& rough, Triggered triggered, Watched watched) const;
-  [[nodiscard]] static bool shared(const Rough& rough, std::span<const char> unique);
-
-  [[nodiscard]] std::shared_ptr<const System> with_modes(const std::vector<std::size_t>& open) const;
-  [[nodiscard]] Motion solve(const std::vector<std::size_t>& open, const Instant& at) const;
-  [[nodiscard]] std::vector<double> velocities_at_rest(const std::vector<std::size_t>& open,
-                                                       const Instant& at) const;
-  [[nodiscard]] Eigen::VectorXd slip_acceleration(const Rough& rough, const Instant& at,
-                                                  const Motion& motion) const;
-  [[nodiscard]] SlipCoupling released(const std::vector<std::size_t>& which,
-                                      const std::vector<std::size_t>& open, const Instant& at) const;
-
-  void set_mode_by_slip(Rough& rough, const std::vector<std::size_t>& open, double t, Triggered triggered);
-  static void end_straight(Rough& rough, const Eigen::VectorXd& direction);
+  [[nodiscard]] Eigen::VectorXd slip(const RoughState& rough) const;
+  [[nodiscard]] bool own(const RoughState& rough, Triggered triggered, Watched watched) const;
+  void set_mode_by_slip(RoughState& rough, const std::vector<std::size_t>& open, double t,
+                        Triggered triggered);
   [[nodiscard]] double same_time(double t) const;
   void rest_with_others(const std::vector<std::size_t>& open, const Instant& at);
-  void find_way_to_rest(Rough& rough, const std::vector<std::size_t>& open, const Instant& at);
-  void start_sliding(Rough& rough, const Eigen::VectorXd& direction) const;
-  void decide(const std::vector<std::size_t>& open, const Instant& at);
-  [[nodiscard]] bool sticks(const Instant& at, const Motion& motion) const;
-  void mark_shared(const Motion& motion);
-  [[nodiscard]] double excess(const Rough& rough, const Motion& motion) const;
-  void require_own_share(const Rough& rough, double t) const;
-  [[nodiscard]] bool amend(const Instant& at, const Motion& motion);
-  [[nodiscard]] bool release_most_exceeded(const Motion& motion, double t);
-  [[nodiscard]] bool turn(Rough& rough, const Instant& at, const Motion& motion) const;
-  [[nodiscard]] std::vector<double> modes() const;
-  [[nodiscard]] std::vector<EventRecord> changes(const std::vector<Rough>& before, double t,
+  void find_way_to_rest(RoughState& rough, const std::vector<std::size_t>& open, const Instant& at);
+  [[nodiscard]] std::vector<EventRecord> changes(const std::vector<RoughState>& before, double t,
                                                  Triggered triggered) const;
-  [[noreturn]] void refuse(double t) const;
 
-  std::shared_ptr<const System> stated_, system_;
-  Scales scales_;
-  double tolerance_;
-  std::vector<Rough> all_;
+  FrictionEquations equations_;
+  std::shared_ptr<const System> system_;
+  std::vector<RoughState> all_;
   mutable std::vector<double> g_, u_;
   mutable double slip_at_ = std::numeric_limits<double>::quiet_NaN();
 };

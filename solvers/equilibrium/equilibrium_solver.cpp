@@ -5,6 +5,7 @@
 #include <dalembert/solvers/equilibrium/equilibrium.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
 #include <dalembert/solvers/equilibrium/static_length.h>
+#include <dalembert/solvers/manifold/manifold.h>
 
 #include <algorithm>
 #include <array>
@@ -20,8 +21,6 @@ namespace {
 /// In lengths of the scene: leaps over nothing.
 constexpr double short_step = 0.1;
 constexpr int most_corrections = 60, most_halvings = 6, most_descents = 2000;
-/// A sum of forces counts as 0 below this many roundings of the largest of them.
-constexpr double roundings = 100.0;
 
 RotatingFrame frame_of(double time, const UniformRotation<3>& turning, const Layout& layout) {
   const int dimension = layout.dimension;
@@ -52,6 +51,23 @@ void require_bilateral(const System& system) {
                      " does not always hold; state it as a bilateral one, and check the sign of its force");
 }
 
+/// Of the guess, put onto the constraints. No run begins here; its time is that of a radian of rotation,
+/// where there is one.
+Start consistent_guess(const Problem& problem, std::span<const double> guess, double time,
+                       const RotatingFrame& frame, double length, double longest) {
+  const System& system = problem.system();
+  require_frictionless(system);
+  require_bilateral(system);
+  std::vector<double> v(guess.size());
+  frame.velocity(guess, v);
+  const double duration = frame.rotates() ? 1.0 / frame.rate() : longest;
+  Options options{.t_end = time + duration, .t_start = time, .assemble = true, .length = length};
+  Start start = consistent_start(problem, guess, v, options);
+  if (!start.scales.length_from_path) return start;
+  options.length = static_length(system, frame, time, start.q, start.lambda);
+  return consistent_start(problem, guess, v, options);
+}
+
 }  // namespace
 
 EquilibriumSolver::EquilibriumSolver(const Problem& problem, std::span<const double> guess, double time,
@@ -60,185 +76,21 @@ EquilibriumSolver::EquilibriumSolver(const Problem& problem, std::span<const dou
 
 EquilibriumSolver::EquilibriumSolver(const Problem& problem, std::span<const double> guess, double time,
                                      RotatingFrame frame, double length, double longest)
-    : problem_(problem), system_(&problem_.system()), time_(time), frame_(std::move(frame)) {
-  const System& system = *system_;
-  require_frictionless(system);
-  require_bilateral(system);
-  std::vector<double> v(guess.size());
-  frame_.velocity(guess, v);
-  // No run begins here; the time of a radian of rotation, where there is one.
-  const double duration = frame_.rotates() ? 1.0 / frame_.rate() : longest;
-  Options options{.t_end = time + duration, .t_start = time, .assemble = true, .length = length};
-  Start start = consistent_start(problem, guess, v, options);
-  if (start.scales.length_from_path) {
-    options.length = static_length(system, frame_, time, start.q, start.lambda);
-    start = consistent_start(problem, guess, v, options);
-  }
-  q0_ = std::move(start.q);
-  lambda0_ = std::move(start.lambda);
-  rows_ = std::move(start.rows);
-  scales_ = std::move(start.scales);
-  State begin{q0_, std::vector<double>(q0_.size()), lambda0_};
-  frame_.velocity(begin.q, begin.v);
-  measure_stiffness(begin);
-}
-
-EquilibriumSolver::State EquilibriumSolver::start() const {
-  State s{q0_, std::vector<double>(q0_.size()), lambda0_};
-  evaluate(s);
-  return s;
-}
-
-void EquilibriumSolver::share_by_particle(std::span<double> numbers) const {
-  const Layout& layout = *system_->layout();
-  for (const auto& particle : layout.particles) {
-    const auto own = numbers.subspan(static_cast<std::size_t>(particle.coordinate),
-                                     static_cast<std::size_t>(layout.dimension));
-    std::ranges::fill(own, *std::ranges::max_element(own));
-  }
-}
-
-/// A particle is in balance if the residual is small against the forces on itself: a stiff spring elsewhere
-/// holds nothing up.
-void EquilibriumSolver::evaluate(State& s) const {
-  frame_.velocity(s.q, s.v);
-  auto e = system_->evaluation();
-  system_->evaluate({time_, s.q, s.v}, e);
-  std::vector<double> inertia(s.q.size()), acting(s.q.size());
-  frame_.apply(s.v, inertia);
-  s.force = std::move(e.force);
-  for (std::size_t i = 0; i < s.q.size(); ++i) {
-    inertia[i] *= system_->masses()[i];
-    acting[i] = std::max({acting[i], std::abs(s.force[i]), std::abs(inertia[i])});
-    s.force[i] -= inertia[i];
-  }
-  for (std::size_t r = 0; r < system_->rows(); ++r) {
-    for (const std::size_t k : system_->row(r)) {
-      const double Z = s.lambda[r] * e.w[k];
-      double& here = acting[system_->w_columns()[k]];
-      here = std::max(here, std::abs(Z));
-      s.force[system_->w_columns()[k]] += Z;
-    }
-  }
-  share_by_particle(acting);
-  s.scale = largest(acting);
-  s.round_off = true;
-  for (std::size_t i = 0; i < least_force_.size(); ++i) {
-    const double rounding = roundings * epsilon * acting[i] + residual_tolerance * least_force_[i];
-    s.round_off = s.round_off && std::abs(s.force[i]) <= rounding;
-    acting[i] = std::max(acting[i], least_force_[i]);
-  }
-  s.acting = std::move(acting);
-  s.distance = std::move(e.g);
-  s.relative_violation = 0.0;
-  const auto lengths = scales_.lengths();
-  for (std::size_t r = 0; r < s.distance.size(); ++r) {
-    s.distance[r] = system_->law(r).residual(s.distance[r], s.lambda[r]);
-    s.relative_violation =
-        std::max(s.relative_violation,
-                 std::abs(s.distance[r]) / gradient_length(*system_, e.w, lengths, r) / scales_.length);
-  }
-  s.relative_residual = relative_residual(s, s.acting);
-  s.round_off = s.round_off && s.relative_violation <= roundings * epsilon;
-}
-
-double EquilibriumSolver::relative_residual(const State& s, std::span<const double> acting) {
-  double unbalanced = 0.0;
-  for (std::size_t i = 0; i < s.force.size(); ++i)
-    if (s.force[i] != 0.0) unbalanced = std::max(unbalanced, std::abs(s.force[i]) / acting[i]);
-  return std::max(unbalanced, s.relative_violation);
-}
-
-ActiveRows EquilibriumSolver::rows_at(const State& s) const {
-  if (rows_.size() == system_->rows()) return rows_;
-  auto e = system_->evaluation();
-  system_->evaluate({time_, s.q, s.v}, e);
-  return independent_rows(*system_, e.w);
-}
-
-/// From the stiffness at a state: shifts s that keep K + s M regular along free motions, where K is 0
-/// (Newton's iteration then converges by this part of K a step), and for each coordinate the force that
-/// counts as 0, made by a displacement of round-off.
-///
-/// Each coordinate has a shift of its own, a part of the stiffest spring on it, and where there is none of
-/// the stiffest in its uncoupled part of the scene: what is soft is not held by what is stiff elsewhere. The
-/// least that K's round-off allows serves where something is soft beside something stiff on the same
-/// coordinate. Round-off of the rates of a motion that no force bends is neither a stiffness nor a force. Far
-/// from the origin the forces have more round-off, and the shift is larger in proportion: what moves freely
-/// is displaced by as little.
-void EquilibriumSolver::measure_stiffness(const State& s) {
-  const LinearTerms terms = linear_terms(*system_, frame_, {time_, s.q, s.v}, s.lambda);
-  const Islands& parts = problem_.islands();
-  std::vector<double> own(s.q.size(), 0.0), of_part(parts.count, 0.0),
-      rate(parts.count, roundings_of_a_sum * epsilon / scales_.time);
-  least_force_.assign(s.q.size(), 0.0);
-  for (std::size_t i = 0; i < s.q.size(); ++i) {
-    double& fastest = rate[parts.of_coordinate[i]];
-    fastest = std::max(fastest, std::abs(s.v[i]) / scales_.unit(i));
-  }
-  for (const auto& entry : terms.stiffness) {
-    const auto row = entry.row(), column = entry.col();
-    const double size = std::abs(entry.value()) / system_->masses()[row];
-    own[row] = std::max(own[row], size);
-    of_part[parts.of_coordinate[row]] = std::max(of_part[parts.of_coordinate[row]], size);
-    const double rounding = 10.0 * epsilon * std::max(scales_.unit(column), std::abs(s.q[column]));
-    least_force_[row] += std::abs(entry.value()) * rounding / residual_tolerance;
-  }
-  const double none = std::min(1.0, constants.no_stiffness * scales_.roundings_of_difference(s.q));
-  stiffest_.resize(s.q.size());
-  shift_.resize(s.q.size());
-  least_shift_.resize(s.q.size());
-  for (std::size_t i = 0; i < s.q.size(); ++i) {
-    const double part = of_part[parts.of_coordinate[i]], turning = rate[parts.of_coordinate[i]];
-    const double rounding = 10.0 * epsilon * turning * turning;
-    least_force_[i] += rounding * system_->masses()[i] * scales_.unit(i) / residual_tolerance;
-    stiffest_[i] = part > rounding ? part : 1.0 / (scales_.time * scales_.time);
-    shift_[i] = none * (own[i] > rounding ? own[i] : stiffest_[i]);
-    least_shift_[i] = roundings * epsilon / constants.no_stiffness * shift_[i];
-  }
-  share_along_rows(terms.w);
-}
-
-/// Forces of round-off spread along constraints: the torque of a wheel that nothing turns is the round-off of
-/// the force that its contact transmits.
-void EquilibriumSolver::share_along_rows(std::span<const double> w) {
-  const auto lengths = scales_.lengths();
-  const auto share = [&](std::size_t r) {
-    const double gradient = gradient_length(*system_, w, lengths, r);
-    double multiplier = 0.0;
-    if (gradient == 0.0) return false;
-    for (const std::size_t k : system_->row(r)) {  // the part of each force along the row
-      const std::size_t i = system_->w_columns()[k];
-      const double along = std::abs(w[k]) / lengths[i] / gradient;
-      multiplier = std::max(multiplier, along * least_force_[i] / lengths[i] / gradient);
-    }
-    bool grew = false;
-    for (const std::size_t k : system_->row(r)) {
-      double& here = least_force_[system_->w_columns()[k]];
-      grew = grew || std::abs(w[k]) * multiplier > here * (1.0 + epsilon);
-      here = std::max(here, std::abs(w[k]) * multiplier);
-    }
-    return grew;
-  };
-  for (bool grows = true; grows;) {
-    grows = false;
-    for (std::size_t r = 0; r < system_->rows(); ++r) grows |= share(r);
-    for (std::size_t r = system_->rows(); r-- > 0;) grows |= share(r);
-  }
+    : BalanceEquations(problem, time, frame, consistent_guess(problem, guess, time, frame, length, longest)) {
 }
 
 /// A step (dq, dlambda) of (K + s M) dq - W^T dlambda = R1, W dq + C dlambda = -R2.
 bool EquilibriumSolver::step(const State& s, std::span<const double> shift, std::vector<double>& x) const {
   const ActiveRows rows = rows_at(s);
-  const LinearTerms terms = linear_terms(*system_, frame_, {time_, s.q, s.v}, s.lambda);
-  TangentMatrix matrix(*system_, rows, terms, shift, tangent_);
+  const LinearTerms terms = linear_terms(system(), frame(), {time(), s.q, s.v}, s.lambda);
+  TangentMatrix matrix(system(), rows, terms, shift, tangent_);
   if (!matrix.regular()) return false;
   const std::size_t n = s.q.size();
   std::vector<double> y(n + rows.size());
   std::ranges::copy(s.force, y.begin());
   for (std::size_t a = 0; a < rows.holonomic; ++a) y[n + a] = -s.distance[rows.rows[a]];
   matrix.solve(y);
-  x.assign(n + system_->rows(), 0.0);
+  x.assign(n + system().rows(), 0.0);
   std::copy_n(y.begin(), n, x.begin());
   for (std::size_t a = 0; a < rows.size(); ++a) x[n + rows.rows[a]] = y[n + a];
   return std::ranges::all_of(x, [](double value) { return std::isfinite(value); });
@@ -247,7 +99,8 @@ bool EquilibriumSolver::step(const State& s, std::span<const double> shift, std:
 /// The largest part of a step, in units of the coordinates.
 double EquilibriumSolver::lengths_of(const std::vector<double>& x) const {
   double most = 0.0;
-  for (std::size_t i = 0; i < q0_.size(); ++i) most = std::max(most, std::abs(x[i]) / scales_.unit(i));
+  for (std::size_t i = 0; i < system().coordinates(); ++i)
+    most = std::max(most, std::abs(x[i]) / scales().unit(i));
   return most;
 }
 
@@ -336,13 +189,13 @@ void EquilibriumSolver::newton(State& s, std::span<const double> shift) const {
 /// anew there, and the least shift taken. So it is where the stiffness has fallen to 0 on the way, and what
 /// was round-off beside that of the guess no longer is.
 bool EquilibriumSolver::solve(State& s) const {
-  newton(s, shift_);
+  newton(s, shift());
   EquilibriumSolver here = *this;
   here.measure_stiffness(s);
   State closer = s;
   here.evaluate(closer);
   if (s.round_off && here.is_equilibrium(closer, residual_tolerance)) return true;
-  here.newton(closer, here.least_shift_);
+  here.newton(closer, here.least_shift());
   bool better = here.is_equilibrium(closer, residual_tolerance);
   evaluate(closer);
   better = better || (!s.round_off && is_equilibrium(closer, residual_tolerance));
@@ -354,14 +207,14 @@ bool EquilibriumSolver::solve(State& s) const {
 /// no stiffness that keeps it small.
 double EquilibriumSolver::correction(const State& s) const {
   std::vector<double> x;
-  if (s.relative_violation > residual_tolerance || !step(s, least_shift_, x))
+  if (s.relative_violation > residual_tolerance || !step(s, least_shift(), x))
     return std::numeric_limits<double>::infinity();
   double most = 0.0;
   for (std::size_t i = 0; i < s.q.size(); ++i) {
-    const double held = least_shift_[i] * system_->masses()[i] * std::abs(x[i]);
-    const double rounding = roundings * epsilon * s.acting[i];
+    const double held = least_shift()[i] * system().masses()[i] * std::abs(x[i]);
+    const double rounding = roundings_of_forces * epsilon * s.acting[i];
     if (held > 0.5 * std::abs(s.force[i]) + rounding) return std::numeric_limits<double>::infinity();
-    most = std::max(most, std::abs(x[i]) / scales_.unit(i));
+    most = std::max(most, std::abs(x[i]) / scales().unit(i));
   }
   return most;
 }
@@ -371,17 +224,17 @@ double EquilibriumSolver::correction(const State& s) const {
 bool EquilibriumSolver::is_round_off_of_its_terms(const State& s) const {
   constexpr std::size_t most_looked_at = 100;
   std::size_t looked_at = 0;
-  const Layout& layout = *system_->layout();
+  const Layout& layout = *system().layout();
   const auto small = [&](int coordinate, double mass, std::size_t width) {
     const auto first = static_cast<std::size_t>(coordinate);
     double unbalanced = 0.0, sum = 0.0;
     for (std::size_t i = first; i < first + width; ++i)
-      unbalanced = std::max(unbalanced, std::abs(s.force[i]) / (roundings * epsilon));
+      unbalanced = std::max(unbalanced, std::abs(s.force[i]) / (roundings_of_forces * epsilon));
     if (unbalanced <= s.acting[first]) return true;
     if (++looked_at > most_looked_at) return false;
     std::vector<double> one(width);
     for (std::size_t f = 0; f < layout.forces.size(); ++f) {
-      if (!layout.applied->on(f, {time_, s.q, s.v}, s.lambda, coordinate, mass, one)) return false;
+      if (!layout.applied->on(f, {time(), s.q, s.v}, s.lambda, coordinate, mass, one)) return false;
       sum += largest(one);
     }
     return unbalanced <= sum;
@@ -405,28 +258,28 @@ bool EquilibriumSolver::is_equilibrium(const State& s, double close) const {
 }
 
 bool EquilibriumSolver::project(State& s) const {
-  Manifold manifold(problem_, rows_at(s), scales_.lengths());
-  const double close = 1e-12 * scales_.length + scales_.rounding(s.q);
-  if (manifold.project_positions(time_, s.q, s.v, close).size >
-      equilibrium_tolerance * scales_.length + close)
+  Manifold manifold(problem(), rows_at(s), scales().lengths());
+  const double close = 1e-12 * scales().length + scales().rounding(s.q);
+  if (manifold.project_positions(time(), s.q, s.v, close).size >
+      equilibrium_tolerance * scales().length + close)
     return false;
-  frame_.velocity(s.q, s.v);
+  frame().velocity(s.q, s.v);
   std::vector<double> v(s.v), a(s.q.size());
-  if (!manifold.solve_motion(time_, s.q, v, a, s.lambda)) return false;
+  if (!manifold.solve_motion(time(), s.q, v, a, s.lambda)) return false;
   evaluate(s);
   return true;
 }
 
 void EquilibriumSolver::descend(State& s) const {
-  const double longest = constants.longest_descent * scales_.length;
+  const double longest = constants.longest_descent * scales().length;
   double part = 1e6 * constants.no_stiffness;  // of the stiffest, as the shift
   std::vector<double> x, shift(s.q.size());
   for (int i = 0; i < most_descents; ++i, part *= 4.0) {
-    std::ranges::transform(stiffest_, shift.begin(), [part](double k) { return part * k; });
+    std::ranges::transform(stiffest(), shift.begin(), [part](double k) { return part * k; });
     if (!step(s, shift, x)) continue;
     double length = 0.0;
     for (std::size_t k = 0; k < s.q.size(); ++k)
-      length = std::max(length, std::abs(x[k]) * scales_.length / scales_.unit(k));
+      length = std::max(length, std::abs(x[k]) * scales().length / scales().unit(k));
     if (!(power(s, x) > 0.0) || length > longest) continue;
     State next = s;
     for (std::size_t k = 0; k < s.q.size(); ++k) next.q[k] += x[k];
@@ -447,10 +300,10 @@ void EquilibriumSolver::descend(State& s) const {
 }
 
 void EquilibriumSolver::refuse(const State& s, const std::string& why) const {
-  const Layout& layout = *system_->layout();
+  const Layout& layout = *system().layout();
   std::size_t worst = 0;
   for (std::size_t i = 0; i < s.force.size(); ++i) {
-    if (std::abs(s.force[i]) / system_->masses()[i] > std::abs(s.force[worst]) / system_->masses()[worst])
+    if (std::abs(s.force[i]) / system().masses()[i] > std::abs(s.force[worst]) / system().masses()[worst])
       worst = i;
   }
   std::ostringstream what;
@@ -463,7 +316,7 @@ void EquilibriumSolver::refuse(const State& s, const std::string& why) const {
   };
   name(layout.particles, static_cast<std::size_t>(layout.dimension));
   name(layout.rotors, 1);
-  what << " would still be accelerated by " << std::abs(s.force[worst]) / system_->masses()[worst]
+  what << " would still be accelerated by " << std::abs(s.force[worst]) / system().masses()[worst]
        << " there. Start closer to an equilibrium, and hold what is free to fall or to run away";
   throw NoEquilibrium(what.str());
 }
@@ -474,19 +327,19 @@ bool EquilibriumSolver::has_other_multipliers(State& s) const {
   const std::vector<double> q = s.q;
   if (!project(s) || s.relative_residual > equilibrium_tolerance) return false;
   for (std::size_t i = 0; i < q.size(); ++i) {
-    if (std::abs(s.q[i] - q[i]) > equilibrium_tolerance * scales_.unit(i)) return false;
+    if (std::abs(s.q[i] - q[i]) > equilibrium_tolerance * scales().unit(i)) return false;
   }
   return true;
 }
 
 /// What to do about a row that moves.
 std::string EquilibriumSolver::remedy(std::size_t row) const {
-  if (!frame_.rotates() || system_->layout()->dimension == 2)
+  if (!frame().rotates() || system().layout()->dimension == 2)
     return "; give the turning of its drive as an option, or a scene whose constraints do not move";
   bool of_rotor = false;
-  for (const std::size_t k : system_->row(row))
+  for (const std::size_t k : system().row(row))
     of_rotor =
-        of_rotor || system_->layout()->particle_at(static_cast<int>(system_->w_columns()[k])) == nullptr;
+        of_rotor || system().layout()->particle_at(static_cast<int>(system().w_columns()[k])) == nullptr;
   if (of_rotor)
     return "; in space rotors keep their angles while a scene turns: leave out what drives one, and hold "
            "what "
@@ -497,29 +350,29 @@ std::string EquilibriumSolver::remedy(std::size_t row) const {
 /// An equilibrium persists; a state that is at rest only for an instant does not. The instants tried are no
 /// likely fraction of a period.
 void EquilibriumSolver::require_lasting(const State& s) const {
-  const double t = frame_.rotates() ? 1.0 / frame_.rate() : scales_.time;
-  const auto lengths = scales_.lengths();
+  const double t = frame().rotates() ? 1.0 / frame().rate() : scales().time;
+  const auto lengths = scales().lengths();
   const double speed =
-      std::max(frame_.rotates() ? frame_.rate() * scales_.length : scales_.speed(), largest(s.v));
+      std::max(frame().rotates() ? frame().rate() * scales().length : scales().speed(), largest(s.v));
   for (const double later : {0.0, 0.7390851332151607 * t, 2.6180339887498949 * t}) {
     State at = s;
-    if (frame_.moves()) frame_.carry_positions(later, at.q);
-    frame_.velocity(at.q, at.v);
-    auto e = system_->evaluation();
-    system_->evaluate({time_ + later, at.q, at.v}, e);
-    const Violation moving = velocity_violation(*system_, e, lengths);
-    if (moving.size > start_tolerance * speed + scales_.rounding(s.q) / t) {
+    if (frame().moves()) frame().carry_positions(later, at.q);
+    frame().velocity(at.q, at.v);
+    auto e = system().evaluation();
+    system().evaluate({time() + later, at.q, at.v}, e);
+    const Violation moving = velocity_violation(system(), e, lengths);
+    if (moving.size > start_tolerance * speed + scales().rounding(s.q) / t) {
       std::ostringstream what;
-      what << system_->row_label(moving.row) << " moves by " << moving.size << " at t = " << time_ + later
-           << (frame_.rotates() ? " relative to the rotating frame" : ", where the scene is to be at rest")
+      what << system().row_label(moving.row) << " moves by " << moving.size << " at t = " << time() + later
+           << (frame().rotates() ? " relative to the rotating frame" : ", where the scene is to be at rest")
            << remedy(moving.row);
       throw NoEquilibrium(what.str());
     }
     EquilibriumSolver then = *this;
-    then.time_ += later;
+    then.set_time(time() + later);
     then.evaluate(at);
     if (!then.is_equilibrium(at, equilibrium_tolerance) && !then.has_other_multipliers(at))
-      then.refuse(at, frame_.rotates()
+      then.refuse(at, frame().rotates()
                           ? "the forces or constraints do not turn with the scene"
                           : "the forces or constraints change with time, and so does the balance");
   }
@@ -527,25 +380,25 @@ void EquilibriumSolver::require_lasting(const State& s) const {
 
 std::shared_ptr<const Record> EquilibriumSolver::record(const State& found) const {
   State s = found;
-  auto e = system_->evaluation();
-  system_->evaluate({time_, s.q, s.v}, e);
+  auto e = system().evaluation();
+  system().evaluate({time(), s.q, s.v}, e);
   const ActiveRows rows = rows_at(s);
   std::vector<char> unique;
-  if (rows.size() < system_->rows()) {
-    Manifold manifold(problem_, rows, scales_.lengths());
+  if (rows.size() < system().rows()) {
+    Manifold manifold(problem(), rows, scales().lengths());
     std::vector<double> v(s.v), v_rate(s.q.size());
-    if (!manifold.solve_motion(time_, s.q, v, v_rate, s.lambda)) refuse(s, "the constraints are singular");
+    if (!manifold.solve_motion(time(), s.q, v, v_rate, s.lambda)) refuse(s, "the constraints are singular");
     unique.assign(manifold.unique().begin(), manifold.unique().end());
   }
-  std::vector<double> a(s.q.size()), forces(system_->layout()->slot_coordinate.size());
-  frame_.apply(s.v, a);
-  system_->constraint_forces(e.w, s.lambda, forces);
-  const double energy = system_->kinetic_energy(s.v) + system_->potential_energy({time_, s.q, s.v}) +
-                        system_->elastic_energy(s.lambda);
+  std::vector<double> a(s.q.size()), forces(system().layout()->slot_coordinate.size());
+  frame().apply(s.v, a);
+  system().constraint_forces(e.w, s.lambda, forces);
+  const double energy = system().kinetic_energy(s.v) + system().potential_energy({time(), s.q, s.v}) +
+                        system().elastic_energy(s.lambda);
   auto record = std::make_shared<Record>();
-  record->layout = system_->layout();
-  record->statistics.length = scales_.length;
-  record->append({time_, s.q, s.v, a, s.lambda, forces, energy, unique});
+  record->layout = system().layout();
+  record->statistics.length = scales().length;
+  record->append({time(), s.q, s.v, a, s.lambda, forces, energy, unique});
   return record;
 }
 

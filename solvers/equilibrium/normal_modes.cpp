@@ -10,6 +10,7 @@
 #include <dalembert/solvers/equilibrium/reversible.h>
 #include <dalembert/solvers/equilibrium/singular_position.h>
 #include <dalembert/solvers/equilibrium/tangent_modes.h>
+#include <dalembert/solvers/manifold/manifold.h>
 
 #include <algorithm>
 #include <cmath>

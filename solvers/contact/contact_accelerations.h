@@ -1,0 +1,43 @@
+#pragma once
+
+#include <dalembert/core/results/sample.h>
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/contact/contact_accuracy.h>
+#include <dalembert/solvers/contact/coupling.h>
+
+#include <Eigen/Core>
+
+#include <span>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// The accelerations of contacts at their surface, (2) of Contacts.
+
+/// Without forces of theirs, of those that touch. What neither leaves nor is pressed, to round-off, has none;
+/// nor has what leaves no faster than accelerations are known, or for no longer than times are, and is
+/// pressed soon: an error of its positions is what parts it. Notes what each has been accepted by.
+[[nodiscard]] Eigen::VectorXd accelerations_without(std::span<ContactState> contacts,
+                                                    const ContactAccuracy& known, Coupling& coupling,
+                                                    const std::vector<std::size_t>& touching,
+                                                    const Instant& at);
+
+/// What (2) gives for a contact, and the unit and the largest without forces of what it is coupled with.
+struct PairOfContact {
+  double acceleration = 0.0, force = 0.0, unit = 0.0, largest = 0.0;
+};
+/// Of each that touches, at the places of those that rest; `without` from above. Throws StepFailure where
+/// nothing satisfies (2).
+[[nodiscard]] std::vector<PairOfContact> pairs_of(const System& stated,
+                                                  std::span<const ContactState> contacts,
+                                                  const ContactAccuracy& known, const Coupling& coupling,
+                                                  const std::vector<std::size_t>& touching,
+                                                  const Coupling::Places& resting,
+                                                  const Eigen::VectorXd& without, const Instant& at);
+
+/// That no surface approaches what rests on it openly. Throws StepFailure, naming it: of redundant contacts
+/// with friction which are closed is not always found.
+void require_separation(const System& stated, std::span<const ContactState> contacts,
+                        const ContactAccuracy& known, const Gaps& gaps, const FlatSample& now);
+
+}  // namespace dalembert

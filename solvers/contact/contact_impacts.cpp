@@ -1,0 +1,136 @@
+#include "dalembert/solvers/contact/contact_impacts.h"
+
+#include <dalembert/core/linear/dense.h>
+#include <dalembert/solvers/contact/contact_law.h>
+#include <dalembert/solvers/contact/round_off.h>
+#include <dalembert/solvers/linear/complementarity.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace dalembert {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+void ContactImpacts::solve(const Coupling& coupling, const std::vector<std::size_t>& touching, VectorXd& U,
+                           Change& change) const {
+  VectorXd P = VectorXd::Zero(U.size());
+  for (const auto& island : coupling.islands()) {
+    const VectorXd before = U(island);
+    if (before.minCoeff() >= 0.0) continue;
+    const auto its = those_at(island, touching);
+    const auto contact = [&](Index i) -> const ContactState& {
+      return (*contacts_)[its[static_cast<std::size_t>(i)]];
+    };
+    VectorXd q = before;
+    for (Index i = 0; i < q.size(); ++i) q[i] *= 1.0 + contact(i).restitution;
+    const Eigen::MatrixXd S = coupled(coupling, island, known_->scales, at_.q);
+    const auto p = complementary_solution(S, q);
+    if (!p)
+      refuse(*stated_, *contacts_, its, at_.t,
+             "no impulses end their approach; the constraints drive them against each other");
+    VectorXd after = before + S * *p;
+    const VectorXd unit = units(S);
+    const double largest = before.cwiseProduct(unit).cwiseAbs().maxCoeff();
+    clear_round_off(after, unit, largest);
+    for (Index i = 0; i < after.size(); ++i) {
+      // Of contacts that share an impact each is struck that leaves with -e U-, whatever its share is.
+      const double rebound = before[i] - q[i];
+      const bool shares = before[i] < 0.0 && std::abs(after[i] - rebound) * unit[i] <= round_off() * largest;
+      if (!((*p)[i] > 0.0) && !shares) continue;
+      after[i] = rebound;
+      change.events.push_back({contact(i).number, at_.t, EventKind::struck});
+    }
+    U(island) = after;
+    P(island) = *p;
+  }
+  std::ranges::sort(change.events, {}, &EventRecord::source);
+  coupling.apply_impulses(P, change.v, change.impulses);
+}
+
+/// Whether what bounces has no way left. What loses nothing always has: between walls that close in, its
+/// impacts come faster, and end in no rest.
+bool ContactImpacts::hops_end(const ContactState& contact, double speed) const {
+  return contact.restitution < 1.0 && speed * contact.impacts.left() <= known_->error_of_gap(contact);
+}
+
+ContactState& ContactImpacts::contact_of(const EventRecord& event) const {
+  return *std::ranges::lower_bound(*contacts_, event.source, {}, &ContactState::number);
+}
+
+std::vector<ContactImpacts::Limit> ContactImpacts::limits(const Change& change, const Gaps& gaps) const {
+  const double t = at_.t;
+  std::vector<Limit> limits;
+  std::set<std::size_t> bouncing;
+  for (const EventRecord& impact : change.events) {
+    ContactState& c = contact_of(impact);
+    Accumulation& impacts = c.impacts;
+    impacts.add(t);
+    const double speed = std::abs(gaps.rate(c));
+    const bool ends = (c.closed && !c.moved) || speed <= known_->still(c) || hops_end(c, speed);
+    if (!ends) bouncing.insert(c.island);
+    if (!std::isfinite(impacts.limit()) || !ends) continue;
+    auto limit = std::ranges::find(limits, c.island, &Limit::island);
+    if (limit == limits.end()) limit = limits.insert(limit, {c.island, t, t - impacts.interval(), 0.0});
+    limit->time = std::max(limit->time, impacts.limit());
+    limit->uncertain = std::max(limit->uncertain, impacts.uncertainty());
+  }
+  std::erase_if(limits, [&](const Limit& one) { return bouncing.contains(one.island); });
+  return limits;
+}
+
+std::vector<std::size_t> ContactImpacts::struck(const std::vector<Limit>& limits) const {
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < contacts_->size(); ++i) {
+    const ContactState& c = (*contacts_)[i];
+    const auto limit = std::ranges::find(limits, c.island, &Limit::island);
+    if (limit != limits.end() && c.impacts.last() >= limit->since) all.push_back(i);
+  }
+  return all;
+}
+
+void ContactImpacts::keep_reached(const Coupling& coupling, std::size_t own,
+                                  std::vector<std::size_t>& contacts) const {
+  Coupling::Places all;
+  for (std::size_t k = 0; k < contacts.size(); ++k) all.push_back(static_cast<Index>(k));
+  const Eigen::MatrixXd S = coupled(coupling, all, known_->scales, at_.q);
+  std::vector<char> reached(contacts.size(), 0);
+  std::fill_n(reached.begin(), own, char{1});
+  for (bool more = true; std::exchange(more, false);)
+    for (const Index k : all)
+      for (const Index j : all)
+        if (reached[static_cast<std::size_t>(j)] && !reached[static_cast<std::size_t>(k)] && S(k, j) != 0.0)
+          reached[static_cast<std::size_t>(k)] = more = true;
+  std::vector<std::size_t> kept;
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    if (reached[k]) kept.push_back(contacts[k]);
+  contacts = std::move(kept);
+}
+
+void ContactImpacts::rest(const Coupling& coupling, const std::vector<std::size_t>& touching,
+                          const std::vector<Limit>& limits, VectorXd& U, Change& change) const {
+  const auto limit_of = [&](const ContactState& contact) {
+    return std::ranges::find(limits, contact.island, &Limit::island);
+  };
+  std::erase_if(change.events,
+                [&](const EventRecord& one) { return limit_of(contact_of(one)) != limits.end(); });
+  const VectorXd rates = coupling.rates(change.v);
+  VectorXd P = VectorXd::Zero(U.size());
+  for (const auto& island : coupling.islands()) {
+    const auto its = those_at(island, touching);
+    const auto limit = limit_of((*contacts_)[its.front()]);
+    if (limit == limits.end()) continue;
+    P(island) = dense::least_squares(coupling.S(island), -rates(island), rank_threshold);
+    U(island).setZero();
+    for (const std::size_t i : its)
+      if ((*contacts_)[i].impacts.last() >= limit->since)
+        change.events.push_back({(*contacts_)[i].number, limit->time, EventKind::rested, limit->uncertain});
+  }
+  std::ranges::sort(change.events, {}, &EventRecord::source);
+  coupling.apply_impulses(P, change.v, change.impulses);
+}
+
+}  // namespace dalembert

@@ -1,0 +1,47 @@
+#include "dalembert/solvers/contact/contact_law.h"
+
+#include <dalembert/solvers/base/numbers.h>
+#include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/contact/round_off.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dalembert {
+
+using Eigen::Index;
+
+Eigen::VectorXd units(const Eigen::MatrixXd& S) {
+  return S.diagonal().unaryExpr([](double s) { return s > 0.0 ? 1.0 / std::sqrt(s) : 0.0; });
+}
+
+void clear_round_off(Eigen::VectorXd& x, const Eigen::VectorXd& unit, double largest) {
+  for (Index i = 0; i < x.size(); ++i)
+    if (unit[i] > 0.0 && std::abs(x[i]) * unit[i] <= round_off() * largest) x[i] = 0.0;
+}
+
+std::vector<std::size_t> those_at(const Coupling::Places& places, const std::vector<std::size_t>& touching) {
+  std::vector<std::size_t> its;
+  for (const Index k : places) its.push_back(touching[static_cast<std::size_t>(k)]);
+  return its;
+}
+
+Eigen::MatrixXd coupled(const Coupling& coupling, const Coupling::Places& places, const Scales& scales,
+                        std::span<const double> q) {
+  Eigen::MatrixXd S = coupling.S(places);
+  const double directions = std::max(1.0, scales.rounding(q) / (epsilon * scales.length));
+  const Eigen::VectorXd unit = units(S);
+  for (Index i = 0; i < S.rows(); ++i)
+    for (Index j = 0; j < S.cols(); ++j)
+      if (i != j && std::abs(S(i, j)) * unit[i] * unit[j] <= round_off() * directions) S(i, j) = 0.0;
+  return S;
+}
+
+void refuse(const System& stated, std::span<const ContactState> contacts,
+            const std::vector<std::size_t>& which, double t, const std::string& what) {
+  std::string names;
+  for (const std::size_t i : which) names += (names.empty() ? "" : ", ") + stated.row_label(contacts[i].row);
+  throw StepFailure{names + ": " + what, t};
+}
+
+}  // namespace dalembert

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/contact/contact_accuracy.h>
+#include <dalembert/solvers/contact/coupling.h>
+
+#include <Eigen/Core>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+// What impacts and accelerations of touching contacts have in common: U, or dU/dt, by Coupling.
+
+/// The units that make rates of different contacts comparable.
+[[nodiscard]] Eigen::VectorXd units(const Eigen::MatrixXd& S);
+
+/// Sets to 0 what is round-off of the largest, each in its own unit.
+void clear_round_off(Eigen::VectorXd& x, const Eigen::VectorXd& unit, double largest);
+
+/// Of the contacts that touch, those at these places.
+[[nodiscard]] std::vector<std::size_t> those_at(const Coupling::Places& places,
+                                                const std::vector<std::size_t>& touching);
+
+/// S of contacts of one island. Gradients are known to the rounding of positions over the scene's length:
+/// what couples two contacts by no more is none.
+[[nodiscard]] Eigen::MatrixXd coupled(const Coupling& coupling, const Coupling::Places& places,
+                                      const Scales& scales, std::span<const double> q);
+
+/// Throws StepFailure, naming these contacts.
+[[noreturn]] void refuse(const System& stated, std::span<const ContactState> contacts,
+                         const std::vector<std::size_t>& which, double t, const std::string& what);
+
+}  // namespace dalembert

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/contact/friction_equations.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace DALEMBERT_HIDDEN dalembert {
+
+/// The search for modes that satisfy Coulomb's law at an instant: which of all that is at rest sticks, and in
+/// which direction the rest slides. From the onset of what can not all stick one violation after another is
+/// amended, until none is left.
+class FrictionModes {
+ public:
+  /// Of these, whose modes it sets; all must outlive it.
+  FrictionModes(const FrictionEquations& equations, std::span<RoughState> all,
+                const std::vector<std::size_t>& open, const Instant& at)
+      : equations_(&equations), all_(all), open_(&open), at_(at) {}
+  /// Throws StepFailure, naming the constraints, where nothing satisfies the law; EquationFault.
+  void find();
+
+ private:
+  using Motion = FrictionEquations::Motion;
+
+  void decide();
+  [[nodiscard]] bool sticks(const Motion& motion) const;
+  void mark_shared(const Motion& motion);
+  [[nodiscard]] double excess(const RoughState& rough, const Motion& motion) const;
+  void require_own_share(const RoughState& rough) const;
+  [[nodiscard]] bool amend(const Motion& motion);
+  [[nodiscard]] bool release_most_exceeded(const Motion& motion);
+  [[nodiscard]] bool turn(RoughState& rough, const Motion& motion) const;
+  [[nodiscard]] std::vector<double> modes() const;
+  [[noreturn]] void refuse() const;
+  [[nodiscard]] Motion solve() const { return equations_->solve(all_, *open_, at_); }
+  [[nodiscard]] std::string label(const RoughState& rough) const {
+    return equations_->stated()->row_label(rough.row);
+  }
+
+  const FrictionEquations* equations_;
+  std::span<RoughState> all_;
+  const std::vector<std::size_t>* open_;
+  Instant at_;
+};
+
+}  // namespace dalembert

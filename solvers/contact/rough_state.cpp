@@ -1,0 +1,78 @@
+#include "dalembert/solvers/contact/rough_state.h"
+
+#include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/accuracy.h>
+#include <dalembert/solvers/contact/round_off.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dalembert {
+
+using Eigen::VectorXd;
+
+void RoughState::read_law(const System& stated) {
+  const auto& constraints = stated.layout()->constraints;
+  const Roughness& law = *constraints[number].condition.roughness;
+  const Layout::Constraint& pressing = constraints[static_cast<std::size_t>(law.pressed_by)];
+  const std::size_t row = std::exchange(pressing_row, pressing.own_rows().front());
+  pressed_by = static_cast<std::size_t>(law.pressed_by);
+  mu = law.mu;
+  mu_static = law.mu_static;
+  one_sided = pressing.condition.contact.has_value();
+  if (one_sided) {
+    sign = pressing.condition.contact->sign();
+  } else if (row != pressing_row) {
+    sign = 1.0;
+  }
+}
+
+void RoughState::adopt(const Scales& scales, double tolerance) {
+  speed = std::min(scales.speed(), (of_lengths * scales.length + of_angles) / scales.time);
+  still = tolerance * speed;
+  slow = Accuracy(tolerance).rest_in_space() * speed;
+}
+
+void RoughState::start_sliding(const VectorXd& along) {
+  mode = Mode::slides;
+  direction = along;
+  pace = rows == 1 ? Pace::fast : Pace::leaves;
+  blur = rows == 1 ? 0.0 : only_direction;
+}
+
+void RoughState::end_straight(const VectorXd& along) {
+  direction = along;
+  pace = Pace::straight;
+  blur = only_direction;
+  turns = 0.0;
+}
+
+VectorXd RoughState::part(std::span<const double> all) const {
+  return Eigen::Map<const VectorXd>(all.data() + row, static_cast<Eigen::Index>(rows));
+}
+
+double RoughState::no_slip(double tolerance) const { return std::min(round_off(), 0.1 * tolerance) * speed; }
+
+void measure_gradients(std::span<RoughState> all, const System& stated, const Scales& scales,
+                       const Instant& at) {
+  if (all.empty()) return;
+  auto e = stated.evaluation();
+  try {
+    stated.evaluate(at, e);
+  } catch (const EquationFault&) {
+    return;  // of what is not in force there; the motion itself will say so, if it gets there
+  }
+  for (RoughState& r : all) {
+    r.of_lengths = r.of_angles = 0.0;
+    for (std::size_t row = r.row; row < r.row + r.rows; ++row) {
+      double of_lengths = 0.0, of_angles = 0.0;
+      for (const std::size_t k : stated.row(row))
+        (scales.is_angle[stated.w_columns()[k]] ? of_angles : of_lengths) += std::abs(e.w[k]);
+      r.of_lengths = std::max(r.of_lengths, of_lengths);
+      r.of_angles = std::max(r.of_angles, of_angles);
+    }
+  }
+}
+
+}  // namespace dalembert
