@@ -1,11 +1,9 @@
 #include "dalembert/solvers/run/comparisons.h"
 
-#include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/base/root.h>
 #include <dalembert/solvers/base/step_failure.h>
-#include <dalembert/solvers/linear/rows.h>
 #include <dalembert/solvers/run/interpolant.h>
 #include <dalembert/solvers/run/roundings.h>
 
@@ -34,18 +32,14 @@ std::size_t undecided(const Branches::Sides& sides) {
 }  // namespace
 
 Comparisons::Comparisons(const Problem& problem, const Start& start, double t, double tolerance)
-    : system_(&problem.system()),
-      scales_(start.scales),
-      tolerance_(tolerance),
-      e_(system_->evaluation()),
-      lambda_(start.lambda.size()),
-      a_(start.q.size()),
+    : equations_(problem, start, tolerance),
+      time_(start.scales.time),
+      coordinates_(start.q.size()),
       from_(t) {
-  if (system_->has_multiplier_forces()) start_listening(problem, start);
-  if (!record_comparisons({t, start.q, start.v}, nullptr, recorded_)) recorded_.clear();
+  if (!equations_.record({t, start.q, start.v}, nullptr, recorded_)) recorded_.clear();
   any_ = std::ranges::any_of(recorded_, [](const auto& batch) { return !batch.empty(); });
   if (!any_) return;
-  start_listening(problem, start);
+  equations_.start_listening(problem, start);
   held_ = recorded_;
   choose_sides(start);
   list_margins();
@@ -53,7 +47,7 @@ Comparisons::Comparisons(const Problem& problem, const Start& start, double t, d
 
 Comparisons::Comparisons(const Problem& problem, const Start& start, double tolerance, const Behind& behind)
     : Comparisons(problem, start, behind.t, tolerance) {
-  start_listening(problem, start);  // though nothing that is in force may compare anything
+  equations_.start_listening(problem, start);  // though nothing that is in force may compare anything
   any_ = true;
   chosen_ = false;
   held_.resize(std::max(held_.size(), behind.sides.size()));
@@ -62,49 +56,17 @@ Comparisons::Comparisons(const Problem& problem, const Start& start, double tole
   list_margins();
 }
 
-void Comparisons::start_listening(const Problem& problem, const Start& start) {
-  if (!manifold_) manifold_.emplace(problem, start.rows, start.scales.lengths());
-  conditional_ = system_->conditional_rows();
-}
-
 /// Between two sides, at a corner of an equation, a motion goes to where the accelerations lead in an
 /// instant; what stays there is evaluated as it is.
 void Comparisons::choose_sides(const Start& start) {
   std::size_t least = undecided(held_);
   const Motion at{from_, start.q, start.v, start.a};
-  for (double ahead = constants.instant_after * scales_.time; least > 0 && ahead < 1e-3 * scales_.time;
-       ahead *= clearly) {
+  for (double ahead = constants.instant_after * time_; least > 0 && ahead < 1e-3 * time_; ahead *= clearly) {
     move(at, ahead, other_);
-    if (!record_comparisons(other_.instant(), nullptr, recorded_) || undecided(recorded_) >= least) continue;
+    if (!equations_.record(other_.instant(), nullptr, recorded_) || undecided(recorded_) >= least) continue;
     least = undecided(recorded_);
     held_ = recorded_;
     chosen_ = true;
-  }
-}
-
-bool Comparisons::record_comparisons(const Instant& at, const Branches::Sides* held, Branches::Sides& out) {
-  const Branches listening(&out, held);
-  try {
-    if (!system_->has_multiplier_forces()) {
-      system_->evaluate(at, e_);
-      return true;
-    }
-    if (!manifold_->accelerate(at, a_)) return false;
-    manifold_->multipliers(lambda_);
-    system_->add_multiplier_forces(at, lambda_, e_.force);
-    return true;
-  } catch (const EquationFault&) {
-    return false;
-  }
-}
-
-bool Comparisons::accelerate(Motion& at, const Branches::Sides& held) {
-  const Branches holding(nullptr, &held);
-  at.a.resize(at.q.size());
-  try {
-    return manifold_->accelerate(at.instant(), at.a);
-  } catch (const EquationFault&) {
-    return false;
   }
 }
 
@@ -118,7 +80,7 @@ void Comparisons::list_margins() {
   for (std::vector<double>* all : {&least_, &bend_}) all->resize(margins_.size());
   suspects_.reserve(margins_.size());
   passed_.reserve(margins_.size());
-  for (std::vector<double>* all : {&motion_.q, &motion_.v}) all->resize(a_.size());
+  for (std::vector<double>* all : {&motion_.q, &motion_.v}) all->resize(coordinates_);
 }
 
 /// What is no longer compared has left its side.
@@ -137,14 +99,14 @@ double Comparisons::margin(const Margin& of, const Branches::Sides& recorded) {
 
 bool Comparisons::hear_step(double t, bool sketched) {
   motion_.t = t;
-  motion_.q.resize(a_.size());
-  motion_.v.resize(a_.size());
+  motion_.q.resize(coordinates_);
+  motion_.v.resize(coordinates_);
   if (sketched) {
     stepper_->sketch(t, motion_.q, motion_.v);
   } else {
     stepper_->interpolate(t, motion_.q, motion_.v);
   }
-  return record_comparisons(motion_.instant(), &held_, recorded_);
+  return equations_.record(motion_.instant(), &held_, recorded_);
 }
 
 void Comparisons::find_margins(double t, bool sketched, std::vector<double>& all) {
@@ -191,7 +153,7 @@ const std::vector<std::size_t>& Comparisons::suspects(double to) {
   for (std::size_t k = 0; k < margins_.size(); ++k) {
     if (std::ranges::find(passed_, margins_[k]) != passed_.end()) continue;
     const bool constant = bend_[k] == 0.0 && at_from_[k] == at_end_[k] && least_[k] > 0.0;
-    if (!constant && (system_->timed_batch(margins_[k].batch) || !(least_[k] > bend_[k])))
+    if (!constant && (equations_.system().timed_batch(margins_[k].batch) || !(least_[k] > bend_[k])))
       suspects_.push_back(k);
   }
   return suspects_;
@@ -222,7 +184,7 @@ std::optional<Comparisons::Bracket> Comparisons::first_root(std::size_t k, doubl
     return first.has_value() || p.nodes.back() >= until;
   };
   if (resolve(f, whole, checks, rounding, most_parts_of_step, leaves_in)) return first;
-  throw StepFailure{system_->label_of_batch(margins_[k].batch) +
+  throw StepFailure{equations_.system().label_of_batch(margins_[k].batch) +
                         " compares what varies faster than can be followed within a step of " +
                         std::to_string(to - from_) + "; choose a max_step in the options that is shorter",
                     from_};
@@ -246,7 +208,7 @@ std::optional<Comparisons::Root> Comparisons::first_switch(double to) {
 /// The margin of a motion that goes on with its own accelerations.
 double Comparisons::margin_ahead(std::size_t k, const Motion& from, double ahead) {
   move(from, ahead, other_);
-  return record_comparisons(other_.instant(), &held_, recorded_) ? margin(margins_[k], recorded_) : -unknown;
+  return equations_.record(other_.instant(), &held_, recorded_) ? margin(margins_[k], recorded_) : -unknown;
 }
 
 /// What roundings of the coordinates make of a margin.
@@ -255,7 +217,7 @@ double Comparisons::rounding(std::size_t k, const Motion& at) {
   move(at, 0.0, other_);
   double most = 0.0;
   round_by_turns(at.q, other_.q, [&] {
-    if (record_comparisons(other_.instant(), &held_, recorded_))
+    if (equations_.record(other_.instant(), &held_, recorded_))
       most = std::max(most, std::abs(margin(margins_[k], recorded_) - here));
   });
   return most;
@@ -264,7 +226,7 @@ double Comparisons::rounding(std::size_t k, const Motion& at) {
 /// The sides where a switch has been left.
 bool Comparisons::hear_behind(Switch& one) {
   move(one.at, one.ahead, other_);
-  return record_comparisons(other_.instant(), nullptr, one.behind);
+  return equations_.record(other_.instant(), nullptr, one.behind);
 }
 
 /// The motion behind has left its side: a difference that is 0 there, as of multipliers that are round-off,
@@ -275,10 +237,10 @@ Comparisons::Switch Comparisons::behind(const Root& root, double step) {
   one.step = step;
   one.distance = hear_step(root.t, false) ? std::abs(margin(margins_[root.margin], recorded_)) : unknown;
   one.at = motion_;
-  if (!accelerate(one.at, held_)) throw linearly_dependent(root.t);
+  if (!equations_.accelerate(one.at, held_)) throw linearly_dependent(root.t);
   one.distance = std::max(one.distance, rounding(root.margin, one.at));
   const Margin& its = margins_[root.margin];
-  one.ahead = 16.0 * epsilon * std::max(std::abs(root.t), scales_.time);
+  one.ahead = 16.0 * epsilon * std::max(std::abs(root.t), time_);
   for (; one.ahead < 1e-3 * step; one.ahead *= 2.0) {
     const double margin = margin_ahead(root.margin, one.at, one.ahead);
     one.clear = margin < 0.0 && (its.side == 0 || -margin >= clearly * one.distance) && hear_behind(one) &&
@@ -286,53 +248,23 @@ Comparisons::Switch Comparisons::behind(const Root& root, double step) {
     if (one.clear) return one;
   }
   if (!hear_behind(one)) {
-    const Branches anywhere(nullptr, nullptr);
-    system_->evaluate(other_.instant(), e_);  // throws what fails there
+    equations_.evaluate(other_.instant());  // throws what fails there
     one.behind = held_;
   }
   return one;
 }
 
-/// Whether the accelerations on two sides differ there by more than the tolerance of speeds in the scene's
-/// own time; or the forces of constraint, which events and conditions read.
-bool Comparisons::differ(const Motion& there, const Branches::Sides& before, const Branches::Sides& behind) {
-  Motion one = there, other = there;
-  if (!accelerate(one, before)) return true;
-  std::vector<double> lambda(lambda_.size());
-  manifold_->multipliers(lambda);
-  if (!accelerate(other, behind)) return true;
-  manifold_->multipliers(lambda_);
-  for (std::size_t i = 0; i < there.v.size(); ++i) {
-    const double effect = scales_.time * std::abs(other.a[i] - one.a[i]);
-    if (!(effect <= scales_.velocity_error(i, there.v[i], tolerance_))) return true;
-  }
-  // Of all that acts on what a row moves: of forces elsewhere one may be any part.
-  std::vector<double> acting(there.v.size());
-  const auto& e = manifold_->equations();
-  for (std::size_t i = 0; i < acting.size(); ++i)
-    acting[i] =
-        std::abs(e.force[i]) + system_->masses()[i] * std::max(std::abs(one.a[i]), std::abs(other.a[i]));
-  for (std::size_t r = 0; r < lambda.size(); ++r)
-    for (const std::size_t k : system_->row(r))
-      acting[system_->w_columns()[k]] +=
-          std::abs(e.w[k]) * std::max(std::abs(lambda[r]), std::abs(lambda_[r]));
-  for (std::size_t r = 0; r < lambda.size(); ++r)
-    for (const std::size_t k : system_->row(r))
-      if (!(std::abs(e.w[k] * (lambda_[r] - lambda[r])) <= tolerance_ * acting[system_->w_columns()[k]]))
-        return true;
-  return false;
-}
-
 /// Whether the step, which was taken on other sides, goes wrong on those that hold from a switch `until` the
 /// next: also in between, as a push by half a sine is 0 at both ends.
 bool Comparisons::goes_wrong(const Branches::Sides& taken, double until) {
-  Motion there{until, a_, a_, {}};
+  std::vector<double> none(coordinates_);
+  Motion there{until, none, none, {}};
   auto times = check_times(from_, until, std::max(stepper_->degree(), least_degree));
   times.push_back(until);
   return std::ranges::any_of(times, [&](double t) {
     there.t = t;
     stepper_->interpolate(t, there.q, there.v);
-    return differ(there, taken, held_);
+    return equations_.differ(there, taken, held_);
   });
 }
 
@@ -355,7 +287,7 @@ std::optional<Comparisons::Switch> Comparisons::leave(TimeStepper& stepper) {
     if (!root) break;
     if (!last) taken = held_;
     Switch one = behind(*root, to - from);
-    if (corner(one) || differ(one.at, taken, one.behind)) return one;
+    if (corner(one) || equations_.differ(one.at, taken, one.behind)) return one;
     if (!one.clear) passed_.push_back(margins_[root->margin]);
     from_ = std::min(to, root->t + one.ahead);
     before_last = std::exchange(held_, one.behind);
@@ -367,56 +299,13 @@ std::optional<Comparisons::Switch> Comparisons::leave(TimeStepper& stepper) {
   return std::nullopt;
 }
 
-std::optional<std::size_t> Comparisons::corner(const Switch& one) {
-  const auto lengths = scales_.lengths();
-  auto before = system_->evaluation();
-  const auto evaluate = [&](const Branches::Sides& held, System::Evaluation& e) {
-    const Branches holding(nullptr, &held);
-    system_->evaluate(one.at.instant(), e);
-  };
-  evaluate(held_, before);
-  evaluate(one.behind, e_);
-  const double most = constants.most_correction * tolerance_;
-  std::optional<std::size_t> conditional;
-  for (std::size_t r = 0; r < system_->rows(); ++r) {
-    if (!system_->in_force(r) || system_->law(r).compliant()) continue;
-    const double gradient = gradient_length(*system_, e_.w, lengths, r);
-    const bool holonomic = r < system_->holonomic_rows();
-    const double jump = holonomic ? std::abs(e_.g[r] - before.g[r]) : 0.0;
-    const double of_velocity = std::abs(e_.psi[r] - before.psi[r]);
-    if (!(of_velocity > most * scales_.speed() * gradient || jump > most * scales_.length * gradient))
-      continue;
-    if (!holds_at_times(r)) return r;
-    if (!conditional) conditional = r;
-  }
-  return conditional;
-}
-
 void Comparisons::refuse_corner(const Switch& one, std::size_t row) const {
   throw StepFailure{
-      system_->row_label(row) +
+      equations_.system().row_label(row) +
           " changes its gradient by a jump here: the velocity before does not satisfy it behind. "
           "That is an impact, which the equations do not describe; end the run here, or round it "
           "off",
       one.at.t};
-}
-
-/// The friction that a switch reverses, if one does.
-std::optional<std::string> Comparisons::would_stick(const Switch& one) {
-  const Switches switches(*system_);
-  if (!switches.any()) return std::nullopt;
-  const auto slope_on = [&](const Branches::Sides& held) {
-    Slope slope;
-    Motion at = one.at;
-    if (!accelerate(at, held)) return slope;
-    manifold_->multipliers(lambda_);
-    const Branches holding(nullptr, &held);
-    switches.find(at.instant(), lambda_, slope);
-    return slope;
-  };
-  const auto friction = switches.turned(slope_on(held_), slope_on(one.behind));
-  if (!friction) return std::nullopt;
-  return Sticking::message(switches, *friction);
 }
 
 /// Whether the motion before the switch would return by itself: it touches where it turns, and either side
@@ -440,8 +329,9 @@ void Comparisons::require_leaving(const Switch& one, std::span<const double> a) 
 }
 
 void Comparisons::chatters(const Switch& one) {
-  if (const auto message = would_stick(one)) throw StepFailure{*message, one.at.t};
-  throw StepFailure{system_->label_of_batch(margins_[one.margin].batch) +
+  if (const auto message = equations_.would_stick(one.at, held_, one.behind))
+    throw StepFailure{*message, one.at.t};
+  throw StepFailure{equations_.system().label_of_batch(margins_[one.margin].batch) +
                         " switches here, and on both sides the motion is driven back to where it does: it "
                         "would chatter. Smooth the switch, or end the run here",
                     one.at.t};

@@ -2,12 +2,10 @@
 
 #include <dalembert/core/autodiff/branches.h>
 #include <dalembert/solvers/base/hidden.h>
-#include <dalembert/solvers/manifold/manifold.h>
 #include <dalembert/solvers/manifold/start.h>
-#include <dalembert/solvers/run/sticking.h>
+#include <dalembert/solvers/run/compared_equations.h>
 #include <dalembert/solvers/run/time_stepper.h>
 
-#include <algorithm>
 #include <map>
 #include <optional>
 #include <span>
@@ -55,12 +53,11 @@ class Comparisons {
   /// The first one in the step that has just been taken.
   [[nodiscard]] std::optional<Switch> leave(TimeStepper& stepper);
 
-  /// The row of a rigid constraint that jumps at a switch, or whose velocity does, if one does: of those that
-  /// always hold before those that hold only at times.
-  [[nodiscard]] std::optional<std::size_t> corner(const Switch& one);
-  [[nodiscard]] bool holds_at_times(std::size_t row) const {
-    return std::ranges::find(conditional_, row) != conditional_.end();
+  /// See ComparedEquations.
+  [[nodiscard]] std::optional<std::size_t> corner(const Switch& one) {
+    return equations_.corner(one.at.instant(), held_, one.behind);
   }
+  [[nodiscard]] bool holds_at_times(std::size_t row) const { return equations_.holds_at_times(row); }
   /// Throws StepFailure for such a row.
   [[noreturn]] void refuse_corner(const Switch& one, std::size_t row) const;
   /// Throws StepFailure where the motion on the other side, with the accelerations a, leads back at once
@@ -86,10 +83,7 @@ class Comparisons {
     double a, f_a, b, f_b;
     std::size_t margin;
   };
-  void start_listening(const Problem& problem, const Start& start);
   void choose_sides(const Start& start);
-  [[nodiscard]] bool record_comparisons(const Instant& at, const Branches::Sides* held, Branches::Sides& out);
-  [[nodiscard]] bool accelerate(Motion& at, const Branches::Sides& held);
   void list_margins();
   [[nodiscard]] static double margin(const Margin& of, const Branches::Sides& recorded);
   [[nodiscard]] static int side_of(const Margin& of, const Branches::Sides& recorded);
@@ -105,19 +99,12 @@ class Comparisons {
   [[nodiscard]] std::optional<Bracket> first_root(std::size_t k, double until, double to);
   [[nodiscard]] std::optional<Root> first_switch(double to);
   [[nodiscard]] Switch behind(const Root& root, double step);
-  [[nodiscard]] bool differ(const Motion& there, const Branches::Sides& before,
-                            const Branches::Sides& behind);
   [[nodiscard]] bool goes_wrong(const Branches::Sides& taken, double until);
   [[nodiscard]] bool turns_back(const Switch& one, double from);
-  [[nodiscard]] std::optional<std::string> would_stick(const Switch& one);
 
-  const System* system_;
-  Scales scales_;
-  double tolerance_;
-  std::optional<Manifold> manifold_;  // if anything is compared, or read from it
-  System::Evaluation e_;
-  std::vector<double> lambda_, a_;
-  std::vector<std::size_t> conditional_;  // rows in force of constraints that hold only at times
+  ComparedEquations equations_;
+  double time_;  // the scene's
+  std::size_t coordinates_;
   bool any_ = false, chosen_ = false;
   Branches::Sides held_, recorded_;
   std::vector<Margin> margins_;
