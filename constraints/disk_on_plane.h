@@ -25,10 +25,9 @@ struct LeaningDisk {
   using S = typename V::Scalar;
   V arm_a, arm_b;  ///< from the centre
   V n;             ///< axis
-  V up;            ///< u / |u|
-  V heading;       ///< N x n made a unit vector: horizontal, along the rim at the contact
-  V across;        ///< heading x N
-  S sine;
+  V normal;        ///< N
+  V u;
+  S sine;  ///< |u|
 
   LeaningDisk(const Vec<3>& N, const V& c, const V& a, const V& b);
   /// DiskRolling's equation.
@@ -37,18 +36,15 @@ struct LeaningDisk {
 
 template <class V>
 LeaningDisk<V>::LeaningDisk(const Vec<3>& N, const V& c, const V& a, const V& b)
-    : arm_a(a - c), arm_b(b - c), n(arm_a.cross(arm_b).normalized()) {
-  const V normal = N.cast<S>();
-  const V u = normal - normal.dot(n) * n;
+    : arm_a(a - c), arm_b(b - c), n(arm_a.cross(arm_b).normalized()), normal(N.cast<S>()) {
+  u = normal - normal.dot(n) * n;
   sine = u.norm();
-  up = u / sine;
-  heading = normal.cross(n) / sine;
-  across = heading.cross(normal);
 }
 
 template <class V>
 VecOf<typename V::Scalar, 2> LeaningDisk<V>::slip(double radius, const V& v, const V& v_a,
                                                   const V& v_b) const {
+  const V up = u / sine, heading = normal.cross(n) / sine, across = heading.cross(normal);
   const V d = -radius * up;
   const S share_a = d.dot(arm_a) / arm_a.squaredNorm(), share_b = d.dot(arm_b) / arm_b.squaredNorm();
   const V v_contact = v + share_a * (v_a - v) + share_b * (v_b - v);

@@ -25,6 +25,7 @@ struct StepperAt {
   operator Stepper() const { return stepper; }  // NOLINT(google-explicit-constructor)
 };
 
+/// Among them 1e-9, 1e-10 or 1e-11: the one at which sanitizers run.
 inline auto both_steppers_at(std::initializer_list<double> tolerances) {
   std::vector<StepperAt> all;
   for (const Stepper stepper : {Stepper::ida, Stepper::erk})

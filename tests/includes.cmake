@@ -26,7 +26,7 @@ foreach(room IN LISTS rooms)
       if(for_users AND line MATCHES "[<\"](${theirs})")
         message(SEND_ERROR "${file}: users do not have ${line}")
       endif()
-      if(file MATCHES "^(core|constraints)/.*\\.h$|^(${public})\\.h$" AND NOT file MATCHES "^core/(analysis/rank|linear/dense)\\.h$"
+      if(file MATCHES "^(core|constraints)/.*\\.h$|^(${public})\\.h$" AND NOT file MATCHES "^core/(analysis/rank|linear/(dense|products))\\.h$"
          AND line MATCHES "<Eigen/")
         message(SEND_ERROR "${file}: Eigen costs each of a user's files half a second; include it in a .cpp: ${line}")
       endif()

@@ -55,8 +55,8 @@ void require_finite(const MovingSolid& its) {
   require("the size", its.size);
 }
 
-/// From the direction of a to that of b, by twice the turn to the one halfway; opposite ones have no such,
-/// and any half turn across.
+/// The rotation by the least angle from the direction of a to that of b: twice that to the direction halfway.
+/// Of opposite ones it is any half turn across.
 Eigen::Quaterniond least_rotation(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const Eigen::Vector3d from = a.normalized(), both = from + b.normalized();
   Eigen::Quaterniond turn;

@@ -8,25 +8,32 @@ namespace dalembert {
 
 /// Products of whole dense matrices and vectors: with this header `A * B`, `A.transpose() * B` and
 /// `A * B.transpose()` call functions that are compiled once (dense.h). Eigen's own product takes up to half
-/// a second to compile, wherever it stands, and is left to blocks and other expressions.
+/// a second to compile, wherever it stands, and is left to blocks and other expressions. It makes a matrix of
+/// its own, also behind `noalias`: where steps are taken Eigen's is meant.
 namespace products {
 template <class T, class... Of>
 concept OneOf = (std::same_as<T, Of> || ...);
 template <class T>
-concept Matrix = OneOf<T, Eigen::MatrixXd, Eigen::MatrixXcd>;
+concept Real = OneOf<T, Eigen::MatrixXd, Eigen::VectorXd>;
 template <class T>
-concept Factor = Matrix<T> || OneOf<T, Eigen::VectorXd, Eigen::VectorXcd>;
+concept Complex = OneOf<T, Eigen::MatrixXcd, Eigen::VectorXcd>;
 template <class T>
 concept Transposed = OneOf<T, Eigen::Transpose<Eigen::MatrixXd>, Eigen::Transpose<const Eigen::MatrixXd>>;
 }  // namespace products
 
-[[nodiscard]] auto operator*(const products::Matrix auto& A, const products::Factor auto& B) {
+template <std::same_as<Eigen::MatrixXd> Matrix, class Factor>
+  requires products::Real<Factor> || products::Complex<Factor>
+[[nodiscard]] auto operator*(const Matrix& A, const Factor& B) { return dense::product(A, B); }
+template <std::same_as<Eigen::MatrixXcd> Matrix, products::Complex Factor>
+[[nodiscard]] auto operator*(const Matrix& A, const Factor& B) {
   return dense::product(A, B);
 }
-[[nodiscard]] auto operator*(const products::Transposed auto& A, const products::Factor auto& B) {
+template <products::Transposed Matrix, products::Real Factor>
+[[nodiscard]] auto operator*(const Matrix& A, const Factor& B) {
   return dense::transposed_product(A.nestedExpression(), B);
 }
-[[nodiscard]] auto operator*(const products::Matrix auto& A, const products::Transposed auto& B) {
+template <std::same_as<Eigen::MatrixXd> Matrix, products::Transposed Factor>
+[[nodiscard]] auto operator*(const Matrix& A, const Factor& B) {
   return dense::product_transposed(A, B.nestedExpression());
 }
 

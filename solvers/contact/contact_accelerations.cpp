@@ -74,8 +74,8 @@ std::vector<PairOfContact> pairs_of(const System& stated, std::span<const Contac
   return pairs;
 }
 
-void require_separation(const System& stated, std::span<const ContactState> contacts,
-                        const ContactAccuracy& known, const Gaps& gaps, const FlatSample& now) {
+void require_open_at_rest(const System& stated, std::span<const ContactState> contacts,
+                          const ContactAccuracy& known, const Gaps& gaps, const FlatSample& now) {
   const Instant at{now.time, now.q, now.v};
   auto e = stated.evaluation();
   std::vector<double> gamma;

@@ -35,9 +35,8 @@ struct PairOfContact {
                                                   const Coupling::Places& resting,
                                                   const Eigen::VectorXd& without, const Instant& at);
 
-/// That no surface approaches what rests on it openly. Throws StepFailure, naming it: of redundant contacts
-/// with friction which are closed is not always found.
-void require_separation(const System& stated, std::span<const ContactState> contacts,
-                        const ContactAccuracy& known, const Gaps& gaps, const FlatSample& now);
+/// See Contacts::require_separation.
+void require_open_at_rest(const System& stated, std::span<const ContactState> contacts,
+                          const ContactAccuracy& known, const Gaps& gaps, const FlatSample& now);
 
 }  // namespace dalembert

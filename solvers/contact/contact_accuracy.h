@@ -9,7 +9,7 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// What counts as 0 of a contact.
+/// What counts as 0 of a contact, and how exactly it is known.
 struct ContactAccuracy {
   Scales scales;
   Accuracy accuracy;

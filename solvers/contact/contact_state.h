@@ -20,8 +20,8 @@ struct ContactState {
   bool closed = false;
   bool moved = false;  ///< closed, but a change of the scene has set its surface moving
   double closed_at = 0.0;
-  bool bears = false;                 ///< by the forces of (2) that were found when it was last closed
-  double accepted = 0.0;              ///< the acceleration away from it, by which it was closed all the same
+  bool bears = false;     ///< by the forces of (2) of Contacts that were found when it was last closed
+  double accepted = 0.0;  ///< the acceleration away from it, by which it was closed all the same
   std::optional<double> opened_at{};  ///< if it was closed before
   double rate_at_opening = 0.0;
   double gap_at_opening = 0.0;  ///< at most 0: round-off of times and positions

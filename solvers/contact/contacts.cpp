@@ -149,7 +149,7 @@ void Contacts::require_open(const FlatSample& now) {
 
 void Contacts::require_separation(const FlatSample& now) const {
   find_gaps({now.time, now.q, now.v});
-  dalembert::require_separation(*stated_, contacts_, known_, gaps_, now);
+  require_open_at_rest(*stated_, contacts_, known_, gaps_, now);
 }
 
 void Contacts::open(std::size_t contact, double t, double rate, Change& change) {

@@ -12,7 +12,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// The distance to the nearest one-sided constraint that is open; infinite if there is none.
 [[nodiscard]] double nearest_contact(const System& stated, const Instant& at);
 
-/// The contacts of a run, all open, and the numbers among them of those whose gap is 0 at its start.
+/// The contacts of a run, all open, and the places of those whose gap is 0 at its start.
 struct ContactsAtStart {
   std::vector<ContactState> contacts;
   std::vector<std::size_t> touching;

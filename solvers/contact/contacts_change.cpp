@@ -94,7 +94,7 @@ void Contacts::strike(std::vector<std::size_t>& touched, std::unique_ptr<Couplin
   const ContactImpacts impacts(*stated_, contacts_, known_, at);
   impacts.solve(*coupling, touched, U, change);
   find_gaps(at);
-  const auto limits = impacts.limits(change, gaps_);
+  const auto limits = impacts.note(change, gaps_);
   if (limits.empty()) return;
   const std::size_t own = touched.size();
   for (const std::size_t i : impacts.struck(limits))

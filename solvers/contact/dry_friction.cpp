@@ -1,12 +1,8 @@
 #include "dalembert/solvers/contact/dry_friction.h"
 
-#include <dalembert/core/analysis/rank.h>
-#include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/contact/round_off.h>
-#include <dalembert/solvers/linear/rows.h>
-#include <dalembert/solvers/manifold/manifold.h>
 
 #include <algorithm>
 #include <cmath>

@@ -30,8 +30,8 @@ bool DryFriction::own(const RoughState& rough, Triggered triggered, Watched watc
   return triggered == kinds * index + watched;
 }
 
-/// What moves slides; what does not sticks, before `decide`. A slip that others prescribe is known to
-/// round-off, another one as exactly as velocities are.
+/// What moves slides; what does not sticks, before FrictionModes decide. A slip that others prescribe is
+/// known to round-off, another one as exactly as velocities are.
 void DryFriction::set_mode_by_slip(RoughState& rough, const std::vector<std::size_t>& open, double t,
                                    Triggered triggered) {
   const bool slid = rough.mode == Mode::slides, slow = slid && rough.pace != Pace::fast;

@@ -125,7 +125,7 @@ bool FrictionModes::turn(RoughState& rough, const Motion& motion) const {
   return true;
 }
 
-/// Whether something violated (1) and has been changed.
+/// Whether something violated the law and has been changed.
 bool FrictionModes::amend(const Motion& motion) {
   for (RoughState& r : all_) {
     const double zero = equations_->round_off_of(all_, r, motion.a, motion.lambda);

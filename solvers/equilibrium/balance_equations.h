@@ -20,7 +20,7 @@ inline constexpr double roundings_of_forces = 100.0;
 
 /// The balance of all forces at a state (q, lambda), and how exactly it is known:
 ///
-///   R1 = F + W^T lambda - M A v,   R2 = g + C lambda,   v = A q + b.                                (1)
+///   R1 = F + W^T lambda - M A v,   R2 = g + C lambda,   v = A q + b.
 class BalanceEquations {
  public:
   struct State {

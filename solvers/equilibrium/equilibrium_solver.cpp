@@ -1,14 +1,13 @@
 #include "dalembert/solvers/equilibrium/equilibrium_solver.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/equilibrium.h>
-#include <dalembert/solvers/equilibrium/mass_metric.h>
 #include <dalembert/solvers/equilibrium/static_length.h>
 #include <dalembert/solvers/manifold/manifold.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>

@@ -40,9 +40,11 @@ FirstOrder first_order(const Tangent& t) {
   const Matrix p = dense::sizes(P), C = dense::sizes(t.C);
   Matrix matrix(d + c, d + c), size(d + c, d + c);
   matrix.topRows(d) = dense::beside(-lifted, P);
-  matrix.bottomRows(c) = dense::beside(P.transpose() * (t.C * lifted - t.K), -dense::restricted(P, t.C));
+  matrix.bottomRows(c) =
+      dense::beside(P.transpose() * Matrix(t.C * lifted - t.K), -dense::restricted(P, t.C));
   size.topRows(d) = dense::beside(lifted_terms, p);
-  size.bottomRows(c) = dense::beside(p.transpose() * (C * lifted_terms + t.K_terms), dense::restricted(p, C));
+  size.bottomRows(c) =
+      dense::beside(p.transpose() * Matrix(C * lifted_terms + t.K_terms), dense::restricted(p, C));
   return {std::move(P), std::move(matrix), std::move(size), t.known()};
 }
 

@@ -200,7 +200,6 @@ MatrixXd Symmetries::conditions(const Problem& problem, const Start& start, doub
   const MatrixXd W_h_size = dense::sizes(W_h), W_v_size = dense::sizes(W_v), E_size = dense::sizes(E),
                  N_t_size = dense::sizes(N_t), K_size = dense::sizes(metric.K),
                  C_size = dense::sizes(metric.C);
-  using dense::product;
   MatrixXd value(m + N.cols(), count), size = value;
   for (Index k = 0; k < count; ++k) {
     const Generator& g = generators_[static_cast<std::size_t>(k)];

@@ -1,6 +1,5 @@
 #include "dalembert/solvers/manifold/minimum_norm.h"
 
-#include <dalembert/core/linear/products.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/linear/complementarity.h>
 
@@ -249,13 +248,13 @@ void MinimumNorm::keep_pushing(const std::vector<SharedContact>& sharing, std::s
   }
   if (n == 0 || p.minCoeff() >= 0.0) return;
   const Eigen::MatrixXd P = scale_.asDiagonal() * qr_.pseudo_inverse();
-  const Eigen::MatrixXd AP = A * P;
-  const Eigen::MatrixXd response = P * AP.transpose();
-  const Eigen::MatrixXd M = A * response;
+  const Eigen::MatrixXd AP = dense::product(A, P);
+  const Eigen::MatrixXd response = dense::product(P, Eigen::MatrixXd(AP.transpose()));
+  const Eigen::MatrixXd M = dense::product(A, response);
   for (const auto& group : connected(M)) {
     const auto push = complementary_solution(M(group, group), p(group));
     const Eigen::VectorXd y = push ? *push : least_pull(M(group, group), p(group));
-    all += N_ * (Eigen::MatrixXd(response(Eigen::all, group)) * y);
+    all += dense::product(N_, dense::product(Eigen::MatrixXd(response(Eigen::all, group)), y));
     for (std::size_t i = 0; push && i < group.size(); ++i)
       if (y[static_cast<Eigen::Index>(i)] > 0.0)
         all[sharing[static_cast<std::size_t>(group[i])].pressing_row] = 0.0;

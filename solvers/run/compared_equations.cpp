@@ -5,6 +5,7 @@
 #include <dalembert/solvers/linear/rows.h>
 #include <dalembert/solvers/run/sticking.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dalembert {

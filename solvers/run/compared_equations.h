@@ -17,7 +17,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 class ComparedEquations {
  public:
   ComparedEquations(const Problem& problem, const Start& start, double tolerance);
-  /// Needed by all below but `record`, and by that where forces read multipliers.
+  /// Once anything is compared: what follows needs accelerations. (Where forces read multipliers `record`
+  /// does, and this is done already.)
   void start_listening(const Problem& problem, const Start& start);
 
   [[nodiscard]] const System& system() const { return *system_; }
