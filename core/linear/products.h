@@ -6,10 +6,10 @@
 
 namespace dalembert {
 
-/// Products of whole dense matrices and vectors: with this header `A * B`, `A.transpose() * B` and
-/// `A * B.transpose()` call functions that are compiled once (dense.h). Eigen's own product takes up to half
-/// a second to compile, wherever it stands, and is left to blocks and other expressions. It makes a matrix of
-/// its own, also behind `noalias`: where steps are taken Eigen's is meant.
+/// Products of whole dense matrices and vectors. With this header `A * B`, `A.transpose() * B` and
+/// `A * B.transpose()` call functions that are compiled once (dense.h): Eigen's own product takes up to half
+/// a second to compile wherever it stands. Blocks and other expressions are left to Eigen. The result is a
+/// matrix of its own, even behind `noalias`: code that must not allocate leaves this header out.
 namespace products {
 template <class T, class... Of>
 concept OneOf = (std::same_as<T, Of> || ...);
