@@ -330,10 +330,12 @@ def sweeps(folder):
 def kernels(folder):
     section = Section("kernels", "Kernels", "How long does each kernel take?", checks=False)
     path = folder.path / "kernels.json"
-    if not path.exists():
+    try:
+        measured = json.loads(path.read_text())["benchmarks"]
+    except (FileNotFoundError, json.JSONDecodeError):  # not run, or stopped before its end
         folder.missing.append(path.name)
         return section
-    timed = [one for one in json.loads(path.read_text())["benchmarks"] if one.get("run_type", "iteration") == "iteration"]
+    timed = [one for one in measured if one.get("run_type", "iteration") == "iteration"]
     section.verdict = f"{counted(len(timed), 'kernel')}: time per call."
     unit = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
     rows = [[one["name"], duration(one["real_time"] * unit[one["time_unit"]])] for one in timed]

@@ -56,6 +56,11 @@ class Report(unittest.TestCase):
         self.assertIn("kernels.json", text)
         self.assertNotIn(">passes<", text)
 
+    def test_names_what_a_benchmark_that_was_stopped_left_empty(self):
+        text = report({"sweep.csv": "", "kernels.json": '{"benchmarks": [', "failures.txt": "sweep ended with status 143\n"})
+        for name in ("sweep.csv", "kernels.json", "sweep ended with status 143"):
+            self.assertIn(name, text)
+
     def test_is_well_formed_without_a_network(self):
         page = Page(report({"extremes.csv": EXTREMES}))
         self.assertEqual(page.open, [])
