@@ -15,8 +15,6 @@ namespace dense {
 [[nodiscard]] Eigen::VectorXd product(const Eigen::MatrixXd& A, const Eigen::VectorXd& x);
 [[nodiscard]] Eigen::MatrixXcd product(const Eigen::MatrixXd& A, const Eigen::MatrixXcd& B);
 [[nodiscard]] Eigen::VectorXcd product(const Eigen::MatrixXd& A, const Eigen::VectorXcd& x);
-[[nodiscard]] Eigen::MatrixXcd product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B);
-[[nodiscard]] Eigen::VectorXcd product(const Eigen::MatrixXcd& A, const Eigen::VectorXcd& x);
 [[nodiscard]] Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 [[nodiscard]] Eigen::VectorXd transposed_product(const Eigen::MatrixXd& A, const Eigen::VectorXd& x);
 [[nodiscard]] Eigen::MatrixXd product_transposed(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);

@@ -11,8 +11,6 @@ MatrixXd product(const MatrixXd& A, const MatrixXd& B) { return A * B; }
 VectorXd product(const MatrixXd& A, const VectorXd& x) { return A * x; }
 MatrixXcd product(const MatrixXd& A, const MatrixXcd& B) { return A * B; }
 VectorXcd product(const MatrixXd& A, const VectorXcd& x) { return A * x; }
-MatrixXcd product(const MatrixXcd& A, const MatrixXcd& B) { return A * B; }
-VectorXcd product(const MatrixXcd& A, const VectorXcd& x) { return A * x; }
 MatrixXd transposed_product(const MatrixXd& A, const MatrixXd& B) { return A.transpose() * B; }
 VectorXd transposed_product(const MatrixXd& A, const VectorXd& x) { return A.transpose() * x; }
 MatrixXd product_transposed(const MatrixXd& A, const MatrixXd& B) { return A * B.transpose(); }

@@ -16,24 +16,21 @@ concept OneOf = (std::same_as<T, Of> || ...);
 template <class T>
 concept Real = OneOf<T, Eigen::MatrixXd, Eigen::VectorXd>;
 template <class T>
-concept Complex = OneOf<T, Eigen::MatrixXcd, Eigen::VectorXcd>;
+concept Factor = Real<T> || OneOf<T, Eigen::MatrixXcd, Eigen::VectorXcd>;
 template <class T>
 concept Transposed = OneOf<T, Eigen::Transpose<Eigen::MatrixXd>, Eigen::Transpose<const Eigen::MatrixXd>>;
 }  // namespace products
 
-template <std::same_as<Eigen::MatrixXd> Matrix, class Factor>
-  requires products::Real<Factor> || products::Complex<Factor>
-[[nodiscard]] auto operator*(const Matrix& A, const Factor& B) { return dense::product(A, B); }
-template <std::same_as<Eigen::MatrixXcd> Matrix, products::Complex Factor>
-[[nodiscard]] auto operator*(const Matrix& A, const Factor& B) {
+template <std::same_as<Eigen::MatrixXd> Matrix, products::Factor Other>
+[[nodiscard]] auto operator*(const Matrix& A, const Other& B) {
   return dense::product(A, B);
 }
-template <products::Transposed Matrix, products::Real Factor>
-[[nodiscard]] auto operator*(const Matrix& A, const Factor& B) {
+template <products::Transposed Matrix, products::Real Other>
+[[nodiscard]] auto operator*(const Matrix& A, const Other& B) {
   return dense::transposed_product(A.nestedExpression(), B);
 }
-template <std::same_as<Eigen::MatrixXd> Matrix, products::Transposed Factor>
-[[nodiscard]] auto operator*(const Matrix& A, const Factor& B) {
+template <std::same_as<Eigen::MatrixXd> Matrix, products::Transposed Other>
+[[nodiscard]] auto operator*(const Matrix& A, const Other& B) {
   return dense::product_transposed(A, B.nestedExpression());
 }
 

@@ -61,7 +61,7 @@ ContactState& ContactImpacts::contact_of(const EventRecord& event) const {
   return *std::ranges::lower_bound(*contacts_, event.source, {}, &ContactState::number);
 }
 
-std::vector<ContactImpacts::Limit> ContactImpacts::note(const Change& change, const Gaps& gaps) const {
+std::vector<ContactImpacts::Limit> ContactImpacts::note(const Change& change, const Gaps& gaps) {
   const double t = at_.t;
   std::vector<Limit> limits;
   std::set<std::size_t> bouncing;

@@ -33,7 +33,7 @@ class ContactImpacts {
   /// Notes the impacts, once. Returns the islands where they accumulate, and when they end there: where all
   /// that was struck has no way left. What has no restitution has none at once, beside others that still
   /// bounce.
-  [[nodiscard]] std::vector<Limit> note(const Change& change, const Gaps& gaps) const;
+  [[nodiscard]] std::vector<Limit> note(const Change& change, const Gaps& gaps);
   /// All that was struck in the impacts of these limits.
   [[nodiscard]] std::vector<std::size_t> struck(const std::vector<Limit>& limits) const;
   /// Of contacts keeps the first `own` ones and those that an impulse at these reaches, through others or

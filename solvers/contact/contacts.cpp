@@ -5,7 +5,6 @@
 #include <dalembert/solvers/contact/contact_law.h>
 #include <dalembert/solvers/contact/contacts_at_start.h>
 #include <dalembert/solvers/contact/round_off.h>
-#include <dalembert/solvers/manifold/start.h>
 
 #include <algorithm>
 #include <cmath>

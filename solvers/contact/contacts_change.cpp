@@ -91,7 +91,7 @@ VectorXd Contacts::rates_of(const std::vector<std::size_t>& touched,
 /// The impacts of what touches, and what comes to rest by them.
 void Contacts::strike(std::vector<std::size_t>& touched, std::unique_ptr<Coupling>& coupling,
                       const Instant& at, VectorXd& U, Change& change) {
-  const ContactImpacts impacts(*stated_, contacts_, known_, at);
+  ContactImpacts impacts(*stated_, contacts_, known_, at);
   impacts.solve(*coupling, touched, U, change);
   find_gaps(at);
   const auto limits = impacts.note(change, gaps_);

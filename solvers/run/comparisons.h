@@ -9,7 +9,6 @@
 #include <map>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace DALEMBERT_HIDDEN dalembert {

@@ -15,6 +15,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <sstream>
 
 namespace dalembert::write_gltf_test {
@@ -25,6 +26,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
+constexpr double pi = std::numbers::pi;
 /// Numbers of an animation are of single precision: a few roundings of them.
 constexpr double single = 4.0 * std::numeric_limits<float>::epsilon();
 
@@ -163,6 +165,20 @@ TEST(WriteGltf, ARodLeadsFromOnePointToTheOther) {
     // About 100 least rotations follow each other, each with a rounding of double precision.
     EXPECT_LT((middle[i] - Vec<3>(r.x() / 2.0, r.y() / 2.0, 0.0)).norm(), single);
     EXPECT_LT((half - Vec<3>(r.x() / 2.0, r.y() / 2.0, 0.0)).norm(), single);
+  }
+}
+
+/// No least rotation leads to the opposite direction, and any half turn does.
+TEST(WriteGltf, ARodThatIsTurnedBackLeadsToItsOtherEnd) {
+  Scene<3> scene("whirl");
+  const auto bob =
+      scene.add_particle({.mass = 1.0, .position = {0.0, 0.0, -1.0}, .velocity = {pi, 0.0, 0.0}});
+  scene.add(Distance{Fixed<3>{}, bob, 1.0}, "rod");
+  const auto run = simulate(scene, {.t_end = 4.0, .samples = 5});  // half turns
+  const Glb glb(run);
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const Vec<3> along = glb.rotation("rod", i) * Vec<3>(0.0, 0.0, 1.0);
+    EXPECT_LT((along - run.position(bob, i)).norm(), single) << i;
   }
 }
 
