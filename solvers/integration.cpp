@@ -70,8 +70,8 @@ std::optional<Comparisons::Behind> Integration::behind_at(const System& system, 
 }
 
 /// From `start` at time t.
-std::unique_ptr<Integration::Segment> Integration::make_segment(const Problem& problem, Start start, double t,
-                                                                Stepper by) const {
+std::unique_ptr<Segment> Integration::make_segment(const Problem& problem, Start start, double t,
+                                                   Stepper by) const {
   const double tolerance = tolerance_of_a_step(by, options_.tolerance);
   if (auto behind = behind_at(problem.system(), t)) {
     Comparisons there(problem, start, tolerance, *std::move(behind));
@@ -85,8 +85,8 @@ std::unique_ptr<Integration::Segment> Integration::make_segment(const Problem& p
   return make_segment(problem, std::move(start), t, by, std::move(comparisons));
 }
 
-std::unique_ptr<Integration::Segment> Integration::make_segment(const Problem& problem, Start start, double t,
-                                                                Stepper by, Comparisons comparisons) const {
+std::unique_ptr<Segment> Integration::make_segment(const Problem& problem, Start start, double t, Stepper by,
+                                                   Comparisons comparisons) const {
   const Options options = options_from(t, by);
   std::unique_ptr<TimeStepper> stepper;
   {

@@ -3,10 +3,8 @@
 #include <dalembert/solvers/run/accumulated_error.h>
 #include <dalembert/solvers/run/comparisons.h>
 #include <dalembert/solvers/run/kept_steps.h>
-#include <dalembert/solvers/run/output_projection.h>
+#include <dalembert/solvers/run/segment.h>
 #include <dalembert/solvers/run/singularity.h>
-#include <dalembert/solvers/run/sticking.h>
-#include <dalembert/solvers/run/time_stepper.h>
 
 #include <memory>
 #include <optional>
@@ -85,19 +83,6 @@ class Integration {
   [[nodiscard]] Statistics statistics(double until) const;
 
  private:
-  /// What a restart makes from its start.
-  struct Segment {
-    Problem problem;
-    Start start;
-    Comparisons comparisons;
-    Stepper by;  // that of the options, or close to a singular position the explicit one
-    OutputProjection output;
-    std::unique_ptr<TimeStepper> stepper;
-    std::optional<Sticking> sticking;  // in a run by the implicit stepper, if there is friction
-
-    /// As long as it lives equations are evaluated on the sides of this segment.
-    [[nodiscard]] Branches hold() const { return {nullptr, comparisons.held()}; }
-  };
   /// A state of the stepper's own, not put onto the constraints.
   struct State {
     std::vector<double> q, v;

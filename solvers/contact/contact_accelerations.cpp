@@ -16,17 +16,15 @@ namespace dalembert {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-VectorXd accelerations_without(std::span<ContactState> contacts, const ContactAccuracy& known,
-                               Coupling& coupling, const std::vector<std::size_t>& touching,
-                               const Instant& at) {
-  for (const std::size_t i : touching) contacts[i].accepted = 0.0;
+VectorXd ContactAccelerations::without_forces(Coupling& coupling, const std::vector<std::size_t>& touching) {
+  for (const std::size_t i : touching) (*contacts_)[i].accepted = 0.0;
   const auto contact = [&](Index k) -> ContactState& {
-    return contacts[touching[static_cast<std::size_t>(k)]];
+    return (*contacts_)[touching[static_cast<std::size_t>(k)]];
   };
-  VectorXd free = coupling.accelerations_without(at);
+  VectorXd free = coupling.accelerations_without(at_);
   std::vector<Index> leaving;
   for (Index k = 0; k < free.size(); ++k) {
-    const double none = round_off() * known.own_acceleration(contact(k));
+    const double none = round_off() * known_->own_acceleration(contact(k));
     if (std::abs(free[k]) <= none) {
       free[k] = 0.0;
       contact(k).accepted = none;
@@ -34,38 +32,39 @@ VectorXd accelerations_without(std::span<ContactState> contacts, const ContactAc
     if (free[k] > 0.0) leaving.push_back(k);
   }
   if (leaving.empty()) return free;
-  const double soon = known.accuracy.short_time() * known.scales.time;
-  const double known_to = constants.most_correction * known.accuracy.of_times() * known.scales.time;
-  std::vector<double> q(at.q.begin(), at.q.end());
-  for (std::size_t i = 0; i < q.size(); ++i) q[i] += soon * at.v[i];
-  const VectorXd then = coupling.accelerations_without({at.t + soon, q, at.v});
-  (void)coupling.accelerations_without(at);  // it goes on from there
+  const Accuracy& accuracy = known_->accuracy;
+  const double soon = accuracy.short_time() * known_->scales.time;
+  const double known_to = constants.most_correction * accuracy.of_times() * known_->scales.time;
+  std::vector<double> q(at_.q.begin(), at_.q.end());
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] += soon * at_.v[i];
+  const VectorXd then = coupling.accelerations_without({at_.t + soon, q, at_.v});
+  (void)coupling.accelerations_without(at_);  // it goes on from there
   for (const Index k : leaving) {
     if (!(then[k] < 0.0)) continue;
     const double until = soon * free[k] / (free[k] - then[k]);
-    if (until <= known_to || free[k] <= known.accuracy.of_positions() * known.own_acceleration(contact(k)))
+    if (until <= known_to || free[k] <= accuracy.of_positions() * known_->own_acceleration(contact(k)))
       contact(k).accepted = std::exchange(free[k], 0.0);
   }
   return free;
 }
 
-std::vector<PairOfContact> pairs_of(const System& stated, std::span<const ContactState> contacts,
-                                    const ContactAccuracy& known, const Coupling& coupling,
-                                    const std::vector<std::size_t>& touching, const Coupling::Places& resting,
-                                    const VectorXd& without, const Instant& at) {
+std::vector<PairOfContact> ContactAccelerations::pairs(const Coupling& coupling,
+                                                       const std::vector<std::size_t>& touching,
+                                                       const Coupling::Places& resting,
+                                                       const VectorXd& free) const {
   std::vector<PairOfContact> pairs(touching.size());
   for (const auto& island : coupling.islands()) {
     Coupling::Places own;
     std::ranges::set_intersection(island, resting, std::back_inserter(own));
-    const VectorXd free = without(own);
-    const Eigen::MatrixXd S = coupled(coupling, own, known.scales, at.q);
-    const auto lambda = complementary_solution(S, free);
+    const VectorXd its = free(own);
+    const Eigen::MatrixXd S = coupled(coupling, own, known_->scales, at_.q);
+    const auto lambda = complementary_solution(S, its);
     if (!lambda)
-      refuse(stated, contacts, those_at(island, touching), at.t,
+      refuse(*stated_, *contacts_, those_at(island, touching), at_.t,
              "no accelerations satisfy all of them: other constraints drive them into each other");
     const VectorXd unit = units(S);
-    const double largest = free.size() > 0 ? free.cwiseProduct(unit).cwiseAbs().maxCoeff() : 0.0;
-    VectorXd A = free + S * *lambda;
+    const double largest = its.size() > 0 ? its.cwiseProduct(unit).cwiseAbs().maxCoeff() : 0.0;
+    VectorXd A = its + S * *lambda;
     clear_round_off(A, unit, largest);
     for (Index k = 0; k < A.size(); ++k)
       pairs[static_cast<std::size_t>(own[static_cast<std::size_t>(k)])] = {A[k], (*lambda)[k], unit[k],

@@ -12,28 +12,37 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// The accelerations of contacts at their surface, (2) of Contacts.
-
-/// Without forces of theirs, of those that touch. What neither leaves nor is pressed, to round-off, has none;
-/// nor has what leaves no faster than accelerations are known, or for no longer than times are, and is
-/// pressed soon: an error of its positions is what parts it. Notes what each has been accepted by.
-[[nodiscard]] Eigen::VectorXd accelerations_without(std::span<ContactState> contacts,
-                                                    const ContactAccuracy& known, Coupling& coupling,
-                                                    const std::vector<std::size_t>& touching,
-                                                    const Instant& at);
-
-/// What (2) gives for a contact, and the unit and the largest without forces of what it is coupled with.
+/// What (2) of Contacts gives for a contact, and the unit and the largest without forces of what it is
+/// coupled with.
 struct PairOfContact {
   double acceleration = 0.0, force = 0.0, unit = 0.0, largest = 0.0;
 };
-/// Of each that touches, at the places of those that rest; `without` from above. Throws StepFailure where
-/// nothing satisfies (2).
-[[nodiscard]] std::vector<PairOfContact> pairs_of(const System& stated,
-                                                  std::span<const ContactState> contacts,
-                                                  const ContactAccuracy& known, const Coupling& coupling,
-                                                  const std::vector<std::size_t>& touching,
-                                                  const Coupling::Places& resting,
-                                                  const Eigen::VectorXd& without, const Instant& at);
+
+/// The accelerations of touching contacts at an instant, (2) of Contacts.
+class ContactAccelerations {
+ public:
+  /// Of these contacts; all must outlive it.
+  ContactAccelerations(const System& stated, std::vector<ContactState>& contacts,
+                       const ContactAccuracy& known, const Instant& at)
+      : stated_(&stated), contacts_(&contacts), known_(&known), at_(at) {}
+
+  /// Without forces of those that touch. What neither leaves nor is pressed, to round-off, has none; nor has
+  /// what leaves no faster than accelerations are known, or for no longer than times are, and is pressed
+  /// soon: an error of its positions is what parts it. Notes what each has been accepted by.
+  [[nodiscard]] Eigen::VectorXd without_forces(Coupling& coupling, const std::vector<std::size_t>& touching);
+  /// Of each that touches, at the places of those that rest, with `free` from above. Throws StepFailure where
+  /// nothing satisfies (2).
+  [[nodiscard]] std::vector<PairOfContact> pairs(const Coupling& coupling,
+                                                 const std::vector<std::size_t>& touching,
+                                                 const Coupling::Places& resting,
+                                                 const Eigen::VectorXd& free) const;
+
+ private:
+  const System* stated_;
+  std::vector<ContactState>* contacts_;
+  const ContactAccuracy* known_;
+  Instant at_;
+};
 
 /// See Contacts::require_separation.
 void require_open_at_rest(const System& stated, std::span<const ContactState> contacts,

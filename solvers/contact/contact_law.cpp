@@ -37,6 +37,19 @@ Eigen::MatrixXd coupled(const Coupling& coupling, const Coupling::Places& places
   return S;
 }
 
+std::unique_ptr<Coupling> couple(const System& stated, std::span<const ContactState> contacts,
+                                 const std::vector<std::size_t>& which, const Instant& at) {
+  std::vector<std::size_t> numbers, others;
+  std::vector<char> among_them(contacts.size(), 0);
+  for (const std::size_t i : which) {
+    numbers.push_back(contacts[i].number);
+    among_them[i] = 1;
+  }
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (!among_them[i]) others.push_back(contacts[i].number);
+  return std::make_unique<Coupling>(std::make_shared<const System>(stated.without(others)), numbers, at);
+}
+
 void refuse(const System& stated, std::span<const ContactState> contacts,
             const std::vector<std::size_t>& which, double t, const std::string& what) {
   std::string names;

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,6 +29,10 @@ void clear_round_off(Eigen::VectorXd& x, const Eigen::VectorXd& unit, double lar
 /// what couples two contacts by no more is none.
 [[nodiscard]] Eigen::MatrixXd coupled(const Coupling& coupling, const Coupling::Places& places,
                                       const Scales& scales, std::span<const double> q);
+
+/// How these contacts act on each other, with no others in force. Throws as Coupling.
+[[nodiscard]] std::unique_ptr<Coupling> couple(const System& stated, std::span<const ContactState> contacts,
+                                               const std::vector<std::size_t>& which, const Instant& at);
 
 /// Throws StepFailure, naming these contacts.
 [[noreturn]] void refuse(const System& stated, std::span<const ContactState> contacts,

@@ -2,7 +2,9 @@
 
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/contact/contact_accelerations.h>
 #include <dalembert/solvers/contact/contact_law.h>
+#include <dalembert/solvers/contact/contact_resolution.h>
 #include <dalembert/solvers/contact/contacts_at_start.h>
 #include <dalembert/solvers/contact/round_off.h>
 
@@ -26,10 +28,6 @@ Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, d
   contacts_ = std::move(its.contacts);
   touching_at_start_ = std::move(its.touching);
   rebuild_system();
-}
-
-bool Contacts::among(const std::vector<std::size_t>& all, std::size_t contact) {
-  return std::ranges::find(all, contact) != all.end();
 }
 
 /// See ContactForces. One that was closed without a force is neither pressed nor left, to round-off.
@@ -95,18 +93,53 @@ std::vector<std::size_t> Contacts::touching(const Instant& at,
   return touching;
 }
 
-/// With only these of all contacts in force.
-std::unique_ptr<Coupling> Contacts::couple(const std::vector<std::size_t>& contacts,
-                                           const Instant& at) const {
-  std::vector<std::size_t> numbers, others;
-  std::vector<char> touches(contacts_.size(), 0);
-  for (const std::size_t i : contacts) {
-    numbers.push_back(contacts_[i].number);
-    touches[i] = 1;
-  }
+std::optional<std::size_t> Contacts::approaching() const {
   for (std::size_t i = 0; i < contacts_.size(); ++i)
-    if (!touches[i]) others.push_back(contacts_[i].number);
-  return std::make_unique<Coupling>(std::make_shared<const System>(stated_->without(others)), numbers, at);
+    if (!contacts_[i].closed && contacts_[i].rate_at_opening < 0.0) return i;
+  return std::nullopt;
+}
+
+Change Contacts::resolve_start(const Instant& start) {
+  std::vector<std::size_t> stay;
+  find_gaps(start);
+  for (const std::size_t i : touching_at_start_) {
+    ContactState& c = contacts_[i];
+    const double rate = gaps_.rate(c);
+    if (rate <= known_.still(c)) {
+      stay.push_back(i);
+    } else {
+      c.open(start.t, rate, gaps_.gap(c));
+    }
+  }
+  return resolve(start, stay);
+}
+
+Change Contacts::resolve(const Instant& at, const std::vector<std::size_t>& triggered) {
+  ContactResolution resolution(stated_, contacts_, known_, gaps_, at, triggered);
+  const bool known_roughly = !started_ || approaching();
+  started_ = true;
+  auto touched = touching(at, triggered);
+  if (!touched.empty()) {
+    resolution.resolve(std::move(touched), known_roughly, friction_);
+    everywhere_ = false;
+    rebuild_system();
+  }
+  return resolution.change();
+}
+
+std::optional<std::size_t> Contacts::driven_apart(const Instant& at) const {
+  std::vector<std::size_t> closed;
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    if (contacts_[i].closed) closed.push_back(i);
+  if (closed.empty()) return std::nullopt;
+  const auto coupling = couple(*stated_, contacts_, closed, at);
+  const Eigen::VectorXd free = coupling->accelerations_without(at);
+  for (std::size_t k = 0; k < closed.size(); ++k) {
+    const auto place = static_cast<Eigen::Index>(k);
+    if (coupling->is_held(place) && free[place] > round_off() * known_.own_acceleration(contacts_[closed[k]]))
+      return closed[k];
+  }
+  return std::nullopt;
 }
 
 bool Contacts::open_pulling(const FlatSample& now, std::vector<EventRecord>& events) {
@@ -149,12 +182,6 @@ void Contacts::require_open(const FlatSample& now) {
 void Contacts::require_separation(const FlatSample& now) const {
   find_gaps({now.time, now.q, now.v});
   require_open_at_rest(*stated_, contacts_, known_, gaps_, now);
-}
-
-void Contacts::open(std::size_t contact, double t, double rate, Change& change) {
-  ContactState& c = contacts_[contact];
-  if (c.closed) change.events.push_back({c.number, t, EventKind::opened});
-  c.open(t, rate, gaps_.gap(c));
 }
 
 std::vector<std::size_t> Contacts::replace_system(std::shared_ptr<const System> stated, const Instant& at) {

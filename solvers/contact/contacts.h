@@ -3,12 +3,8 @@
 #include <dalembert/core/scene/system.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/contact/change.h>
-#include <dalembert/solvers/contact/contact_accelerations.h>
 #include <dalembert/solvers/contact/contact_accuracy.h>
 #include <dalembert/solvers/contact/contact_forces.h>
-#include <dalembert/solvers/contact/coupling.h>
-
-#include <Eigen/Core>
 
 #include <memory>
 #include <optional>
@@ -94,27 +90,10 @@ class Contacts {
   [[nodiscard]] std::vector<std::size_t> open() const;
 
  private:
-  [[nodiscard]] static bool among(const std::vector<std::size_t>& all, std::size_t contact);
   void find_gaps(const Instant& at) const { gaps_.find(*stated_, at); }
   [[nodiscard]] double no_pull(const ContactState& contact, const FlatSample& now) const;
   [[nodiscard]] std::vector<std::size_t> touching(const Instant& at,
                                                   const std::vector<std::size_t>& triggered) const;
-  [[nodiscard]] std::unique_ptr<Coupling> couple(const std::vector<std::size_t>& contacts,
-                                                 const Instant& at) const;
-  [[nodiscard]] Eigen::VectorXd rates_of(const std::vector<std::size_t>& touched,
-                                         const std::vector<std::size_t>& triggered, const Coupling& coupling,
-                                         const Instant& at, bool known_roughly, Change& change);
-  void strike(std::vector<std::size_t>& touched, std::unique_ptr<Coupling>& coupling, const Instant& at,
-              Eigen::VectorXd& U, Change& change);
-  std::vector<Eigen::Index> open_separating(const std::vector<std::size_t>& touched, const Eigen::VectorXd& U,
-                                            double t, Change& change);
-  void update_rates(const Instant& at);
-  [[nodiscard]] bool add_slow(const Instant& at, std::vector<std::size_t>& touched) const;
-  void close_resting(const std::vector<std::size_t>& touched, const std::vector<std::size_t>& triggered,
-                     const std::vector<Eigen::Index>& resting, double t, Change& change);
-  void open_or_close(std::size_t contact, const std::vector<std::size_t>& triggered,
-                     const PairOfContact& pair, double t, Change& change);
-  void open(std::size_t contact, double t, double rate, Change& change);
   void rebuild_system();
 
   std::shared_ptr<const System> stated_, system_;

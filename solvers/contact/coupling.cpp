@@ -2,6 +2,7 @@
 
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/contact/round_off.h>
+#include <dalembert/solvers/linear/rows.h>
 
 #include <algorithm>
 #include <cmath>
@@ -72,10 +73,8 @@ void Coupling::respond() {
   std::size_t turns = 0;
   for (const Places& own : islands_) turns = std::max(turns, own.size());
   responses_.assign(turns, std::vector<double>(matrix_.size()));
-  for (std::size_t j = 0; j < rows_.size(); ++j) {
-    for (const std::size_t k : system_->row(rows_[j]))
-      responses_[turns_[j]][system_->w_columns()[k]] += signs_[j] * e_.w[k];
-  }
+  for (std::size_t j = 0; j < rows_.size(); ++j)
+    add_row(*system_, e_.w, rows_[j], signs_[j], responses_[turns_[j]]);
   for (auto& x : responses_) matrix_.solve(x);
 }
 
@@ -83,9 +82,7 @@ void Coupling::respond() {
 /// constraints are redundant.
 void Coupling::find_held(const std::vector<std::size_t>& contacts) {
   for (std::size_t j = 0; j < rows_.size(); ++j) {
-    double alone = 0.0;
-    for (const std::size_t k : system_->row(rows_[j]))
-      alone += e_.w[k] * e_.w[k] / system_->masses()[system_->w_columns()[k]];
+    const double alone = inverse_effective_mass(*system_, e_.w, rows_[j]);
     bool held = along(j, responses_[turns_[j]]) <= round_off() * alone;
     if (held) {
       std::vector<std::size_t> besides = contacts;
@@ -111,9 +108,7 @@ Eigen::MatrixXd Coupling::S(const Places& contacts) const {
 
 /// s W x of a contact.
 double Coupling::along(std::size_t contact, std::span<const double> x) const {
-  double sum = 0.0;
-  for (const std::size_t k : system_->row(rows_[contact])) sum += e_.w[k] * x[system_->w_columns()[k]];
-  return signs_[contact] * sum;
+  return signs_[contact] * row_times(*system_, e_.w, rows_[contact], x);
 }
 
 VectorXd Coupling::rates(std::span<const double> v) const {
@@ -137,8 +132,7 @@ void Coupling::add_compliant_forces(std::span<double> force) const {
   if (!system_->compliant()) return;
   for (std::size_t r = 0; r < system_->holonomic_rows(); ++r) {
     if (!system_->law(r).compliant()) continue;
-    const double lambda = system_->law(r).multiplier(e_.g[r]);
-    for (const std::size_t k : system_->row(r)) force[system_->w_columns()[k]] += e_.w[k] * lambda;
+    add_row(*system_, e_.w, r, system_->law(r).multiplier(e_.g[r]), force);
   }
 }
 

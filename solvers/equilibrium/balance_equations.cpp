@@ -89,6 +89,31 @@ double BalanceEquations::relative_residual(const State& s, std::span<const doubl
   return std::max(unbalanced, s.relative_violation);
 }
 
+bool BalanceEquations::is_round_off_of_its_terms(const State& s) const {
+  constexpr std::size_t most_looked_at = 100;
+  std::size_t looked_at = 0;
+  const Layout& layout = *system().layout();
+  const auto small = [&](int coordinate, double mass, std::size_t width) {
+    const auto first = static_cast<std::size_t>(coordinate);
+    double unbalanced = 0.0, sum = 0.0;
+    for (std::size_t i = first; i < first + width; ++i)
+      unbalanced = std::max(unbalanced, std::abs(s.force[i]) / (roundings_of_forces * epsilon));
+    if (unbalanced <= s.acting[first]) return true;
+    if (++looked_at > most_looked_at) return false;
+    std::vector<double> one(width);
+    for (std::size_t f = 0; f < layout.forces.size(); ++f) {
+      if (!layout.applied->on(f, {time_, s.q, s.v}, s.lambda, coordinate, mass, one)) return false;
+      sum += largest(one);
+    }
+    return unbalanced <= sum;
+  };
+  return std::ranges::all_of(layout.particles,
+                             [&](const auto& p) {
+                               return small(p.coordinate, p.mass, static_cast<std::size_t>(layout.dimension));
+                             }) &&
+         std::ranges::all_of(layout.rotors, [&](const auto& r) { return small(r.coordinate, 0.0, 1); });
+}
+
 ActiveRows BalanceEquations::rows_at(const State& s) const {
   if (rows_.size() == system().rows()) return rows_;
   auto e = system().evaluation();

@@ -78,6 +78,18 @@ EquilibriumSolver::EquilibriumSolver(const Problem& problem, std::span<const dou
     : BalanceEquations(problem, time, frame, consistent_guess(problem, guess, time, frame, length, longest)) {
 }
 
+EquilibriumSolver EquilibriumSolver::measured_at(const State& s) const {
+  EquilibriumSolver same = *this;
+  same.measure_stiffness(s);
+  return same;
+}
+
+EquilibriumSolver EquilibriumSolver::at_time(double t) const {
+  EquilibriumSolver same = *this;
+  same.set_time(t);
+  return same;
+}
+
 /// A step (dq, dlambda) of (K + s M) dq - W^T dlambda = R1, W dq + C dlambda = -R2.
 bool EquilibriumSolver::step(const State& s, std::span<const double> shift, std::vector<double>& x) const {
   const ActiveRows rows = rows_at(s);
@@ -189,8 +201,7 @@ void EquilibriumSolver::newton(State& s, std::span<const double> shift) const {
 /// was round-off beside that of the guess no longer is.
 bool EquilibriumSolver::solve(State& s) const {
   newton(s, shift());
-  EquilibriumSolver here = *this;
-  here.measure_stiffness(s);
+  const EquilibriumSolver here = measured_at(s);
   State closer = s;
   here.evaluate(closer);
   if (s.round_off && here.is_equilibrium(closer, residual_tolerance)) return true;
@@ -218,37 +229,9 @@ double EquilibriumSolver::correction(const State& s) const {
   return most;
 }
 
-/// Forces may cancel each other before they are added to those of the constraints: a residual is round-off if
-/// it is so of their magnitudes, summed without sign.
-bool EquilibriumSolver::is_round_off_of_its_terms(const State& s) const {
-  constexpr std::size_t most_looked_at = 100;
-  std::size_t looked_at = 0;
-  const Layout& layout = *system().layout();
-  const auto small = [&](int coordinate, double mass, std::size_t width) {
-    const auto first = static_cast<std::size_t>(coordinate);
-    double unbalanced = 0.0, sum = 0.0;
-    for (std::size_t i = first; i < first + width; ++i)
-      unbalanced = std::max(unbalanced, std::abs(s.force[i]) / (roundings_of_forces * epsilon));
-    if (unbalanced <= s.acting[first]) return true;
-    if (++looked_at > most_looked_at) return false;
-    std::vector<double> one(width);
-    for (std::size_t f = 0; f < layout.forces.size(); ++f) {
-      if (!layout.applied->on(f, {time(), s.q, s.v}, s.lambda, coordinate, mass, one)) return false;
-      sum += largest(one);
-    }
-    return unbalanced <= sum;
-  };
-  return std::ranges::all_of(layout.particles,
-                             [&](const auto& p) {
-                               return small(p.coordinate, p.mass, static_cast<std::size_t>(layout.dimension));
-                             }) &&
-         std::ranges::all_of(layout.rotors, [&](const auto& r) { return small(r.coordinate, 0.0, 1); });
-}
-
 bool EquilibriumSolver::is_equilibrium(const State& s, double close) const {
   if (s.relative_residual <= close) return true;
-  EquilibriumSolver here = *this;
-  here.measure_stiffness(s);
+  const EquilibriumSolver here = measured_at(s);
   State now = s;
   here.evaluate(now);
   if (now.relative_residual <= close) return true;
@@ -367,8 +350,7 @@ void EquilibriumSolver::require_lasting(const State& s) const {
            << remedy(moving.row);
       throw NoEquilibrium(what.str());
     }
-    EquilibriumSolver then = *this;
-    then.set_time(time() + later);
+    const EquilibriumSolver then = at_time(time() + later);
     then.evaluate(at);
     if (!then.is_equilibrium(at, equilibrium_tolerance) && !then.has_other_multipliers(at))
       then.refuse(at, frame().rotates()
@@ -400,49 +382,5 @@ std::shared_ptr<const Record> EquilibriumSolver::record(const State& found) cons
   record->append({time(), s.q, s.v, a, s.lambda, forces, energy, unique});
   return record;
 }
-
-std::shared_ptr<const Record> find_equilibrium(System system, std::span<const double> guess, double time,
-                                               const UniformRotation<3>& turning) {
-  try {
-    const EquilibriumSolver balance(Problem(std::move(system)), guess, time, turning);
-    const EquilibriumSolver::State start = balance.start();
-    EquilibriumSolver::State s = start;
-    if (!balance.solve(s)) {
-      s = start;
-      balance.descend(s);
-    }
-    balance.require_lasting(s);
-    return balance.record(s);
-  } catch (const EquationFault& fault) {
-    throw NoEquilibrium(fault.what());
-  }
-}
-
-namespace detail {
-
-/// As a start is compared with its constraints: relative to the largest velocity.
-std::string left_out(const Record& found, std::span<const double> stated) {
-  const Layout& layout = *found.layout;
-  const FlatSample at = found.sample(0);
-  const double close = start_tolerance * std::max(largest(stated), largest(at.v));
-  std::string names;
-  const auto look = [&](const auto& all, int width) {
-    for (const auto& one : all) {
-      bool differs = false;
-      for (int i = one.coordinate; i < one.coordinate + width; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        differs = differs || (stated[k] != 0.0 && std::abs(stated[k] - at.v[k]) > close);
-      }
-      if (differs) names += " \"" + one.name + '"';
-    }
-  };
-  look(layout.particles, layout.dimension);
-  look(layout.rotors, 1);
-  if (names.empty()) return {};
-  return "the velocities that scene \"" + layout.scene + "\" states for" + names +
-         " were left out: nothing moves in an equilibrium but by its turning";
-}
-
-}  // namespace detail
 
 }  // namespace dalembert

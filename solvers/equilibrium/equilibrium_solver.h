@@ -41,6 +41,9 @@ class EquilibriumSolver : public BalanceEquations {
   [[nodiscard]] std::shared_ptr<const Record> record(const State& s) const;
 
  private:
+  /// The same search, with what is known of forces by the stiffness at a state, or at another time.
+  [[nodiscard]] EquilibriumSolver measured_at(const State& s) const;
+  [[nodiscard]] EquilibriumSolver at_time(double t) const;
   [[nodiscard]] bool step(const State& s, std::span<const double> shift, std::vector<double>& x) const;
   [[nodiscard]] double lengths_of(const std::vector<double>& x) const;
   [[nodiscard]] static double power(const State& s, const std::vector<double>& x);
@@ -49,7 +52,6 @@ class EquilibriumSolver : public BalanceEquations {
   [[nodiscard]] bool improve(State& s, const std::vector<double>& x) const;
   [[nodiscard]] bool leaps_uphill(const State& s, const std::vector<double>& x) const;
   [[nodiscard]] double correction(const State& s) const;
-  [[nodiscard]] bool is_round_off_of_its_terms(const State& s) const;
   void newton(State& s, std::span<const double> shift) const;
   [[nodiscard]] bool has_other_multipliers(State& s) const;
   [[nodiscard]] std::string remedy(std::size_t row) const;

@@ -6,6 +6,7 @@
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
 #include <dalembert/solvers/equilibrium/quadratic_modes.h>
+#include <dalembert/solvers/linear/rows.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
@@ -153,10 +154,7 @@ double stiffest(const System& system, const LinearTerms& terms) {
   for (std::size_t r = 0; r < system.rows(); ++r) {
     const double C = system.law(r).compliance;
     if (C == 0.0) continue;  // a spring: w w^T/C
-    double square = 0.0;
-    for (const std::size_t k : system.row(r))
-      square += terms.w[k] * terms.w[k] / system.masses()[system.w_columns()[k]];
-    largest = std::max(largest, square / C);
+    largest = std::max(largest, inverse_effective_mass(system, terms.w, r) / C);
   }
   return largest;
 }

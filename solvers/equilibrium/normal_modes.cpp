@@ -10,6 +10,7 @@
 #include <dalembert/solvers/equilibrium/reversible.h>
 #include <dalembert/solvers/equilibrium/singular_position.h>
 #include <dalembert/solvers/equilibrium/tangent_modes.h>
+#include <dalembert/solvers/linear/rows.h>
 #include <dalembert/solvers/manifold/manifold.h>
 
 #include <algorithm>
@@ -193,10 +194,7 @@ void require_same_size(const System& system, const FlatSample& at) {
 bool are_of_other_forces(const System& system, const EquilibriumSolver::State& s,
                          std::span<const double> fresh, std::span<const double> w) {
   std::vector<double> excess(s.q.size());
-  for (std::size_t r = 0; r < system.rows(); ++r) {
-    for (const std::size_t k : system.row(r))
-      excess[system.w_columns()[k]] += (s.lambda[r] - fresh[r]) * w[k];
-  }
+  for (std::size_t r = 0; r < system.rows(); ++r) add_row(system, w, r, s.lambda[r] - fresh[r], excess);
   double unbalanced = 0.0;
   for (std::size_t i = 0; i < excess.size(); ++i)
     unbalanced = std::max(unbalanced, std::abs(s.force[i] - excess[i]));

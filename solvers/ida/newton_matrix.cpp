@@ -186,21 +186,6 @@ bool NewtonMatrix::refresh(const System::Evaluation& e, double c) {
   return k2_.factorise({.w = w_}) && (!k1_in_use_ || factorise_stiff(c));
 }
 
-double NewtonMatrix::along(std::size_t row, std::span<const double> values, std::span<const double> x) const {
-  double sum = 0.0;
-  for (const std::size_t k : system_->row(row)) {
-    sum += values[k] * x[system_->w_columns()[k]];
-  }
-  return sum;
-}
-
-/// x1 += factor w of a row.
-void NewtonMatrix::add_along(std::size_t row, double factor) {
-  for (const std::size_t k : system_->row(row)) {
-    x1_[system_->w_columns()[k]] += factor * w_[k];
-  }
-}
-
 /// Of an active row, from what (5) and (6) gave for it.
 double NewtonMatrix::dlambda(std::size_t active, double c) const {
   const double unknown = x1_[system_->coordinates() + active];
@@ -243,10 +228,10 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
   for (std::size_t r = 0; r < m; ++r) {
     const auto row = rows_.rows[r];
     if (r >= m_holonomic) {
-      x1_[n + r] = c * (b3[r] - along(row, w_, p_));
+      x1_[n + r] = c * (b3[r] - row_times(*system_, w_, row, p_));
     } else if (yields_[r]) {
       x1_[n + r] = c * c * b4[r];
-      add_along(row, c * dmu_[r]);
+      add_row(*system_, w_, row, c * dmu_[r], x1_);
     } else {
       x1_[n + r] = c * c * (b4[r] + c * C(row) * dmu_[r]);
     }
@@ -273,7 +258,7 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
   for (std::size_t j = 0; j < with_mu_.size(); ++j) {
     const std::size_t r = with_mu_[j];
     const auto row = rows_.rows[r];
-    x2_[n + j] = b3[r] - along(row, linear_.psi_q, x1_) - c * C(row) * dlambda(r, c);
+    x2_[n + j] = b3[r] - row_times(*system_, linear_.psi_q, row, x1_) - c * C(row) * dlambda(r, c);
   }
   k2_.solve(x2_);
   for (std::size_t j = 0; j < with_mu_.size(); ++j) dmu_[with_mu_[j]] = -x2_[n + j];  // the matrix has -G^T

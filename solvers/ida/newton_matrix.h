@@ -107,10 +107,7 @@ class NewtonMatrix {
     std::vector<double> x;
   };
 
-  [[nodiscard]] double along(std::size_t row, std::span<const double> values,
-                             std::span<const double> x) const;
   [[nodiscard]] std::vector<char> varying_islands() const;
-  void add_along(std::size_t row, double factor);
   [[nodiscard]] double dlambda(std::size_t active, double c) const;
   void judge(double c);
   void leave_out_soft_forces();

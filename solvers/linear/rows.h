@@ -7,6 +7,18 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
+/// w x of a row.
+[[nodiscard]] inline double row_times(const System& system, std::span<const double> w, std::size_t row,
+                                      std::span<const double> x) {
+  double sum = 0.0;
+  for (const std::size_t k : system.row(row)) sum += w[k] * x[system.w_columns()[k]];
+  return sum;
+}
+/// x += factor w^T of a row.
+inline void add_row(const System& system, std::span<const double> w, std::size_t row, double factor,
+                    std::span<double> x) {
+  for (const std::size_t k : system.row(row)) x[system.w_columns()[k]] += factor * w[k];
+}
 /// w M^-1 w^T of a row: the inverse effective mass of its multiplier.
 [[nodiscard]] double inverse_effective_mass(const System& system, std::span<const double> w, std::size_t row);
 /// |w| of a row; `lengths` turns each coordinate into a length: 1, or the scene's length for an angle.

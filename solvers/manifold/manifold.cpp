@@ -2,6 +2,7 @@
 
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
+#include <dalembert/solvers/linear/rows.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,28 +16,7 @@ namespace {
 /// round-off of round-off.
 constexpr double rigid = 1.0 / (epsilon * epsilon);
 
-Violation largest(const System& system, std::span<const double> residual, std::span<const double> w,
-                  std::span<const double> lengths) {
-  Violation worst;
-  for (std::size_t r = 0; r < residual.size(); ++r) {
-    if (residual[r] == 0.0) continue;
-    const double size = std::abs(residual[r]) / gradient_length(system, w, lengths, r);
-    if (!(size <= worst.size)) worst = {size, r};
-  }
-  return worst;
-}
-
 }  // namespace
-
-Violation position_violation(const System& system, const System::Evaluation& e,
-                             std::span<const double> lengths) {
-  return largest(system, e.g, e.w, lengths);
-}
-
-Violation velocity_violation(const System& system, const System::Evaluation& e,
-                             std::span<const double> lengths) {
-  return largest(system, e.psi, e.w, lengths);
-}
 
 Manifold::Manifold(const Problem& problem, const ActiveRows& rows, std::vector<double> lengths)
     : problem_(problem),
@@ -106,8 +86,7 @@ void Manifold::weakest_directions(std::span<double> n, std::span<double> respons
   std::ranges::fill(response, 0.0);
   for (std::size_t r = 0; r < system_->rows(); ++r) {
     if (!system_->in_force(r)) continue;
-    double change = 0.0;
-    for (const std::size_t k : system_->row(r)) change += e_.w[k] * n[system_->w_columns()[k]];
+    const double change = row_times(*system_, e_.w, r, n);
     double& own = response[islands.of_row(*system_, r)];
     own = std::max(own, std::abs(change) / gradient_length(*system_, e_.w, lengths_, r));
   }

@@ -2,6 +2,7 @@
 
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/linear/complementarity.h>
+#include <dalembert/solvers/linear/rows.h>
 
 #include <algorithm>
 #include <cmath>
@@ -179,9 +180,7 @@ void MinimumNorm::solve_for_correction(const Solve& solve, std::span<const doubl
   std::ranges::fill(x_, 0.0);
   for (Eigen::Index r = 0; r < N_.rows(); ++r) {
     const double factor = N_(r, j);
-    if (factor == 0.0) continue;
-    const auto row = static_cast<std::size_t>(r);
-    for (const std::size_t k : system_->row(row)) x_[system_->w_columns()[k]] += w[k] * factor;
+    if (factor != 0.0) add_row(*system_, w, static_cast<std::size_t>(r), factor, x_);
   }
   solve(x_);
 }

@@ -19,11 +19,6 @@ double norm(const System& system, std::span<const double> force) {
   return std::sqrt(square);
 }
 
-void add_row(const System& system, std::span<const double> entries, std::size_t row, double factor,
-             std::span<double> force) {
-  for (const std::size_t k : system.row(row)) force[system.w_columns()[k]] += factor * entries[k];
-}
-
 /// The dependences of rows on the active ones along a motion.
 class Dependences {
  public:
