@@ -42,6 +42,17 @@ struct ScalingOptions {
 /// at its peak so far, taken before the comparison. A run that was refused has its outcome in the table.
 void scaling(const ScalingOptions& options);
 
+struct SetUpOptions {
+  std::vector<int> sizes = {1, 10, 100, 1000};
+  std::vector<Stepper> steppers = {Stepper::ida, Stepper::erk};
+  int repeats = 3;
+  ReportOptions report{};
+};
+
+/// What does a scene cost at its start? Pendulums, contacts and friction by their number, each stated, begun
+/// and run for a millisecond: the median time. A run that was refused has its outcome in the table.
+void set_up(const SetUpOptions& options);
+
 struct OwnConstraintOptions {
   int beads = 100;
   int repeats = 5;

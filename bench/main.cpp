@@ -138,6 +138,14 @@ const Command commands[] = {
                add_tolerance(command, o.tolerance);
                add(command, "--t-end", o.t_end, "Length of the run [s]");
              })},
+    {"set-up", "What scenes of pendulums, contacts and friction cost at their start, by their number",
+     running(set_up,
+             [](CLI::App& command, SetUpOptions& o) {
+               add(command, "--size", o.sizes, "Number of pendulums, or of blocks")
+                   ->check(CLI::Range(1, 1'000'000));
+               add_repeats(command, o.repeats, "Runs of which the median time counts");
+               add_steppers(command, o.steppers);
+             })},
     {"own-constraint", "Run time of a chain whose rods are a user's lambdas against one of Distances",
      running(own_constraint,
              [](CLI::App& command, OwnConstraintOptions& o) {

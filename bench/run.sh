@@ -5,12 +5,12 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 case ${1:-} in
   '')
-    work_precision=(--repeat 5) scaling=(--size 10,100,1000,10000) ratios=() leave_out=() extremes=() audit=()
+    work_precision=(--repeat 5) scaling=(--size 10,100,1000,10000) set_up=() ratios=() leave_out=() extremes=() audit=()
     sensitivity=() chart=() certificates=() requests=(--repeat 5) sweep=(--flips 1000 --kapitza 150)
     kernels=(--benchmark_min_time=0.2) products=20000
     ;;
   --quick)
-    work_precision=(--repeat 1) scaling=(--size 10,100)
+    work_precision=(--repeat 1) scaling=(--size 10,100) set_up=(--size 1,10 --repeat 1)
     ratios=(--scene plane-pendulum,cone,double-pendulum --repeat 1) leave_out=(--size 10 --repeat 1)
     extremes=(--quick) audit=(--quick --repeat 1 --tolerance 1e-6)
     sensitivity=(--constant safety,share_of_a_step) chart=(--points 20)
@@ -56,6 +56,7 @@ done
 measure $bench ratios --csv $report/ratios.csv "${ratios[@]}"
 measure $bench scaling --stepper ida,erk,hand --tolerance 1e-5 --t-end 0.05 --csv $report/scaling.csv "${scaling[@]}"
 draw scaling.csv scaling
+measure $bench set-up --csv $report/set-up.csv "${set_up[@]}"
 measure $bench extremes --csv $report/extremes.csv "${extremes[@]}"
 draw extremes.csv extremes
 measure $bench audit --csv $report/audit.csv "${audit[@]}"

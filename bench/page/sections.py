@@ -48,8 +48,10 @@ def ratios(folder):
 
 
 def scaling(folder):
-    section = Section("scaling", "Scaling", "How do time and memory grow with the number of beads of a chain?", checks=False)
+    section = Section("scaling", "Scaling", "How do time and memory grow with the number of beads of a chain, and what "
+                      "does a scene cost at its start?", checks=False)
     table = folder.table("scaling")
+    set_up = folder.table("set-up")
     if table is None:
         return section
     refused = [row for row in table.rows if row["outcome"] != "ok"]
@@ -62,6 +64,11 @@ def scaling(folder):
         "run_time_s": ("run time", duration), "peak_memory_mib": ("peak memory so far / MiB", plain),
         "outcome": ("outcome", str)},
         "One run each. The error is not measured where the reference would take too long.")]
+    if set_up is not None:
+        section.grids.append(grid_of(set_up, {
+            "scene": ("scene", str), "stepper": ("stepper", str), "size": ("number", str), "time_s": ("time", duration),
+            "time_each_s": ("of each", duration), "outcome": ("outcome", str)},
+            "Scenes stated, begun and run for a millisecond"))
     return section
 
 

@@ -165,13 +165,17 @@ void SlidingFriction::force(std::size_t element, const Instant& at, std::span<co
   for (std::size_t j = 0; j < width_; ++j) out[j] = lambda[0] * work.f[j];
 }
 
-void SlidingFriction::exert(std::size_t i, const Instant& at, double lambda, std::span<double> sigma,
-                            std::span<double> F) const {
+void SlidingFriction::exert(const Instant& at, std::span<const std::size_t> first_row,
+                            std::span<double> lambda, std::span<double> slots) const {
   Work work;
   evaluate(at, work);
-  find_force_per_lambda(i, work);
-  for (std::size_t j = 0; j < width_; ++j) F[j] = lambda * work.f[j];
-  for (std::size_t k = 0; k < rows_; ++k) sigma[k] = -sliding_[i].strength * lambda * work.d[k];
+  for (std::size_t i = 0; i < sliding_.size(); ++i) {
+    find_force_per_lambda(i, work);
+    const double pressing = lambda[first_row[i]];
+    const auto sigma = sliding_[i].rows.in(lambda), F = sliding_[i].slots.in(slots);
+    for (std::size_t j = 0; j < width_; ++j) F[j] = pressing * work.f[j];
+    for (std::size_t k = 0; k < rows_; ++k) sigma[k] = -sliding_[i].strength * pressing * work.d[k];
+  }
 }
 
 }  // namespace dalembert

@@ -2,6 +2,7 @@
 
 #include <dalembert/core/equations/batch.h>
 #include <dalembert/core/equations/owned.h>
+#include <dalembert/core/places.h>
 
 #include <memory>
 #include <span>
@@ -11,11 +12,12 @@ namespace dalembert {
 
 /// A constraint of Coulomb's law that slides.
 struct Sliding {
-  std::size_t element;            ///< among those of its type
-  int pressed_by;                 ///< the scene's number of the constraint that gives the normal force
-  double strength;                ///< mu, with the sign of lambda
-  std::vector<double> direction;  ///< of one slip velocity: +-1, which holds; of two: where sliding begins
-  double slow = 0.0;              ///< below about this speed two slip velocities have that direction
+  std::size_t element;             ///< among those of its type
+  int pressed_by;                  ///< the scene's number of the constraint that gives the normal force
+  double strength;                 ///< mu, with the sign of lambda
+  std::vector<double> direction;   ///< of one slip velocity: +-1, which holds; of two: where sliding begins
+  double slow = 0.0;               ///< below about this speed two slip velocities have that direction
+  Places rows{0, 0}, slots{0, 0};  ///< its own in the layout
 };
 
 /// What constraints of one type exert while they slide. With u the slip velocities and W = du/dv
@@ -42,9 +44,10 @@ class SlidingFriction final : public ForceBatch {
   void force(std::size_t element, const Instant& at, std::span<const double> lambda,
              std::span<double> out) const override;
 
-  /// Sigma of one of them, one number per equation, and the force that it is on each coordinate.
-  void exert(std::size_t i, const Instant& at, double lambda, std::span<double> sigma,
-             std::span<double> F) const;
+  /// What all exert: sigma, one number per equation, in their rows of lambda, and the force that it is on
+  /// each coordinate in their slots.
+  void exert(const Instant& at, std::span<const std::size_t> first_row, std::span<double> lambda,
+             std::span<double> slots) const;
 
  private:
   struct Room;

@@ -64,9 +64,10 @@ System System::sliding(std::span<const Slide> slides) const {
     for (const Slide& slide : slides) {
       const auto place = std::ranges::find(parts_.constraint_numbers[b], static_cast<int>(slide.constraint));
       if (place == parts_.constraint_numbers[b].end()) continue;
+      const Layout::Constraint& its = layout_->constraints[slide.constraint];
       own.push_back({static_cast<std::size_t>(place - parts_.constraint_numbers[b].begin()),
-                     layout_->constraints[slide.constraint].condition.roughness->pressed_by, slide.strength,
-                     slide.direction, slide.slow});
+                     its.condition.roughness->pressed_by, slide.strength, slide.direction, slide.slow,
+                     its.own_rows(), its.slots()});
       numbers.push_back(*place);
     }
     if (own.empty()) continue;
@@ -79,15 +80,8 @@ System System::sliding(std::span<const Slide> slides) const {
 }
 
 void System::exert_sliding(const Instant& at, std::span<double> lambda, std::span<double> slots) const {
-  for (std::size_t k = 0; k < slides_.size(); ++k) {
-    const std::size_t b = stated_forces_ + k;
-    for (std::size_t i = 0; i < slides_[k]->size(); ++i) {
-      const Layout::Constraint& its =
-          layout_->constraints[static_cast<std::size_t>(parts_.force_numbers[b][i])];
-      slides_[k]->exert(i, at, lambda[force_places_[b].first_row[i]], its.own_rows().in(lambda),
-                        its.slots().in(slots));
-    }
-  }
+  for (std::size_t k = 0; k < slides_.size(); ++k)
+    slides_[k]->exert(at, force_places_[stated_forces_ + k].first_row, lambda, slots);
 }
 
 }  // namespace dalembert

@@ -57,7 +57,7 @@ std::vector<PairOfContact> ContactAccelerations::pairs(const Coupling& coupling,
     Coupling::Places own;
     std::ranges::set_intersection(island, resting, std::back_inserter(own));
     const VectorXd its = free(own);
-    const Eigen::MatrixXd S = coupled(coupling, own, known_->scales, at_.q);
+    const Eigen::MatrixXd S = coupled(coupling, own, known_->scales, rounding_);
     const auto lambda = complementary_solution(S, its);
     if (!lambda)
       refuse(*stated_, *contacts_, those_at(island, touching), at_.t,
@@ -80,8 +80,8 @@ void require_open_at_rest(const System& stated, std::span<const ContactState> co
   std::vector<double> gamma;
   for (const ContactState& c : contacts) {
     const double rate = gaps.rate(c);
-    const bool rests = !c.closed && gaps.gap(c) <= known.no_gap(c, now.q) && rate >= -known.still(c) &&
-                       rate <= known.no_rate(c);
+    const bool rests = !c.closed && gaps.gap(c) <= known.no_gap(c, gaps.rounding()) &&
+                       rate >= -known.still(c) && rate <= known.no_rate(c);
     if (!rests) continue;
     if (gamma.empty()) {
       gamma.resize(stated.rows());

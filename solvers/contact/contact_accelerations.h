@@ -24,14 +24,18 @@ class ContactAccelerations {
   /// Of these contacts; all must outlive it.
   ContactAccelerations(const System& stated, std::vector<ContactState>& contacts,
                        const ContactAccuracy& known, const Instant& at)
-      : stated_(&stated), contacts_(&contacts), known_(&known), at_(at) {}
+      : stated_(&stated),
+        contacts_(&contacts),
+        known_(&known),
+        at_(at),
+        rounding_(known.scales.rounding(at.q)) {}
 
   /// Without forces of those that touch. What neither leaves nor is pressed, to round-off, has none; nor has
   /// what leaves no faster than accelerations are known, or for no longer than times are, and is pressed
   /// soon: an error of its positions is what parts it. Notes what each has been accepted by.
   [[nodiscard]] Eigen::VectorXd without_forces(Coupling& coupling, const std::vector<std::size_t>& touching);
-  /// Of each that touches, at the places of those that rest, with `free` from above. Throws StepFailure where
-  /// nothing satisfies (2).
+  /// One for each that touches, filled for those that rest, at these places; `free` is what `without_forces`
+  /// gave. Throws StepFailure where nothing satisfies (2).
   [[nodiscard]] std::vector<PairOfContact> pairs(const Coupling& coupling,
                                                  const std::vector<std::size_t>& touching,
                                                  const Coupling::Places& resting,
@@ -42,6 +46,7 @@ class ContactAccelerations {
   std::vector<ContactState>* contacts_;
   const ContactAccuracy* known_;
   Instant at_;
+  double rounding_;  // of the positions
 };
 
 /// See Contacts::require_separation.

@@ -4,8 +4,8 @@
 
 namespace dalembert {
 
-double ContactAccuracy::no_gap(const ContactState& contact, std::span<const double> q) const {
-  return contact.gradient * scales.rounding(q);
+double ContactAccuracy::no_gap(const ContactState& contact, double rounding) const {
+  return contact.gradient * rounding;
 }
 
 double ContactAccuracy::no_rate(const ContactState& contact) const {
@@ -16,8 +16,8 @@ double ContactAccuracy::still(const ContactState& contact) const {
   return start_tolerance * scales.speed() * contact.gradient;
 }
 
-double ContactAccuracy::no_acceleration(const ContactState& contact, std::span<const double> q) const {
-  return no_gap(contact, q) / (duration * duration);
+double ContactAccuracy::no_acceleration(const ContactState& contact, double rounding) const {
+  return no_gap(contact, rounding) / (duration * duration);
 }
 
 double ContactAccuracy::own_acceleration(const ContactState& contact) const {

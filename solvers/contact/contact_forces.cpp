@@ -14,10 +14,11 @@ void ContactForces::find(const System& in_force, const FlatSample& now, const Sc
   in_force.evaluate({now.time, now.q, now.v}, e_);
   forces_.assign(now.a.size(), 0.0);
   noise_.assign(now.a.size(), 0.0);
-  const double rounding = scales.rounding(now.q);
+  rounding_ = scales.rounding(now.q);
+  const std::vector<double> lengths = scales.lengths();
   for (std::size_t r = 0; r < in_force.rows(); ++r) {
     if (!in_force.law(r).compliant() || !in_force.in_force(r)) continue;
-    const double stretch = gradient_length(in_force, e_.w, scales.lengths(), r) * rounding;
+    const double stretch = gradient_length(in_force, e_.w, lengths, r) * rounding_;
     for (const std::size_t k : in_force.row(r))
       noise_[in_force.w_columns()[k]] += std::abs(e_.w[k]) * stretch / in_force.law(r).compliance;
   }
@@ -33,9 +34,10 @@ void ContactForces::find(const System& in_force, const FlatSample& now, const Sc
 }
 
 double ContactForces::no_pull(const System& in_force, const ContactState& contact, const FlatSample& now,
-                              const ContactAccuracy& known, double least) {
+                              const ContactAccuracy& known, double accepted) {
   find(in_force, now, known.scales);
-  double net = 0.0, others = 0.0, inverse_mass = 0.0, noise = least;
+  double net = 0.0, others = 0.0, inverse_mass = 0.0,
+         noise = known.no_acceleration(contact, rounding_) + accepted;
   for (const std::size_t k : in_force.row(contact.row)) {
     const std::size_t i = in_force.w_columns()[k];
     const double w = e_.w[k], mass = in_force.masses()[i];

@@ -18,10 +18,10 @@ class ContactForces {
   void forget() { time_ = std::numeric_limits<double>::quiet_NaN(); }
   /// What is no pull of a closed contact yet, with those constraints in force: a part, as positions are
   /// known, of the forces on what it touches, as they act on its gap; what springs make of the rounding of
-  /// positions; and what `least`, an acceleration of its gap, comes to. What acts elsewhere tells nothing
-  /// about how exactly its force is known.
+  /// positions; and what that rounding and `accepted`, accelerations of its gap, come to. What acts elsewhere
+  /// tells nothing about how exactly its force is known.
   [[nodiscard]] double no_pull(const System& in_force, const ContactState& contact, const FlatSample& now,
-                               const ContactAccuracy& known, double least);
+                               const ContactAccuracy& known, double accepted);
 
  private:
   void find(const System& in_force, const FlatSample& now, const Scales& scales);
@@ -29,6 +29,7 @@ class ContactForces {
   System::Evaluation e_;
   std::vector<double> forces_;  // of constraints on each coordinate,
   std::vector<double> noise_;   // and what springs do not know of them
+  double rounding_ = 0.0;       // of the positions
   double time_ = std::numeric_limits<double>::quiet_NaN();
 };
 

@@ -27,7 +27,7 @@ void ContactImpacts::solve(const Coupling& coupling, const std::vector<std::size
     };
     VectorXd q = before;
     for (Index i = 0; i < q.size(); ++i) q[i] *= 1.0 + contact(i).restitution;
-    const Eigen::MatrixXd S = coupled(coupling, island, known_->scales, at_.q);
+    const Eigen::MatrixXd S = coupled(coupling, island, known_->scales, rounding_);
     const auto p = complementary_solution(S, q);
     if (!p)
       refuse(*stated_, *contacts_, its, at_.t,
@@ -96,7 +96,7 @@ void ContactImpacts::keep_reached(const Coupling& coupling, std::size_t own,
                                   std::vector<std::size_t>& contacts) const {
   Coupling::Places all;
   for (std::size_t k = 0; k < contacts.size(); ++k) all.push_back(static_cast<Index>(k));
-  const Eigen::MatrixXd S = coupled(coupling, all, known_->scales, at_.q);
+  const Eigen::MatrixXd S = coupled(coupling, all, known_->scales, rounding_);
   std::vector<char> reached(contacts.size(), 0);
   std::fill_n(reached.begin(), own, char{1});
   for (bool more = true; std::exchange(more, false);)

@@ -19,7 +19,11 @@ class ContactImpacts {
   /// Of these contacts, which it notes the impacts of; all must outlive it.
   ContactImpacts(const System& stated, std::vector<ContactState>& contacts, const ContactAccuracy& known,
                  const Instant& at)
-      : stated_(&stated), contacts_(&contacts), known_(&known), at_(at) {}
+      : stated_(&stated),
+        contacts_(&contacts),
+        known_(&known),
+        at_(at),
+        rounding_(known.scales.rounding(at.q)) {}
 
   /// Solves (1), of each island. U becomes U+. Throws StepFailure where nothing satisfies it.
   void solve(const Coupling& coupling, const std::vector<std::size_t>& touching, Eigen::VectorXd& U,
@@ -51,6 +55,7 @@ class ContactImpacts {
   std::vector<ContactState>* contacts_;
   const ContactAccuracy* known_;
   Instant at_;
+  double rounding_;  // of the positions
 };
 
 }  // namespace dalembert

@@ -26,10 +26,16 @@ std::vector<std::size_t> those_at(const Coupling::Places& places, const std::vec
   return its;
 }
 
+std::vector<char> marks(const std::vector<std::size_t>& which, std::size_t size) {
+  std::vector<char> marks(size, 0);
+  for (const std::size_t i : which) marks[i] = 1;
+  return marks;
+}
+
 Eigen::MatrixXd coupled(const Coupling& coupling, const Coupling::Places& places, const Scales& scales,
-                        std::span<const double> q) {
+                        double rounding) {
   Eigen::MatrixXd S = coupling.S(places);
-  const double directions = std::max(1.0, scales.rounding(q) / (epsilon * scales.length));
+  const double directions = std::max(1.0, rounding / (epsilon * scales.length));
   const Eigen::VectorXd unit = units(S);
   for (Index i = 0; i < S.rows(); ++i)
     for (Index j = 0; j < S.cols(); ++j)
@@ -37,14 +43,11 @@ Eigen::MatrixXd coupled(const Coupling& coupling, const Coupling::Places& places
   return S;
 }
 
-std::unique_ptr<Coupling> couple(const System& stated, std::span<const ContactState> contacts,
-                                 const std::vector<std::size_t>& which, const Instant& at) {
+std::unique_ptr<Coupling> coupling_of(const System& stated, std::span<const ContactState> contacts,
+                                      const std::vector<std::size_t>& which, const Instant& at) {
   std::vector<std::size_t> numbers, others;
-  std::vector<char> among_them(contacts.size(), 0);
-  for (const std::size_t i : which) {
-    numbers.push_back(contacts[i].number);
-    among_them[i] = 1;
-  }
+  for (const std::size_t i : which) numbers.push_back(contacts[i].number);
+  const auto among_them = marks(which, contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i)
     if (!among_them[i]) others.push_back(contacts[i].number);
   return std::make_unique<Coupling>(std::make_shared<const System>(stated.without(others)), numbers, at);

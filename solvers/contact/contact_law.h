@@ -25,14 +25,18 @@ void clear_round_off(Eigen::VectorXd& x, const Eigen::VectorXd& unit, double lar
 [[nodiscard]] std::vector<std::size_t> those_at(const Coupling::Places& places,
                                                 const std::vector<std::size_t>& touching);
 
+/// For each of so many, whether it is one of these.
+[[nodiscard]] std::vector<char> marks(const std::vector<std::size_t>& which, std::size_t size);
+
 /// S of contacts of one island. Gradients are known to the rounding of positions over the scene's length:
 /// what couples two contacts by no more is none.
 [[nodiscard]] Eigen::MatrixXd coupled(const Coupling& coupling, const Coupling::Places& places,
-                                      const Scales& scales, std::span<const double> q);
+                                      const Scales& scales, double rounding);
 
-/// How these contacts act on each other, with no others in force. Throws as Coupling.
-[[nodiscard]] std::unique_ptr<Coupling> couple(const System& stated, std::span<const ContactState> contacts,
-                                               const std::vector<std::size_t>& which, const Instant& at);
+/// How these contacts act on each other, with no other contacts in force. Throws as Coupling.
+[[nodiscard]] std::unique_ptr<Coupling> coupling_of(const System& stated,
+                                                    std::span<const ContactState> contacts,
+                                                    const std::vector<std::size_t>& which, const Instant& at);
 
 /// Throws StepFailure, naming these contacts.
 [[noreturn]] void refuse(const System& stated, std::span<const ContactState> contacts,

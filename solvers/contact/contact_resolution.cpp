@@ -14,10 +14,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-bool among(const std::vector<std::size_t>& all, std::size_t contact) {
-  return std::ranges::find(all, contact) != all.end();
-}
-
 /// Of what an impact has left so slowly that it has not parted from the surface again: by no more than this
 /// hop is it not known when.
 void come_to_rest(ContactState& contact, double t, Change& change) {
@@ -37,7 +33,7 @@ ContactResolution::ContactResolution(std::shared_ptr<const System> stated,
       known_(&known),
       gaps_(&gaps),
       at_(at),
-      triggered_(&triggered),
+      triggered_(marks(triggered, contacts.size())),
       change_{.v_before = {at.v.begin(), at.v.end()},
               .v = {at.v.begin(), at.v.end()},
               .impulses = std::vector<double>(stated_->rows())} {}
@@ -46,12 +42,8 @@ ContactState& ContactResolution::contact(Index place) const {
   return (*contacts_)[touching_[static_cast<std::size_t>(place)]];
 }
 
-bool ContactResolution::triggered(Index place) const {
-  return among(*triggered_, touching_[static_cast<std::size_t>(place)]);
-}
-
 void ContactResolution::couple(const Instant& at) {
-  coupling_ = dalembert::couple(*stated_, *contacts_, touching_, at);
+  coupling_ = coupling_of(*stated_, *contacts_, touching_, at);
 }
 
 void ContactResolution::resolve(std::vector<std::size_t> touching, bool known_roughly, bool friction) {
@@ -92,12 +84,13 @@ void ContactResolution::find_rates(bool known_roughly) {
 void ContactResolution::strike() {
   ContactImpacts impacts(*stated_, *contacts_, *known_, at_);
   impacts.solve(*coupling_, touching_, U_, change_);
-  gaps_->find(*stated_, at_);
+  gaps_->find(*stated_, known_->scales, at_);
   const auto limits = impacts.note(change_, *gaps_);
   if (limits.empty()) return;
   const std::size_t own = touching_.size();
+  const auto touches = marks(touching_, contacts_->size());
   for (const std::size_t i : impacts.struck(limits))
-    if (!among(touching_, i)) touching_.push_back(i);
+    if (!touches[i]) touching_.push_back(i);
   couple(after());
   if (touching_.size() > own) {
     impacts.keep_reached(*coupling_, own, touching_);
@@ -108,15 +101,16 @@ void ContactResolution::strike() {
 }
 
 /// Adds contacts left at their surface by impacts at one time, no faster than velocities are known: what
-/// bounces to and fro in a slot without play would else be open on both sides.
+/// bounces to and fro in a slot without play would else be open on both sides. All rates are then found anew.
 void ContactResolution::join_slow() {
   const std::size_t before = touching_.size();
-  gaps_->find(*stated_, after());
+  const auto touches = marks(touching_, contacts_->size());
+  gaps_->find(*stated_, known_->scales, after());
   for (std::size_t i = 0; i < contacts_->size(); ++i) {
     const ContactState& c = (*contacts_)[i];
     const bool slow =
-        std::abs(gaps_->rate(c)) <= known_->still(c) && gaps_->gap(c) <= known_->no_gap(c, at_.q);
-    if (!c.closed && slow && !among(touching_, i)) touching_.push_back(i);
+        std::abs(gaps_->rate(c)) <= known_->still(c) && gaps_->gap(c) <= known_->no_gap(c, gaps_->rounding());
+    if (!c.closed && slow && !touches[i]) touching_.push_back(i);
   }
   if (touching_.size() == before) return;
   couple(after());
@@ -125,7 +119,7 @@ void ContactResolution::join_slow() {
     if (std::abs(U_[k]) <= known_->still(contact(k))) U_[k] = 0.0;
 }
 
-/// Returns the others.
+/// Opens those that separate; returns the others.
 Coupling::Places ContactResolution::open_separating() {
   Coupling::Places resting;
   for (Index k = 0; k < U_.size(); ++k) {
@@ -149,7 +143,7 @@ void ContactResolution::close_resting(const Coupling::Places& resting) {
   }
 }
 
-/// By the acceleration and the force of (2).
+/// What rests, by its acceleration and its force, (2) of Contacts.
 void ContactResolution::open_or_close(Index k, const PairOfContact& pair) {
   // A force that has fallen to 0 goes on falling: the contact opens, though nothing separates it yet. So does
   // one that has fallen at this very time, before another: it stays open.
@@ -174,7 +168,7 @@ void ContactResolution::open(Index place, double rate) {
 
 /// Of contacts that opened at this very time, after the impacts of others.
 void ContactResolution::update_rates() {
-  gaps_->find(*stated_, after());
+  gaps_->find(*stated_, known_->scales, after());
   for (ContactState& c : *contacts_) {
     if (c.closed || c.opened_at != at_.t) continue;
     const double rate = gaps_->rate(c);

@@ -17,13 +17,14 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// after them, by (2).
 class ContactResolution {
  public:
-  /// Of these contacts, which it opens and closes; those that have fallen to 0. All must outlive it.
+  /// Of these contacts, which it opens and closes; `triggered` are those whose switching functions have
+  /// fallen to 0. Contacts, gaps and the state must outlive it.
   ContactResolution(std::shared_ptr<const System> stated, std::vector<ContactState>& contacts,
                     const ContactAccuracy& known, Gaps& gaps, const Instant& at,
                     const std::vector<std::size_t>& triggered);
 
-  /// With these in touch. Their velocities may be known only roughly, at a start and after impacts at one
-  /// time; with friction the accelerations are not those of (2). See Contacts::resolve, also for what is
+  /// Once, with these in touch. Their velocities may be known only roughly, at a start and after impacts at
+  /// one time; with friction the accelerations are not those of (2). See Contacts::resolve, also for what is
   /// thrown.
   void resolve(std::vector<std::size_t> touching, bool known_roughly, bool friction);
   /// What has changed: nothing before `resolve`.
@@ -31,7 +32,9 @@ class ContactResolution {
 
  private:
   [[nodiscard]] ContactState& contact(Eigen::Index place) const;
-  [[nodiscard]] bool triggered(Eigen::Index place) const;
+  [[nodiscard]] bool triggered(Eigen::Index place) const {
+    return triggered_[touching_[static_cast<std::size_t>(place)]] != 0;
+  }
   /// The instant, after the impacts.
   [[nodiscard]] Instant after() const { return {at_.t, at_.q, change_.v}; }
   void couple(const Instant& at);
@@ -49,9 +52,9 @@ class ContactResolution {
   const ContactAccuracy* known_;
   Gaps* gaps_;
   Instant at_;
-  const std::vector<std::size_t>* triggered_;
-  std::vector<std::size_t> touching_;   // of the contacts,
-  std::unique_ptr<Coupling> coupling_;  // how they act on each other,
+  std::vector<char> triggered_;         // for each contact
+  std::vector<std::size_t> touching_;   // what touches, by place among the contacts,
+  std::unique_ptr<Coupling> coupling_;  // how these act on each other,
   Eigen::VectorXd U_;                   // and their rates: 0 of what rests
   Change change_;
 };

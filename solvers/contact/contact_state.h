@@ -3,6 +3,7 @@
 #include <dalembert/core/scene/system.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/contact/accumulation.h>
+#include <dalembert/solvers/manifold/scales.h>
 
 #include <algorithm>
 #include <limits>
@@ -46,8 +47,9 @@ class Gaps {
  public:
   explicit Gaps(const System& stated) : g_(stated.rows()), rates_(stated.rows()) {}
 
-  void find(const System& stated, const Instant& at) {
+  void find(const System& stated, const Scales& scales, const Instant& at) {
     stated.gaps(at, g_, rates_);
+    rounding_ = scales.rounding(at.q);
     time_ = at.t;
   }
   [[nodiscard]] bool found_at(double t) const { return time_ == t; }
@@ -55,9 +57,12 @@ class Gaps {
 
   [[nodiscard]] double gap(const ContactState& contact) const { return contact.sign * g_[contact.row]; }
   [[nodiscard]] double rate(const ContactState& contact) const { return contact.sign * rates_[contact.row]; }
+  /// Of the positions, see Scales.
+  [[nodiscard]] double rounding() const { return rounding_; }
 
  private:
   std::vector<double> g_, rates_;  // of all rows
+  double rounding_ = 0.0;
   double time_ = std::numeric_limits<double>::quiet_NaN();
 };
 

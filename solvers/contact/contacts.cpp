@@ -34,8 +34,7 @@ Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, d
 double Contacts::no_pull(const ContactState& contact, const FlatSample& now) const {
   const double round_off_of_scene =
       contact.bears || friction_ ? 0.0 : round_off() * known_.own_acceleration(contact);
-  const double least = known_.no_acceleration(contact, now.q) + 2.0 * contact.accepted + round_off_of_scene;
-  return forces_.no_pull(*system_, contact, now, known_, least);
+  return forces_.no_pull(*system_, contact, now, known_, 2.0 * contact.accepted + round_off_of_scene);
 }
 
 double Contacts::switching(std::size_t contact, const FlatSample& now) const {
@@ -44,7 +43,7 @@ double Contacts::switching(std::size_t contact, const FlatSample& now) const {
   if (now.time == c.opened_at) return c.rate_at_opening;
   if (!gaps_.found_at(now.time)) find_gaps({now.time, now.q, now.v});
   const double gap = gaps_.gap(c), rate = gaps_.rate(c);
-  const double none = known_.no_gap(c, now.q),
+  const double none = known_.no_gap(c, gaps_.rounding()),
                below = c.parted ? none : std::max(none, known_.error_of_gap(c));
   const bool leaves = rate > known_.no_rate(c);
   if (leaves && gap <= none && gap >= c.gap_at_opening - below) return rate;
@@ -57,7 +56,7 @@ double Contacts::rate(std::size_t contact, const FlatSample& now) const {
   if (c.closed || now.time == c.opened_at) return std::numeric_limits<double>::quiet_NaN();
   if (!gaps_.found_at(now.time)) find_gaps({now.time, now.q, now.v});
   const double gap = gaps_.gap(c), rate = gaps_.rate(c);
-  if (gap <= known_.no_gap(c, now.q)) return std::numeric_limits<double>::quiet_NaN();
+  if (gap <= known_.no_gap(c, gaps_.rounding())) return std::numeric_limits<double>::quiet_NaN();
   if (!c.opened_at) return rate;
   const double since = now.time - *c.opened_at;
   return (rate - gap / since) / since;
@@ -73,14 +72,13 @@ double Contacts::unit(std::size_t contact) const {
 std::vector<std::size_t> Contacts::touching(const Instant& at,
                                             const std::vector<std::size_t>& triggered) const {
   const double same_time = known_.accuracy.of_times() * known_.scales.time;
-  std::vector<char> touches(contacts_.size(), 0);
+  auto touches = marks(triggered, contacts_.size());
   std::set<std::size_t> islands;
   find_gaps(at);
-  for (const std::size_t i : triggered) touches[i] = 1;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const ContactState& c = contacts_[i];
     const double gap = gaps_.gap(c), rate = gaps_.rate(c);
-    const double none = known_.no_gap(c, at.q);
+    const double none = known_.no_gap(c, gaps_.rounding());
     const bool lies = gap <= none && rate <= known_.still(c);
     if (!c.closed && (lies || (rate < 0.0 && gap + rate * same_time <= none))) touches[i] = 1;
     if (touches[i] || everywhere_) islands.insert(c.island);
@@ -132,7 +130,7 @@ std::optional<std::size_t> Contacts::driven_apart(const Instant& at) const {
   for (std::size_t i = 0; i < contacts_.size(); ++i)
     if (contacts_[i].closed) closed.push_back(i);
   if (closed.empty()) return std::nullopt;
-  const auto coupling = couple(*stated_, contacts_, closed, at);
+  const auto coupling = coupling_of(*stated_, contacts_, closed, at);
   const Eigen::VectorXd free = coupling->accelerations_without(at);
   for (std::size_t k = 0; k < closed.size(); ++k) {
     const auto place = static_cast<Eigen::Index>(k);

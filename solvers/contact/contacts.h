@@ -43,7 +43,10 @@ class Contacts {
   /// there. Throws StepFailure where a gap is negative, naming the contact.
   [[nodiscard]] std::vector<std::size_t> replace_system(std::shared_ptr<const System> stated,
                                                         const Instant& at);
-  void adopt(const Scales& scales) { known_.scales = scales; }
+  void adopt(const Scales& scales) {
+    known_.scales = scales;
+    forget_instant();
+  }
   /// The state watched goes on from another one, which may be at the same time.
   void forget_instant() {
     gaps_.forget();
@@ -90,7 +93,7 @@ class Contacts {
   [[nodiscard]] std::vector<std::size_t> open() const;
 
  private:
-  void find_gaps(const Instant& at) const { gaps_.find(*stated_, at); }
+  void find_gaps(const Instant& at) const { gaps_.find(*stated_, known_.scales, at); }
   [[nodiscard]] double no_pull(const ContactState& contact, const FlatSample& now) const;
   [[nodiscard]] std::vector<std::size_t> touching(const Instant& at,
                                                   const std::vector<std::size_t>& triggered) const;

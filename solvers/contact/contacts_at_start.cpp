@@ -81,8 +81,8 @@ ContactsAtStart find_contacts(const System& stated, const Scales& scales, const 
                                                  .island = all.of_row(stated, row),
                                                  .gradient = gradients[i]});
     // Positions are known to their rounding and to that of the time: a sample of an impact is a start.
-    const double gap = gaps.gap(c), rounding = c.gradient * scales.rounding(start.q) +
-                                               round_off() * std::abs(start.t * gaps.rate(c));
+    const double gap = gaps.gap(c),
+                 rounding = c.gradient * gaps.rounding() + round_off() * std::abs(start.t * gaps.rate(c));
     const double allowed = std::max(start_tolerance * scales.length * c.gradient, rounding);
     if (std::abs(gap) <= allowed) found.touching.push_back(i);
     if (gap >= -allowed) continue;

@@ -34,7 +34,7 @@ FrictionEquations::Motion FrictionEquations::solve(std::span<const RoughState> a
   const System* const system = &problem.system();
   auto e = system->evaluation();
   system->evaluate(at, e);
-  Manifold manifold(problem, independent_rows(*system, e.w), scales_.lengths());
+  Manifold manifold(problem, independent_rows(*system, e.w), lengths_);
   Motion motion{std::vector<double>(at.q.size()), std::vector<double>(system->rows())};
   std::vector<double> v(at.v.begin(), at.v.end());
   if (!manifold.solve_motion(at.t, at.q, v, motion.a, motion.lambda)) throw linearly_dependent(at.t);
@@ -48,7 +48,7 @@ std::vector<double> FrictionEquations::velocities_at_rest(std::span<const RoughS
   const System& system = problem.system();
   auto e = system.evaluation();
   system.evaluate(at, e);
-  Manifold manifold(problem, independent_rows(system, e.w), scales_.lengths());
+  Manifold manifold(problem, independent_rows(system, e.w), lengths_);
   std::vector<double> v(at.v.begin(), at.v.end()), impulses(system.rows());
   if (!manifold.project_impulsively(at.t, at.q, v, impulses)) throw linearly_dependent(at.t);
   return v;
@@ -90,7 +90,7 @@ SlipCoupling FrictionEquations::released(std::span<const RoughState> all,
     out.push_back(all[i].number);
     rows.push_back({all[i].row, all[i].rows, all[i].pressing_row});
   }
-  return {*stated_, with_modes(all, out), rows, scales_.lengths(), at, tolerance_};
+  return {*stated_, with_modes(all, out), rows, lengths_, at, tolerance_};
 }
 
 double FrictionEquations::round_off_of(std::span<const RoughState> all, const RoughState& rough,
@@ -98,14 +98,13 @@ double FrictionEquations::round_off_of(std::span<const RoughState> all, const Ro
   double force = std::abs(lambda[rough.pressing_row]);
   for (const RoughState& other : all)
     if (rough.shared && other.shared) force = std::max(force, std::abs(lambda[other.pressing_row]));
-  const auto lengths = scales_.lengths();
   for (std::size_t row = rough.row; row < rough.row + rough.rows; ++row) {
     double acceleration = 0.0;
     for (const std::size_t j : stated_->row(row)) {
       const std::size_t i = stated_->w_columns()[j];
-      acceleration = std::max(acceleration, std::abs(a[i]) * lengths[i]);
+      acceleration = std::max(acceleration, std::abs(a[i]) * lengths_[i]);
     }
-    force = std::max({force, std::abs(lambda[row]), lightest_mass(*stated_, lengths, row) * acceleration});
+    force = std::max({force, std::abs(lambda[row]), lightest_mass(*stated_, lengths_, row) * acceleration});
   }
   return std::min(round_off(), tolerance_) * force + std::numeric_limits<double>::min();
 }

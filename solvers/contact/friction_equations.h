@@ -22,12 +22,15 @@ class FrictionEquations {
   using Open = std::vector<std::size_t>;
 
   FrictionEquations(std::shared_ptr<const System> stated, const Scales& scales, double tolerance)
-      : stated_(std::move(stated)), scales_(scales), tolerance_(tolerance) {}
+      : stated_(std::move(stated)), scales_(scales), lengths_(scales.lengths()), tolerance_(tolerance) {}
   [[nodiscard]] const std::shared_ptr<const System>& stated() const { return stated_; }
   [[nodiscard]] const Scales& scales() const { return scales_; }
   [[nodiscard]] double tolerance() const { return tolerance_; }
   void replace_system(std::shared_ptr<const System> stated) { stated_ = std::move(stated); }
-  void adopt(const Scales& scales) { scales_ = scales; }
+  void adopt(const Scales& scales) {
+    scales_ = scales;
+    lengths_ = scales.lengths();
+  }
 
   /// The system with what sticks and what slides, without what is open, contacts or frictions.
   [[nodiscard]] std::shared_ptr<const System> with_modes(std::span<const RoughState> all,
@@ -56,6 +59,7 @@ class FrictionEquations {
  private:
   std::shared_ptr<const System> stated_;
   Scales scales_;
+  std::vector<double> lengths_;  // as in Scales
   double tolerance_;
 };
 

@@ -3,6 +3,7 @@
 #include <dalembert/core/analysis/rank.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/base/step_failure.h>
+#include <dalembert/solvers/linear/rows.h>
 #include <dalembert/solvers/manifold/manifold.h>
 
 #include <algorithm>
@@ -89,14 +90,11 @@ void SlipCoupling::find_responses(const Equations& its, bool with_sliding, Eigen
   std::vector<double> x(matrix.size());
   for (std::size_t k = 0; k < its.rows.size(); ++k) {
     std::ranges::fill(x, 0.0);
-    for (const std::size_t j : its.stated.row(its.rows[k])) x[its.stated.w_columns()[j]] += its.e.w[j];
+    add_row(its.stated, its.e.w, its.rows[k], 1.0, x);
     matrix.solve(x);
-    for (std::size_t l = 0; l < its.rows.size(); ++l) {
-      double sum = 0.0;
-      for (const std::size_t j : its.stated.row(its.rows[l]))
-        sum += its.e.w[j] * x[its.stated.w_columns()[j]];
-      responses(static_cast<Index>(l), static_cast<Index>(k)) = sum;
-    }
+    for (std::size_t l = 0; l < its.rows.size(); ++l)
+      responses(static_cast<Index>(l), static_cast<Index>(k)) =
+          row_times(its.stated, its.e.w, its.rows[l], x);
     for (std::size_t i = 0; i < its.of.size(); ++i) {
       const auto own = std::ranges::find(its.active.rows, its.of[i].pressing_row);
       if (own == its.active.rows.end()) continue;

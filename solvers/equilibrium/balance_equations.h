@@ -42,9 +42,6 @@ class BalanceEquations {
   void evaluate(State& s) const;
   /// The residual of a state relative to the forces in another.
   [[nodiscard]] static double relative_residual(const State& s, std::span<const double> acting);
-  /// Whether the residual is round-off of the magnitudes of all forces, summed without sign: they may cancel
-  /// each other before they are added to those of the constraints.
-  [[nodiscard]] bool is_round_off_of_its_terms(const State& s) const;
   /// Gives each coordinate of a particle the largest number of any of them.
   void share_by_particle(std::span<double> numbers) const;
   /// Independent rows there.
@@ -61,6 +58,9 @@ class BalanceEquations {
 
  protected:
   [[nodiscard]] const Problem& problem() const { return problem_; }
+  /// Whether R1 is no more than round-off of all forces, summed without sign: they may cancel each other
+  /// before those of the constraints are added.
+  [[nodiscard]] bool is_round_off_of_its_terms(const State& s) const;
   /// What is known of forces, and the shifts below, by the stiffness at a state.
   void measure_stiffness(const State& s);
   void set_time(double t) { time_ = t; }

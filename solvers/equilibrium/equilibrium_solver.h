@@ -41,8 +41,9 @@ class EquilibriumSolver : public BalanceEquations {
   [[nodiscard]] std::shared_ptr<const Record> record(const State& s) const;
 
  private:
-  /// The same search, with what is known of forces by the stiffness at a state, or at another time.
+  /// The same search, with what the stiffness at this state tells about forces.
   [[nodiscard]] EquilibriumSolver measured_at(const State& s) const;
+  /// The same search at another time.
   [[nodiscard]] EquilibriumSolver at_time(double t) const;
   [[nodiscard]] bool step(const State& s, std::span<const double> shift, std::vector<double>& x) const;
   [[nodiscard]] double lengths_of(const std::vector<double>& x) const;

@@ -11,7 +11,7 @@
 #include <dalembert/solvers/equilibrium/singular_position.h>
 #include <dalembert/solvers/equilibrium/tangent_modes.h>
 #include <dalembert/solvers/linear/rows.h>
-#include <dalembert/solvers/manifold/manifold.h>
+#include <dalembert/solvers/manifold/violation.h>
 
 #include <algorithm>
 #include <cmath>
@@ -67,9 +67,7 @@ double stiffness_along(const EquilibriumSolver& balance, const EquilibriumSolver
   for (std::size_t r = 0; r < balance.system().rows(); ++r) {
     const double C = balance.system().law(r).compliance;
     if (C == 0.0) continue;
-    double elongation = 0.0;
-    for (const std::size_t k : balance.system().row(r))
-      elongation += terms.w[k] * u[balance.system().w_columns()[k]];
+    const double elongation = row_times(balance.system(), terms.w, r, u);
     sum += elongation * elongation / C;
   }
   return sum;

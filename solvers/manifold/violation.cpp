@@ -8,8 +8,8 @@ namespace dalembert {
 
 namespace {
 
-Violation largest(const System& system, std::span<const double> residual, std::span<const double> w,
-                  std::span<const double> lengths) {
+Violation worst_of(const System& system, std::span<const double> residual, std::span<const double> w,
+                   std::span<const double> lengths) {
   Violation worst;
   for (std::size_t r = 0; r < residual.size(); ++r) {
     if (residual[r] == 0.0) continue;
@@ -23,12 +23,12 @@ Violation largest(const System& system, std::span<const double> residual, std::s
 
 Violation position_violation(const System& system, const System::Evaluation& e,
                              std::span<const double> lengths) {
-  return largest(system, e.g, e.w, lengths);
+  return worst_of(system, e.g, e.w, lengths);
 }
 
 Violation velocity_violation(const System& system, const System::Evaluation& e,
                              std::span<const double> lengths) {
-  return largest(system, e.psi, e.w, lengths);
+  return worst_of(system, e.psi, e.w, lengths);
 }
 
 }  // namespace dalembert

@@ -13,8 +13,8 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// A part of a run in which the same equations are stepped by the same stepper, and all that is made from its
-/// start for it.
+/// A part of a run, in which one stepper steps the same equations, with all that is made for it from its
+/// start.
 struct Segment {
   Problem problem;
   Start start;

@@ -50,7 +50,7 @@ def report(tables):
 class Report(unittest.TestCase):
     def test_of_nothing_names_every_missing_table(self):
         text = report({})
-        for name in ("work-precision", "models", "ratios", "scaling", "extremes", "events", "modes", "pairs", "audit",
+        for name in ("work-precision", "models", "ratios", "scaling", "set-up", "extremes", "events", "modes", "pairs", "audit",
                      "certificates", "requests", "leave-out", "own-constraint", "sensitivity", "sweep"):
             self.assertIn(f"{name}.csv", text)
         self.assertIn("kernels.json", text)
