@@ -218,9 +218,11 @@ std::vector<EventWatch::Place> EventWatch::places(std::size_t event, const Read&
       if (side != 0 && (from_zero || side == sign(f_a)) && side * p.slope(j - 1) < 0.0 &&
           side * p.slope(j) > 0.0) {
         const double t = p.turn(a, b, side);
-        const double high = from_zero ? -round_off() * size(event) : std::min(std::abs(f_a), std::abs(f_b));
+        const double noise = round_off() * size(event), least = std::min(std::abs(f_a), std::abs(f_b));
+        // What is constant far above 0 turns by its round-off.
+        const double high = from_zero ? -noise : least > 2.0 * noise ? least - noise : least;
         const double f_t = side * p(t) < high ? value(event, read(t)) : f_b;
-        const bool touches = event < asked_for_ && std::abs(f_t) <= round_off() * size(event);
+        const bool touches = event < asked_for_ && std::abs(f_t) <= noise;
         if (f_t != f_b && !touches) places.push_back({t, f_t});
       }
       places.push_back({b, f_b});
