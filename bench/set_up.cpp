@@ -20,12 +20,14 @@ void add_pendulums(Scene<2>& scene, int count) {
   }
 }
 
-/// Blocks on a floor or above it, which may slide on it.
+/// Blocks on a floor, or above it; those on it may slide.
 struct Blocks {
   double height, speed;
   bool rough;
+  double pull = 0.0;  // along the floor, an acceleration
 
   void operator()(Scene<2>& scene, int count) const {
+    scene.add(UniformGravity<2>{{pull, 0.0}});
     for (int i = 0; i < count; ++i) {
       const auto block =
           scene.add_particle({.mass = 1.0, .position = {2.0 * i, height}, .velocity = {speed, 0.0}});
@@ -45,6 +47,7 @@ const std::vector<Kind>& kinds() {
                                      {"contacts, open", Blocks{1.0, 0.0, false}},
                                      {"contacts, closed", Blocks{0.0, 0.0, false}},
                                      {"friction, sticks", Blocks{0.0, 0.0, true}},
+                                     {"friction, begins to slide", Blocks{0.0, 0.0, true, 5.0}},
                                      {"friction, slides", Blocks{0.0, 1.0, true}}};
   return all;
 }

@@ -52,23 +52,26 @@ def scaling(folder):
                       "does a scene cost at its start?", checks=False)
     table = folder.table("scaling")
     set_up = folder.table("set-up")
-    if table is None:
-        return section
-    refused = [row for row in table.rows if row["outcome"] != "ok"]
-    largest = max(int(row["size"]) for row in table.rows)
-    section.verdict = f"Chains up to {plain(largest, 1)} beads; " + wrong_words(len(refused), "refused")
-    section.charts = [Chart(folder.chart("scaling"), "Run time over the number of beads")]
-    section.grids = [grid_of(table, {
-        "stepper": ("stepper", str), "size": ("beads", str), "steps": ("steps", str),
-        "evaluations": ("evaluations", str), "error_position": ("error of position", scientific),
-        "run_time_s": ("run time", duration), "peak_memory_mib": ("peak memory so far / MiB", plain),
-        "outcome": ("outcome", str)},
-        "One run each. The error is not measured where the reference would take too long.")]
+    refused = 0
+    if table is not None:
+        refused += sum(row["outcome"] != "ok" for row in table.rows)
+        largest = max(int(row["size"]) for row in table.rows)
+        section.verdict = f"Chains up to {plain(largest, 1)} beads; "
+        section.charts = [Chart(folder.chart("scaling"), "Run time over the number of beads")]
+        section.grids = [grid_of(table, {
+            "stepper": ("stepper", str), "size": ("beads", str), "steps": ("steps", str),
+            "evaluations": ("evaluations", str), "error_position": ("error of position", scientific),
+            "run_time_s": ("run time", duration), "peak_memory_mib": ("peak memory so far / MiB", plain),
+            "outcome": ("outcome", str)},
+            "One run each. The error is not measured where the reference would take too long.")]
     if set_up is not None:
+        refused += sum(row["outcome"] != "ok" for row in set_up.rows)
         section.grids.append(grid_of(set_up, {
             "scene": ("scene", str), "stepper": ("stepper", str), "size": ("number", str), "time_s": ("time", duration),
-            "time_each_s": ("of each", duration), "outcome": ("outcome", str)},
+            "time_each_s": ("time of each", duration), "outcome": ("outcome", str)},
             "Scenes stated, begun and run for a millisecond"))
+    if table is not None or set_up is not None:
+        section.verdict += wrong_words(refused, "refused")
     return section
 
 

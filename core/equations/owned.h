@@ -16,7 +16,6 @@ class Owned {
   ~Owned() = default;
 
   [[nodiscard]] Batch& operator*() { return *batch_; }
-  [[nodiscard]] const Batch& operator*() const { return *batch_; }
   [[nodiscard]] const Batch* operator->() const { return batch_.get(); }
 
  private:

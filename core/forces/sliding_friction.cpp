@@ -26,15 +26,15 @@ struct SlidingFriction::Work : Room {
   Work& operator=(const Work&) = delete;
 };
 
-SlidingFriction::SlidingFriction(const detail::Owned<ConstraintBatch>& of, std::vector<Sliding> sliding)
-    : batch_(of),
+SlidingFriction::SlidingFriction(std::shared_ptr<const ConstraintBatch> of, std::vector<Sliding> sliding)
+    : batch_(std::move(of)),
       sliding_(std::move(sliding)),
-      rows_(static_cast<std::size_t>(of->shape().rows)),
-      width_(static_cast<std::size_t>(of->shape().width)) {
-  not_sliding_.assign(of->size() * rows_, 1);
+      rows_(static_cast<std::size_t>(batch_->shape().rows)),
+      width_(static_cast<std::size_t>(batch_->shape().width)) {
+  not_sliding_.assign(batch_->size() * rows_, 1);
   for (const Sliding& s : sliding_) {
     std::fill_n(not_sliding_.begin() + static_cast<std::ptrdiff_t>(s.element * rows_), rows_, char{0});
-    const auto own = of->coordinates().subspan(s.element * width_, width_);
+    const auto own = batch_->coordinates().subspan(s.element * width_, width_);
     coordinates_.insert(coordinates_.end(), own.begin(), own.end());
     pressed_by_.push_back(s.pressed_by);
   }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <dalembert/core/equations/batch.h>
-#include <dalembert/core/equations/owned.h>
 #include <dalembert/core/places.h>
 
 #include <memory>
@@ -17,7 +16,7 @@ struct Sliding {
   double strength;                 ///< mu, with the sign of lambda
   std::vector<double> direction;   ///< of one slip velocity: +-1, which holds; of two: where sliding begins
   double slow = 0.0;               ///< below about this speed two slip velocities have that direction
-  Places rows{0, 0}, slots{0, 0};  ///< its own in the layout
+  Places rows{0, 0}, slots{0, 0};  ///< where its numbers stand in the layout
 };
 
 /// What constraints of one type exert while they slide. With u the slip velocities and W = du/dv
@@ -28,7 +27,7 @@ struct Sliding {
 /// d is the direction of sliding, and defined where sliding begins.
 class SlidingFriction final : public ForceBatch {
  public:
-  SlidingFriction(const detail::Owned<ConstraintBatch>& of, std::vector<Sliding> sliding);
+  SlidingFriction(std::shared_ptr<const ConstraintBatch> of, std::vector<Sliding> sliding);
 
   [[nodiscard]] std::unique_ptr<ForceBatch> clone() const override;
   [[nodiscard]] ForceShape shape() const override;
@@ -44,8 +43,8 @@ class SlidingFriction final : public ForceBatch {
   void force(std::size_t element, const Instant& at, std::span<const double> lambda,
              std::span<double> out) const override;
 
-  /// What all exert: sigma, one number per equation, in their rows of lambda, and the force that it is on
-  /// each coordinate in their slots.
+  /// What all exert, each by the multiplier at its `first_row`: sigma, one number per equation, in its rows
+  /// of lambda, and its force on each coordinate in its slots.
   void exert(const Instant& at, std::span<const std::size_t> first_row, std::span<double> lambda,
              std::span<double> slots) const;
 
@@ -57,7 +56,7 @@ class SlidingFriction final : public ForceBatch {
   void find_direction(std::size_t i, Work& work) const;
   void find_force_per_lambda(std::size_t i, Work& work) const;
 
-  detail::Owned<ConstraintBatch> batch_;
+  std::shared_ptr<const ConstraintBatch> batch_;
   std::vector<char> not_sliding_;  // per row of it
   std::vector<Sliding> sliding_;
   std::vector<int> coordinates_, pressed_by_;

@@ -93,7 +93,7 @@ System Scene<D>::system() const {
       parts.constant_force[static_cast<std::size_t>(particle.coordinate + k)] = particle.mass * together[k];
   }
   for (const auto& group : constraints_) {
-    parts.constraints.push_back(group.batch);
+    parts.constraints.push_back(group.batch->clone());
     parts.constraint_numbers.push_back(group.numbers);
   }
   for (const auto& group : forces_) {

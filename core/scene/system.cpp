@@ -44,7 +44,7 @@ void System::place_constraints() {
   std::iota(order.begin(), order.end(), 0U);
   std::stable_partition(order.begin(), order.end(),
                         [&](std::size_t b) { return batches[b]->shape().holonomic; });
-  std::vector<detail::Owned<ConstraintBatch>> sorted;
+  std::vector<std::shared_ptr<const ConstraintBatch>> sorted;
   std::vector<std::vector<int>> numbers;
   for (const std::size_t b : order) {
     sorted.push_back(std::move(batches[b]));

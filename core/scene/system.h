@@ -1,7 +1,6 @@
 #pragma once
 
 #include <dalembert/core/equations/batch.h>
-#include <dalembert/core/equations/owned.h>
 #include <dalembert/core/forces/sliding_friction.h>
 #include <dalembert/core/results/applied_forces.h>
 #include <dalembert/core/results/layout.h>
@@ -20,9 +19,10 @@ struct SystemParts {
   Layout layout{};                       ///< rows, slots and applied forces are filled in by System
   std::vector<double> masses{};          ///< one per coordinate; a rotor's inertia
   std::vector<double> constant_force{};  ///< one per coordinate
-  std::vector<detail::Owned<ConstraintBatch>> constraints{};
+  // Shared by all systems of a run, whatever is in force.
+  std::vector<std::shared_ptr<const ConstraintBatch>> constraints{};
   std::vector<std::vector<int>> constraint_numbers{};  ///< per batch: the scene's number of each element
-  // Shared with the results of a run, which evaluate forces where they are read.
+  // Shared likewise, and with the results of a run, which evaluate forces where they are read.
   std::vector<std::shared_ptr<const ForceBatch>> forces{};
   std::vector<std::vector<int>> force_numbers{};
   std::vector<std::pair<int, std::array<double, 3>>> gravities{};  ///< the scene's number, acceleration

@@ -79,9 +79,4 @@ System System::sliding(std::span<const Slide> slides) const {
   return other;
 }
 
-void System::exert_sliding(const Instant& at, std::span<double> lambda, std::span<double> slots) const {
-  for (std::size_t k = 0; k < slides_.size(); ++k)
-    slides_[k]->exert(at, force_places_[stated_forces_ + k].first_row, lambda, slots);
-}
-
 }  // namespace dalembert

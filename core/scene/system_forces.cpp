@@ -93,6 +93,14 @@ void System::linearise_forces(const Instant& at, std::span<const double> lambda,
   Branches::or_naturally<EquationFault>([&] { on_forces(0, parts_.forces.size(), at, lambda, linearise); });
 }
 
+void System::exert_sliding(const Instant& at, std::span<double> lambda, std::span<double> slots) const {
+  auto next = slides_.begin();
+  on_forces(stated_forces_, parts_.forces.size(), at, lambda,
+            [&](const ForceBatch&, const Multipliers& read, const ForcePlaces&) {
+              (*next++)->exert(at, read.first_row, lambda, slots);
+            });
+}
+
 double System::potential_energy(const Instant& at) const {
   double V = -std::inner_product(at.q.begin(), at.q.end(), parts_.constant_force.begin(), 0.0);
   on_forces(0, first_reading_, at, {},

@@ -25,7 +25,7 @@ void clear_round_off(Eigen::VectorXd& x, const Eigen::VectorXd& unit, double lar
 [[nodiscard]] std::vector<std::size_t> those_at(const Coupling::Places& places,
                                                 const std::vector<std::size_t>& touching);
 
-/// For each of so many, whether it is one of these.
+/// A flag for each of `size` contacts: whether it is among these.
 [[nodiscard]] std::vector<char> marks(const std::vector<std::size_t>& which, std::size_t size);
 
 /// S of contacts of one island. Gradients are known to the rounding of positions over the scene's length:

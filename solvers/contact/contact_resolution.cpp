@@ -101,7 +101,8 @@ void ContactResolution::strike() {
 }
 
 /// Adds contacts left at their surface by impacts at one time, no faster than velocities are known: what
-/// bounces to and fro in a slot without play would else be open on both sides. All rates are then found anew.
+/// bounces to and fro in a slot without play would else be open on both sides. All rates are then found
+/// again.
 void ContactResolution::join_slow() {
   const std::size_t before = touching_.size();
   const auto touches = marks(touching_, contacts_->size());

@@ -45,7 +45,7 @@ class Contacts {
                                                         const Instant& at);
   void adopt(const Scales& scales) {
     known_.scales = scales;
-    forget_instant();
+    forget_instant();  // it was measured by the old ones
   }
   /// The state watched goes on from another one, which may be at the same time.
   void forget_instant() {

@@ -96,8 +96,9 @@ SlipCoupling FrictionEquations::released(std::span<const RoughState> all,
 double FrictionEquations::round_off_of(std::span<const RoughState> all, const RoughState& rough,
                                        std::span<const double> a, std::span<const double> lambda) const {
   double force = std::abs(lambda[rough.pressing_row]);
-  for (const RoughState& other : all)
-    if (rough.shared && other.shared) force = std::max(force, std::abs(lambda[other.pressing_row]));
+  if (rough.shared)
+    for (const RoughState& other : all)
+      if (other.shared) force = std::max(force, std::abs(lambda[other.pressing_row]));
   for (std::size_t row = rough.row; row < rough.row + rough.rows; ++row) {
     double acceleration = 0.0;
     for (const std::size_t j : stated_->row(row)) {

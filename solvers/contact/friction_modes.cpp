@@ -1,12 +1,17 @@
 #include "dalembert/solvers/contact/friction_modes.h"
 
+#include <dalembert/core/analysis/disjoint_sets.h>
+#include <dalembert/core/analysis/islands.h>
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/contact/onset.h>
 #include <dalembert/solvers/contact/round_off.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <set>
+#include <utility>
 
 namespace dalembert {
 
@@ -58,6 +63,26 @@ bool FrictionModes::sticks(const Motion& motion) const {
   });
 }
 
+/// Places among these constraints, in parts that no constraint, force or friction couples to each other.
+std::vector<FrictionModes::Part> FrictionModes::parts_of(const std::vector<std::size_t>& which) const {
+  const auto system = equations_->with_modes(all_, *open_);
+  const Islands islands = dalembert::islands(*system);
+  const auto island = [&](std::size_t row) { return islands.of_row(*system, row); };
+  DisjointSets joined(islands.count);
+  for (const RoughState& r : all_) joined.join(island(r.row), island(r.pressing_row));
+  std::map<std::size_t, Part> parts;
+  Index first = 0;
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    const RoughState& r = all_[which[k]];
+    Part& own = parts[joined.root(island(r.row))];
+    own.places.push_back(static_cast<Index>(k));
+    for (std::size_t row = 0; row < r.rows; ++row) own.rows.push_back(first++);
+  }
+  std::vector<Part> all;
+  for (auto& [root, part] : parts) all.push_back(std::move(part));
+  return all;
+}
+
 /// What of all that is at rest sticks, and what slides.
 void FrictionModes::decide() {
   const bool group = std::ranges::any_of(all_, [](const RoughState& r) { return r.reached && r.shared; });
@@ -69,20 +94,28 @@ void FrictionModes::decide() {
   mark_shared(held);
   if (sticks(held)) return;
   std::vector<std::size_t> which;
-  std::vector<AtRest> rest;
-  for (std::size_t i = 0; i < all_.size(); ++i) {
-    const RoughState& r = all_[i];
-    if (!r.at_rest) continue;
-    which.push_back(i);
-    rest.push_back({{r.row, r.rows, r.pressing_row}, r.mu, r.mu_static, r.reached});
-  }
+  for (std::size_t i = 0; i < all_.size(); ++i)
+    if (all_[i].at_rest) which.push_back(i);
   const SlipCoupling coupling = equations_->released(all_, which, *open_, at_);
+  for (const Part& part : parts_of(which)) {
+    std::vector<RoughState*> at_rest;
+    for (const Index k : part.places) at_rest.push_back(&all_[which[static_cast<std::size_t>(k)]]);
+    start_sliding(at_rest, coupling.part(part.places, part.rows), held);
+  }
+}
+
+/// What of a part at rest can not stick.
+void FrictionModes::start_sliding(const std::vector<RoughState*>& at_rest, const SlipCoupling& coupling,
+                                  const Motion& held) {
+  std::vector<AtRest> rest;
+  for (const RoughState* const r : at_rest)
+    rest.push_back({{r->row, r->rows, r->pressing_row}, r->mu, r->mu_static, r->reached});
   const auto onset = Onset::find(coupling, rest);
   if (!onset) return;
   Index first = 0;
-  for (std::size_t k = 0; k < which.size(); first += static_cast<Index>(rest[k++].rows.rows)) {
+  for (std::size_t k = 0; k < rest.size(); first += static_cast<Index>(rest[k++].rows.rows)) {
     if (!onset->parts[k].slides) continue;
-    RoughState& r = all_[which[k]];
+    RoughState& r = *at_rest[k];
     const bool prescribed = coupling.S_0(first, first) == 0.0;
     if (!prescribed) require_own_share(r);
     if (!r.one_sided) r.sign = held.lambda[r.pressing_row] < 0.0 ? -1.0 : 1.0;

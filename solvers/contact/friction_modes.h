@@ -24,7 +24,14 @@ class FrictionModes {
  private:
   using Motion = FrictionEquations::Motion;
 
+  struct Part {
+    std::vector<Eigen::Index> places, rows;
+  };
+
   void decide();
+  [[nodiscard]] std::vector<Part> parts_of(const std::vector<std::size_t>& which) const;
+  void start_sliding(const std::vector<RoughState*>& at_rest, const SlipCoupling& coupling,
+                     const Motion& held);
   [[nodiscard]] bool sticks(const Motion& motion) const;
   void mark_shared(const Motion& motion);
   [[nodiscard]] double excess(const RoughState& rough, const Motion& motion) const;

@@ -144,4 +144,15 @@ SlipCoupling::SlipCoupling(const System& stated, std::shared_ptr<const System> f
   clear_prescribed(its, tolerance);
 }
 
+SlipCoupling SlipCoupling::part(const std::vector<Index>& of, const std::vector<Index>& rows) const {
+  SlipCoupling part;
+  part.S = S(rows, rows);
+  part.S_0 = S_0(rows, rows);
+  part.B = B(of, rows);
+  part.c = c(rows);
+  part.terms = terms(rows);
+  part.N_0 = N_0(of);
+  return part;
+}
+
 }  // namespace dalembert

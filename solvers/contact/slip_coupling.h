@@ -27,11 +27,17 @@ struct SlipCoupling {
   SlipCoupling(const System& stated, std::shared_ptr<const System> free, const std::vector<SlipRows>& of,
                const std::vector<double>& lengths, const Instant& at, double tolerance);
 
+  /// That of some of them, at these places, with rows at these: the whole, where nothing couples the others
+  /// to them.
+  [[nodiscard]] SlipCoupling part(const std::vector<Eigen::Index>& of,
+                                  const std::vector<Eigen::Index>& rows) const;
+
   Eigen::MatrixXd S, S_0, B;
   Eigen::VectorXd c, N_0;
   Eigen::VectorXd terms;  ///< the largest term of each rate c
 
  private:
+  SlipCoupling() = default;
   struct Equations;
   void find_rates(const Equations& its);
   void find_responses(const Equations& its, bool with_sliding, Eigen::MatrixXd& responses);

@@ -203,7 +203,8 @@ std::vector<EventWatch::Place> EventWatch::dips(std::size_t event, const Read& r
   return found;
 }
 
-/// The nodes of the interpolants, and the points where one turns towards 0 between two of one sign.
+/// The nodes of the interpolants, and the points where one turns towards 0, by more than round-off, between
+/// two of one sign.
 std::vector<EventWatch::Place> EventWatch::places(std::size_t event, const Read& read,
                                                   const std::vector<Interpolant>& parts) {
   if (leaves_[event] >= parts.back().nodes.back()) return {};
@@ -219,8 +220,8 @@ std::vector<EventWatch::Place> EventWatch::places(std::size_t event, const Read&
           side * p.slope(j) > 0.0) {
         const double t = p.turn(a, b, side);
         const double noise = round_off() * size(event), least = std::min(std::abs(f_a), std::abs(f_b));
-        // What is constant far above 0 turns by its round-off.
-        const double high = from_zero ? -noise : least > 2.0 * noise ? least - noise : least;
+        // A turn that is shallower than round-off, as of what is constant, does not reach 0.
+        const double high = from_zero ? -noise : least > noise ? least - noise : least;
         const double f_t = side * p(t) < high ? value(event, read(t)) : f_b;
         const bool touches = event < asked_for_ && std::abs(f_t) <= noise;
         if (f_t != f_b && !touches) places.push_back({t, f_t});

@@ -22,10 +22,10 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// may be faster than the motion, which steps follow, is known at those of at least 6, and of as many as
 /// resolve it: events that were asked for, all functions where forces or constraints depend on time, and
 /// those whose own rates at the nodes differ from the slopes there.
-/// Where one turns towards 0 between two nodes of one sign, or first crosses the 0 that it began with, the
-/// function itself is evaluated: so two roots within a step are found as well; of contacts their rates tell
-/// where, however narrow it is. How one leaves the 0 that it has after a change is seen ahead of the steps: a
-/// bounce may be far shorter than they are.
+/// Where one turns towards 0 between two nodes of one sign, by more than round-off, or first crosses the 0
+/// that it began with, the function itself is evaluated: so two roots within a step are found as well; of
+/// contacts their rates tell where, however narrow it is. How one leaves the 0 that it has after a change is
+/// seen ahead of the steps: a bounce may be far shorter than they are.
 class EventWatch {
  public:
   /// The polynomial of the last step at a time inside it.

@@ -13,8 +13,7 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// A part of a run, in which one stepper steps the same equations, with all that is made for it from its
-/// start.
+/// A part of a run in which one stepper steps the same equations, with all that its start determines.
 struct Segment {
   Problem problem;
   Start start;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <random>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -252,6 +253,42 @@ TEST_P(Contacts, ContradictoryContactsAreErrorsByName) {
                   "drive");
   EXPECT_THAT([&] { (void)simulate(press.first, options(2.0)); },
               ThrowsMessage<IntegrationFailure>(AllOf(HasSubstr("\"floor\""), HasSubstr("t = 1"))));
+}
+
+/// Counts its copies.
+struct Counted {
+  int* copies;
+  explicit Counted(int& count) : copies(&count) {}
+  Counted(const Counted& other) : copies(other.copies) { ++*copies; }
+  Counted& operator=(const Counted&) = delete;
+  ~Counted() = default;
+};
+
+TEST(Unilateral, RunCopiesItsEquationsOnceHoweverOftenContactsChange) {
+  // What an equation has captured may be a large table. Until 0.1 s a ball falls and a block slides; by 1.2 s
+  // the ball has bounced and the block has come to rest.
+  const auto copies_until = [](double t_end, Stepper stepper) {
+    int copies = 0;
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -10.0}});
+    const auto ball = scene.add_particle({.mass = 1.0, .position = {0.0, 1.0}}, "ball");
+    const auto block = scene.add_particle({.mass = 1.0, .velocity = {1.0, 0.0}}, "block");
+    const auto height = [table = Counted(copies)](auto r) { return r.y(); };
+    const auto slip = [table = Counted(copies)](auto, auto v) { return v.x(); };
+    scene.add(unilateral(holonomic(points(ball), height), {.restitution = 0.5}));
+    const auto floor = scene.add(holonomic(points(block), height));
+    scene.add(coulomb(floor, nonholonomic(points(block), slip), 0.2));
+    const int stated = copies;
+    const auto run = simulate(scene, {.t_end = t_end, .samples = 2, .stepper = stepper});
+    std::set<EventKind> kinds;
+    for (const EventRecord& one : run.events()) kinds.insert(one.kind);
+    EXPECT_EQ(kinds, t_end < 0.4 ? std::set<EventKind>{} : std::set({EventKind::struck, EventKind::sticks}));
+    return copies - stated;
+  };
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    EXPECT_EQ(copies_until(0.1, stepper), 3);  // one of each
+    EXPECT_EQ(copies_until(1.2, stepper), 3);
+  }
 }
 
 TEST(Unilateral, RefusesWhatItIsNotFor) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace dalembert::coulomb_test {
@@ -441,6 +442,27 @@ TEST(Coulomb, HoldsABodyOnLegsOnSlopes) {
     EXPECT_NEAR(force.norm(), 0.0, 20.0 * rounding);
     EXPECT_NEAR(moment, 0.0, 20.0 * rounding);
   }
+}
+
+TEST(Coulomb, ManyConstantForcesAreLookedAtAsOftenAsFew) {
+  // Normal forces and slips that turn by their round-off do not reach 0 there: steps are read at the times
+  // that all functions share. The blocks are independent: the steps are the same. One length for both, beside
+  // which the rounding of the farthest block is nothing.
+  const auto evaluations = [](int blocks, Stepper stepper) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -9.81}});
+    for (int i = 0; i < blocks; ++i) {
+      const auto block =
+          scene.add_particle({.mass = 1.0, .position = {2.0 * i, 0.0}, .velocity = {1.0, 0.0}});
+      const auto floor = scene.add(unilateral(OnCurve{block, Plane<2>{}}));
+      scene.add(coulomb(floor, Slip{block, Plane<2>{}, {0.0, 0.0}}, 0.3));
+    }
+    const auto statistics =
+        simulate(scene, {.t_end = 1e-3, .samples = 2, .stepper = stepper, .length = 1000.0}).statistics();
+    return std::pair(statistics.steps, statistics.evaluations);
+  };
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk})
+    EXPECT_EQ(evaluations(400, stepper), evaluations(4, stepper));
 }
 
 TEST(Coulomb, RefusesWhatItIsNotFor) {
