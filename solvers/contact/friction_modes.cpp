@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <set>
 #include <utility>
 
@@ -65,9 +64,9 @@ bool FrictionModes::sticks(const Motion& motion) const {
 
 /// Places among these constraints, in parts that no constraint, force or friction couples to each other.
 std::vector<FrictionModes::Part> FrictionModes::parts_of(const std::vector<std::size_t>& which) const {
-  const auto system = equations_->with_modes(all_, *open_);
-  const Islands islands = dalembert::islands(*system);
-  const auto island = [&](std::size_t row) { return islands.of_row(*system, row); };
+  const System& stated = *equations_->stated();
+  const Islands islands = dalembert::islands(stated);
+  const auto island = [&](std::size_t row) { return islands.of_row(stated, row); };
   DisjointSets joined(islands.count);
   for (const RoughState& r : all_) joined.join(island(r.row), island(r.pressing_row));
   std::map<std::size_t, Part> parts;
@@ -104,7 +103,7 @@ void FrictionModes::decide() {
   }
 }
 
-/// What of a part at rest can not stick.
+/// What of a part at rest cannot stick.
 void FrictionModes::start_sliding(const std::vector<RoughState*>& at_rest, const SlipCoupling& coupling,
                                   const Motion& held) {
   std::vector<AtRest> rest;

@@ -24,6 +24,7 @@ class FrictionModes {
  private:
   using Motion = FrictionEquations::Motion;
 
+  /// Places among constraints at rest, and among their rows.
   struct Part {
     std::vector<Eigen::Index> places, rows;
   };

@@ -27,8 +27,7 @@ struct SlipCoupling {
   SlipCoupling(const System& stated, std::shared_ptr<const System> free, const std::vector<SlipRows>& of,
                const std::vector<double>& lengths, const Instant& at, double tolerance);
 
-  /// That of some of them, at these places, with rows at these: the whole, where nothing couples the others
-  /// to them.
+  /// The same for those at some places only, with their rows; nothing couples the others to them.
   [[nodiscard]] SlipCoupling part(const std::vector<Eigen::Index>& of,
                                   const std::vector<Eigen::Index>& rows) const;
 

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -441,6 +442,54 @@ TEST(Coulomb, HoldsABodyOnLegsOnSlopes) {
     }
     EXPECT_NEAR(force.norm(), 0.0, 20.0 * rounding);
     EXPECT_NEAR(moment, 0.0, 20.0 * rounding);
+  }
+}
+
+TEST_P(CoulombFriction, IsDecidedForEachPartByItself) {
+  // A pull of 5 m/s^2 along a floor: what holds by mu = 0.6 stays, what has 0.3 slides with 5 - 0.3 10. Two
+  // on a rod share: 5 - (0.3 + 0.6) 10/2. Positions of 20 m are known to the tolerance of that length.
+  constexpr double t = 0.5;
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{5.0, -10.0}});
+  std::vector<Particle<2>> blocks;
+  for (int i = 0; i < 10; ++i) {
+    blocks.push_back(scene.add_particle({.mass = 1.0, .position = {2.0 * i, 0.0}}));
+    const auto floor = scene.add(OnCurve{blocks.back(), Plane<2>{}});
+    scene.add(coulomb(floor, Slip{blocks.back(), Plane<2>{}, {0.0, 0.0}}, i % 2 == 0 ? 0.3 : 0.6));
+  }
+  scene.add(Distance{blocks[4], blocks[5], 2.0});
+  const auto run = simulate(scene, options(t));
+  for (int i = 0; i < 10; ++i) {
+    const double a = i == 4 || i == 5 ? 0.5 : i % 2 == 0 ? 2.0 : 0.0;
+    EXPECT_NEAR(run.position(blocks[static_cast<std::size_t>(i)], 10).x(), 2.0 * i + 0.5 * a * t * t,
+                20.0 * error_of(run))
+        << i;
+  }
+}
+
+TEST(Coulomb, SlipThatThrowsWhereverItIsReadIsAnErrorByName) {
+  // At each of its evaluations in turn, those for results among them.
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    long refused = 0;
+    for (long fatal = 1;; ++fatal, ++refused) {
+      long calls = 0;
+      Scene<2> scene;
+      scene.add(UniformGravity<2>{{0.0, -10.0}});
+      const auto block = scene.add_particle({.mass = 1.0, .velocity = {1.0, 0.0}});
+      const auto floor = scene.add(OnCurve{block, Plane<2>{}});
+      const auto slip = [&calls, &fatal](auto, auto v) {
+        if (++calls == fatal) throw std::runtime_error("no speed");
+        return v.x();
+      };
+      scene.add(coulomb(floor, nonholonomic(points(block), slip), 0.2), "rough");
+      try {
+        (void)simulate(scene, {.t_end = 0.01, .samples = 3, .tolerance = 1e-3, .stepper = stepper});
+        if (calls < fatal) break;
+      } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("\"rough\"")) << fatal;
+      }
+    }
+    EXPECT_GT(refused, 10);
   }
 }
 
