@@ -8,9 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
-#include <utility>
 
 namespace dalembert {
 
@@ -69,7 +67,7 @@ std::vector<FrictionModes::Part> FrictionModes::parts_of(const std::vector<std::
   const auto island = [&](std::size_t row) { return islands.of_row(stated, row); };
   DisjointSets joined(islands.count);
   for (const RoughState& r : all_) joined.join(island(r.row), island(r.pressing_row));
-  std::map<std::size_t, Part> parts;
+  std::vector<Part> parts(islands.count);
   Index first = 0;
   for (std::size_t k = 0; k < which.size(); ++k) {
     const RoughState& r = all_[which[k]];
@@ -77,9 +75,8 @@ std::vector<FrictionModes::Part> FrictionModes::parts_of(const std::vector<std::
     own.places.push_back(static_cast<Index>(k));
     for (std::size_t row = 0; row < r.rows; ++row) own.rows.push_back(first++);
   }
-  std::vector<Part> all;
-  for (auto& [root, part] : parts) all.push_back(std::move(part));
-  return all;
+  std::erase_if(parts, [](const Part& part) { return part.places.empty(); });
+  return parts;
 }
 
 /// What of all that is at rest sticks, and what slides.
