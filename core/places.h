@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 namespace dalembert {
 
@@ -25,7 +26,7 @@ class Places {
   [[nodiscard]] std::size_t front() const { return first_; }
   [[nodiscard]] std::size_t size() const { return last_ - first_; }
   /// Those of an array.
-  [[nodiscard]] auto in(auto array) const { return array.subspan(first_, size()); }
+  [[nodiscard]] auto in(auto array) const { return std::span(array.data() + first_, size()); }
 
  private:
   std::size_t first_, last_;

@@ -29,9 +29,12 @@ class Branches {
   /// Of each batch, in the order in which it makes them.
   using Sides = std::vector<std::vector<Comparison>>;
 
-  /// Notes in `recorded` what is compared, and evaluates on the sides of `held`; each unless it is null.
+  /// Notes in `recorded` what is compared, and evaluates on the sides of `held`; each unless it is null. With
+  /// neither nobody listens, as long as it lives.
   Branches(Sides* recorded, const Sides* held)
-      : recorded_(recorded), held_(held), outer_(std::exchange(listening, this)) {}
+      : recorded_(recorded),
+        held_(held),
+        outer_(std::exchange(listening, recorded == nullptr && held == nullptr ? nullptr : this)) {}
   Branches(const Branches&) = delete;
   Branches& operator=(const Branches&) = delete;
   ~Branches() { listening = outer_; }

@@ -71,7 +71,10 @@ class ConstraintBatch {
   /// Residuals, W, and gamma if it is asked for. `out_of_force`, here and below, has a flag per row, or is
   /// empty: such constraints write nothing, and their equations are not evaluated.
   void evaluate(const Instant& at, const ConstraintValues& out,
-                std::span<const char> out_of_force = {}) const;
+                std::span<const char> out_of_force = {}) const {
+    if (out_of_force.empty()) return equations_.evaluate(at, 0, size(), out);
+    evaluate_those_in_force(at, out, out_of_force);
+  }
   /// Per constraint `rows x inputs` numbers U, one row after the other, out of its part of w: lambda has
   /// the size |U^T lambda|, that of the force at one of its points. See detail::forces_at_points.
   void forces_at_points(std::span<const double> w, std::span<const double> lengths,
@@ -88,6 +91,9 @@ class ConstraintBatch {
   void gaps(const Instant& at, std::span<double> g, std::span<double> rate) const;
 
  private:
+  void evaluate_those_in_force(const Instant& at, const ConstraintValues& out,
+                               std::span<const char> out_of_force) const;
+
   const ConstraintType* type_;
   detail::DifferentiatedEquations equations_;
 };

@@ -234,6 +234,8 @@ void DifferentiatedEquations::evaluate(const Instant& at, std::size_t from, std:
 template <int K>
 struct DifferentiatedEquations::Linearisation {
   using S = HyperDual<K>;
+  Linearisation(const DifferentiatedEquations& equations, const Instant& instant)
+      : own(equations), at(instant) {}
   const DifferentiatedEquations& own;
   const Instant& at;
   const EquationType& its = *own.type_;
@@ -421,7 +423,7 @@ struct DifferentiatedEquations::Linearisation {
 void DifferentiatedEquations::linearise(const Instant& at, std::size_t from, std::size_t end,
                                         const double* lambda, double* psi_q, double* blocks) const {
   with_directions(type_->directions, [&](auto K) {
-    Linearisation<K.value>{.own = *this, .at = at}.run_through(from, end, lambda, psi_q, blocks);
+    Linearisation<K.value>(*this, at).run_through(from, end, lambda, psi_q, blocks);
   });
 }
 

@@ -8,21 +8,16 @@ namespace dalembert::detail {
 
 /// Room for numbers of which nothing is set: on the stack for a few, else in memory that its thread keeps
 /// from use to use, so that no evaluation allocates after the first. (An equation may evaluate others: who
-/// uses that memory takes it away and gives it back.)
+/// uses that memory takes it away and gives it back. What has a Scratch among its members needs a
+/// constructor: compilers set an aggregate to 0 first, with all its room.)
 class Scratch {
  public:
   /// Of so many bytes in all, if those taken have sizes that are multiples of 16.
   explicit Scratch(std::size_t size) {
-    if (size <= sizeof(few_)) return;
-    if (!kept().empty()) {
-      many_ = std::move(kept().back());
-      kept().pop_back();
-    }
-    if (many_.size() < size) many_.resize(size);
-    next_ = many_.data();
+    if (size > sizeof(few_)) next_ = take_kept(size);
   }
   ~Scratch() {
-    if (!many_.empty() && kept().size() < kept().capacity()) kept().push_back(std::move(many_));
+    if (!many_.empty()) give_back();
   }
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
@@ -38,6 +33,18 @@ class Scratch {
   }
 
  private:
+  // Not inlined: it would be compiled into every evaluation, few of which need it.
+  [[gnu::noinline]] std::byte* take_kept(std::size_t size) {
+    if (!kept().empty()) {
+      many_ = std::move(kept().back());
+      kept().pop_back();
+    }
+    if (many_.size() < size) many_.resize(size);
+    return many_.data();
+  }
+  [[gnu::noinline]] void give_back() {
+    if (kept().size() < kept().capacity()) kept().push_back(std::move(many_));
+  }
   [[nodiscard]] static std::vector<std::vector<std::byte>>& kept() {
     constexpr std::size_t most = 8;  // what equations within equations use beyond these is not kept
     thread_local std::vector<std::vector<std::byte>> memory = [] {

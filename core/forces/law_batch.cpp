@@ -35,6 +35,7 @@ std::unique_ptr<ForceBatch> LawBatch::clone() const { return std::make_unique<La
 
 /// What the law of one element is evaluated at, and the forces on its inputs.
 struct LawBatch::Work {
+  Work(const LawBatch& batch, const Instant& instant) : own(batch), at(instant) {}
   const LawBatch& own;
   const Instant& at;
   const ElementType& of = own.elements_.type();
@@ -79,6 +80,8 @@ struct LawBatch::Work {
 /// The law of one element in numbers that carry K of its derivatives.
 template <int K>
 struct LawBatch::Slopes {
+  Slopes(Work& of, std::size_t element, std::span<const double> multipliers)
+      : work(of), i(element), lambda(multipliers) {}
   Work& work;
   std::size_t i;
   std::span<const double> lambda;
@@ -113,7 +116,7 @@ struct LawBatch::Slopes {
 
 void LawBatch::add_force(const Instant& at, const Multipliers& lambda, std::span<double> F) const {
   const bool by_numbers = !Branches::needed();
-  Work work{.own = *this, .at = at};
+  Work work(*this, at);
   for (std::size_t i = 0; i < size(); ++i) {
     const auto read = work.read(lambda, i);
     if (by_numbers) {
@@ -122,7 +125,7 @@ void LawBatch::add_force(const Instant& at, const Multipliers& lambda, std::span
     } else {  // with numbers that report their comparisons
       detail::with_directions(type_->directions, [&](auto K) {
         Branches::or_naturally<ElementFault>([&] {
-          Slopes<K.value> slopes{.work = work, .i = i, .lambda = read};
+          Slopes<K.value> slopes(work, i, read);
           slopes.run(0);
           for (std::size_t k = 0; k < work.n; ++k) work.f[k] = slopes.f[k].value;
           work.require_finite(i);
@@ -136,7 +139,7 @@ void LawBatch::add_force(const Instant& at, const Multipliers& lambda, std::span
 }
 
 void LawBatch::power(const Instant& at, const Multipliers& lambda, std::span<double> out) const {
-  Work work{.own = *this, .at = at};
+  Work work(*this, at);
   for (std::size_t i = 0; i < size(); ++i) {
     work.evaluate(i, work.read(lambda, i));
     out[i] = std::inner_product(work.f, work.f + work.n, work.v, 0.0);
@@ -145,7 +148,7 @@ void LawBatch::power(const Instant& at, const Multipliers& lambda, std::span<dou
 
 void LawBatch::force(std::size_t element, const Instant& at, std::span<const double> lambda,
                      std::span<double> out) const {
-  Work work{.own = *this, .at = at};
+  Work work(*this, at);
   work.evaluate(element, lambda);
   work.require_finite(element);
   elements_.pull_back(element, work.f, out.data());
@@ -153,13 +156,13 @@ void LawBatch::force(std::size_t element, const Instant& at, std::span<const dou
 
 void LawBatch::slope(const Instant& at, const Multipliers& lambda, std::span<double> out) const {
   if (type_->constraint == nullptr) return;
-  Work work{.own = *this, .at = at};
+  Work work(*this, at);
   const int n = type_->elements.inputs, rows = type_->shape.rows;
   Scratch room(Scratch::size_of<double>(work.n * static_cast<std::size_t>(rows)));
   double* const by_lambda = room.take<double>(work.n * static_cast<std::size_t>(rows));
   detail::with_directions(type_->directions, [&](auto K) {
     for (std::size_t i = 0; i < size(); ++i) {
-      Slopes<K.value> slopes{.work = work, .i = i, .lambda = work.read(lambda, i)};
+      Slopes<K.value> slopes(work, i, work.read(lambda, i));
       slopes.find(2 * n, 2 * n + rows, [&](int row, int variable, double slope) {
         by_lambda[(variable - 2 * n) * n + row] = slope;
       });
@@ -172,13 +175,13 @@ void LawBatch::slope(const Instant& at, const Multipliers& lambda, std::span<dou
 
 void LawBatch::linearise(const Instant& at, const Multipliers& lambda, std::span<double> stiffness,
                          std::span<double> damping) const {
-  Work work{.own = *this, .at = at};
+  Work work(*this, at);
   const int n = type_->elements.inputs;
   Scratch room(Scratch::size_of<double>(2 * work.n * work.n));
   double* const by_variables = room.take<double>(2 * work.n * work.n);  // F_r, then F_v, by columns
   detail::with_directions(type_->directions, [&](auto K) {
     for (std::size_t i = 0; i < size(); ++i) {
-      Slopes<K.value> slopes{.work = work, .i = i, .lambda = work.read(lambda, i)};
+      Slopes<K.value> slopes(work, i, work.read(lambda, i));
       slopes.find(0, 2 * n,
                   [&](int row, int variable, double slope) { by_variables[variable * n + row] = slope; });
       const std::size_t block = i * width() * width();

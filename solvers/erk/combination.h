@@ -1,9 +1,11 @@
 #pragma once
 
+#include <dalembert/core/autodiff/derivatives.h>
 #include <dalembert/solvers/base/hidden.h>
 
 #include <array>
 #include <cstddef>
+#include <cstring>
 #include <utility>
 
 namespace DALEMBERT_HIDDEN dalembert {
@@ -13,6 +15,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 template <int Stages>
 class Combination {
  public:
+  using Stage = std::array<const double*, Stages>;
+
   explicit Combination(const std::array<double, Stages>& weights) {
     for (int j = 0; j < Stages; ++j) {
       const double w = weights[static_cast<std::size_t>(j)];
@@ -22,54 +26,38 @@ class Combination {
     }
   }
 
-  /// Of the first `size` numbers of each stage.
-  void apply(double h, const std::array<const double*, Stages>& k, double* out, std::size_t size) const {
-    unroll([&]<std::size_t N>(Terms<N> terms) { terms.add(nullptr, out, size); }, h, k);
-  }
-  /// Positions and velocities moved by stages of n velocities and n accelerations.
-  void move(double h, const std::array<const double*, Stages>& k, const double* q, double* q_moved,
-            const double* v, double* v_moved, std::size_t n) const {
-    unroll(
-        [&]<std::size_t N>(Terms<N> terms) {
-          terms.add(q, q_moved, n);
-          for (const double*& x : terms.x) x += n;
-          terms.add(v, v_moved, n);
-        },
-        h, k);
+  /// out = from + h sum_j weight_j k_j, `size` numbers.
+  void move(double h, const Stage& k, const double* from, double* out, std::size_t size) const {
+    [&]<std::size_t... N>(std::index_sequence<N...>) {
+      (void)((count_ == N + 1 && (move_by<N + 1>(h, k, from, out, size), true)) || ...);
+    }
+    (std::make_index_sequence<Stages>{});
   }
 
  private:
+  /// By pairs: a compiler, which does not know that `out` is no stage, would have to make sure of it.
   template <std::size_t N>
-  struct Terms {
+  void move_by(double h, const Stage& k, const double* from, double* out, std::size_t size) const {
     std::array<double, N> c;
     std::array<const double*, N> x;
-
-    /// out = base + sum_j c_j x_j; without a base it counts as zero.
-    void add(const double* base, double* __restrict out, std::size_t size) const {
-      for (std::size_t i = 0; i < size; ++i) {
-        double sum = 0.0;
-        [&]<std::size_t... J>(std::index_sequence<J...>) { ((sum += c[J] * x[J][i]), ...); }
-        (std::make_index_sequence<N>{});
-        out[i] = base == nullptr ? sum : base[i] + sum;
-      }
+    for (std::size_t j = 0; j < N; ++j) {
+      c[j] = h * weight_[j];
+      x[j] = k[stage_[j]];
     }
-  };
-
-  template <class F>
-  void unroll(const F& f, double h, const std::array<const double*, Stages>& k) const {
-    const auto with = [&]<std::size_t N>(std::integral_constant<std::size_t, N>) {
-      Terms<N> terms;
-      for (std::size_t j = 0; j < N; ++j) {
-        terms.c[j] = h * weight_[j];
-        terms.x[j] = k[stage_[j]];
-      }
-      f(terms);
-      return true;
+    const auto move_at = [&]<class T>(std::size_t i, T sum) {
+      const auto at = [i](const double* numbers) {
+        T value;
+        std::memcpy(&value, numbers + i, sizeof value);
+        return value;
+      };
+      [&]<std::size_t... J>(std::index_sequence<J...>) { ((sum += c[J] * at(x[J])), ...); }
+      (std::make_index_sequence<N>{});
+      sum = at(from) + sum;
+      std::memcpy(out + i, &sum, sizeof sum);
     };
-    [&]<std::size_t... N>(std::index_sequence<N...>) {
-      (void)((count_ == N + 1 && with(std::integral_constant<std::size_t, N + 1>{})) || ...);
-    }
-    (std::make_index_sequence<Stages>{});
+    std::size_t i = 0;
+    for (; i + 1 < size; i += 2) move_at(i, detail::Pair{0.0, 0.0});
+    if (i < size) move_at(i, 0.0);
   }
 
   std::size_t count_ = 0;

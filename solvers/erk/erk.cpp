@@ -70,8 +70,7 @@ double ErkStepper::RungeKutta::shorter(double step, double factor) const {
 /// What makes steps fail however short they are, as far as the last node tells; round-off does not, see
 /// weigh.
 std::string ErkStepper::RungeKutta::cause() const {
-  const Instant at{to.t, to.q, std::span(to.va).first(n)};
-  if (const auto singular = singular_here(*system, scales, at); !singular.empty()) return singular;
+  if (const auto singular = singular_here(*system, scales, to.instant()); !singular.empty()) return singular;
   if (to.sine < constants.close_to_dependent) return "the constraints are nearly linearly dependent here";
   if (2 * stability_limited > steps && steps > 0)
     return "a force is very stiff; Stepper::ida has no such limit";
@@ -96,7 +95,7 @@ void ErkStepper::RungeKutta::accept(bool by_extrapolation) {
   extrapolated = by_extrapolation;
   std::swap(from, to);
   std::swap(to, next);
-  singular.remember(to.t, halves(to.va).second);
+  singular.remember(to.t, to.a());
 }
 
 void ErkStepper::step(double wanted) {
@@ -167,8 +166,8 @@ void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v)
   RungeKutta& s = *method_;
   for (const Node* node : {&s.to, &s.from}) {
     if (t != node->t) continue;
-    std::ranges::copy(node->q, q.begin());
-    std::copy_n(node->va.begin(), s.n, v.begin());
+    std::ranges::copy(node->q(), q.begin());
+    std::ranges::copy(node->v(), v.begin());
     return;
   }
   if (s.extrapolated) return s.singular.read(t, q, v);
@@ -176,12 +175,12 @@ void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v)
   const Hermite<3> polynomial({s.from.t, s.middle.t, s.to.t}, t);
   const Hermite<3, 2> of_velocities({s.from.t, s.middle.t, s.to.t}, t);
   const Hermite<2, 2> of_ends({s.from.t, s.to.t}, t);
-  const double rounding = s.scales.rounding(s.to.q), h = s.to.t - s.from.t,
+  const double rounding = s.scales.rounding(s.to.q()), h = s.to.t - s.from.t,
                of_time = 10.0 * epsilon * std::abs(s.to.t);
   for (std::size_t i = 0; i < s.n; ++i) {
-    const std::array speeds{s.from.va[i], s.middle.va[i], s.to.va[i]},
-        accelerations{s.from.va[s.n + i], s.middle.va[s.n + i], s.to.va[s.n + i]};
-    const auto x = polynomial({s.from.q[i], s.middle.q[i], s.to.q[i]}, speeds, accelerations);
+    const std::array speeds{s.from.v()[i], s.middle.v()[i], s.to.v()[i]},
+        accelerations{s.from.a()[i], s.middle.a()[i], s.to.a()[i]};
+    const auto x = polynomial({s.from.x[i], s.middle.x[i], s.to.x[i]}, speeds, accelerations);
     const double better = of_velocities(speeds, accelerations).value;
     const double cubic = of_ends({speeds[0], speeds[2]}, {accelerations[0], accelerations[2]}).value;
     const double round_off = 10.0 * (rounding + of_time * std::abs(speeds[0])) / h;
@@ -197,7 +196,7 @@ void ErkStepper::sketch(double t, std::span<double> q, std::span<double> v) {
   const Hermite<2> of_ends({s.from.t, s.to.t}, t);
   for (std::size_t i = 0; i < s.n; ++i) {
     const auto x =
-        of_ends({s.from.q[i], s.to.q[i]}, {s.from.va[i], s.to.va[i]}, {s.from.va[s.n + i], s.to.va[s.n + i]});
+        of_ends({s.from.x[i], s.to.x[i]}, {s.from.v()[i], s.to.v()[i]}, {s.from.a()[i], s.to.a()[i]});
     q[i] = x.value;
     v[i] = x.derivative;
   }

@@ -17,6 +17,17 @@ constexpr double stable = 3.3;
 /// (Kantorovich); after a step of the method they change by the part that its error is of their radius.
 constexpr double most_turned = 0.5;
 
+using Four = std::array<detail::Pair, 2>;
+
+/// By stages the weights of the null rules, and of the error of order 7.
+constexpr auto estimating = [] {
+  std::array<Four, verner87.stages> weights{};
+  for (std::size_t j = 0; j < weights.size(); ++j)
+    weights[j] = {detail::Pair{null_rules.third[j], null_rules.fourth[j]},
+                  detail::Pair{null_rules.sixth[j], verner87.d[j]}};
+  return weights;
+}();
+
 /// By which a combination of stages amplifies what each has of its own by chance.
 double amplification(const std::array<double, verner87.stages>& weights) {
   double square = 0.0;
@@ -52,8 +63,8 @@ double near_singularity(double e3, double e4, double e6) {
 void ErkStepper::RungeKutta::measure_noise() {
   const auto rounded = [this](double x) { return x * (chance() % 2 == 0 ? 1.0 + epsilon : 1.0 - epsilon); };
   for (std::size_t i = 0; i < n; ++i) {
-    noise_q[i] = rounded(to.q[i]);
-    noise_v[i] = rounded(to.va[i]);
+    noise_q[i] = rounded(to.x[i]);
+    noise_v[i] = rounded(to.x[n + i]);
   }
   const auto a = std::span(difference).first(n);
   try {
@@ -64,7 +75,7 @@ void ErkStepper::RungeKutta::measure_noise() {
   // Behind a switch the accelerations are others, and so are those without a direction.
   if (switching.differs({to.t, noise_q, noise_v})) return;
   for (std::size_t i = 0; i < n; ++i)
-    noise[i] = std::max(constants.step_memory * noise[i], std::abs(a[i] - to.va[n + i]));
+    noise[i] = std::max(constants.step_memory * noise[i], std::abs(a[i] - to.a()[i]));
   const double off = position_violation(*system, manifold.equations(), lengths).size,
                off_speed = velocity_violation(*system, manifold.equations(), lengths).size;
   noise_of_positions = std::max(constants.step_memory * noise_of_positions, off);
@@ -78,9 +89,9 @@ void ErkStepper::RungeKutta::weigh(const Node& at, double step, double allowed) 
   for (std::size_t i = 0; i < n; ++i) {
     const double of_velocity = of_stages * noise[i];
     const double of_projection = constants.roundings_of_step / lengths[i];
-    weight[i] = 1.0 / (scales.position_error(i, at.q[i], allowed) + of_velocity * step +
+    weight[i] = 1.0 / (scales.position_error(i, at.q()[i], allowed) + of_velocity * step +
                        of_projection * noise_of_positions);
-    weight[n + i] = 1.0 / (scales.velocity_error(i, at.va[i], allowed) + of_velocity +
+    weight[n + i] = 1.0 / (scales.velocity_error(i, at.v()[i], allowed) + of_velocity +
                            of_projection * noise_of_velocities);
   }
 }
@@ -100,20 +111,27 @@ double ErkStepper::RungeKutta::weighted_norm() const {
   return std::sqrt(sum / static_cast<double>(difference.size()));
 }
 
-/// The size of a sum of the stages of a step, which stays in `difference`.
-double ErkStepper::RungeKutta::weighted_norm_of(const Combination<stages>& sum, double step) {
-  sum.apply(step, k, difference.data(), 2 * n);
-  return weighted_norm();
+/// The sizes of the null rules of a step, and that of its error of order 7, which stays in `difference`.
+std::array<double, 4> ErkStepper::RungeKutta::estimates(double step) {
+  Four squares{};
+  for (std::size_t i = 0; i < difference.size(); ++i) {
+    Four e{};
+    for (std::size_t j = 0; j < stages; ++j)
+      for (std::size_t half : {0U, 1U}) e[half] += estimating[j][half] * (step * k[j][i]);
+    for (std::size_t half : {0U, 1U}) squares[half] += (e[half] * weight[i]) * (e[half] * weight[i]);
+    difference[i] = e[1][1];
+  }
+  const auto root = [this](double sum) { return std::sqrt(sum / static_cast<double>(difference.size())); };
+  return {root(squares[0][0]), root(squares[0][1]), root(squares[1][0]), root(squares[1][1])};
 }
 
 /// The estimated error of a step to `next` over the tolerance, or where the estimate is doubtful over a part
 /// of it.
 double ErkStepper::RungeKutta::error(double step, double doubt) {
-  if (scales.length_from_path) adopt(scales.extended_by(next.q, halves(next.va).first, step, tolerance));
+  if (scales.length_from_path) adopt(scales.extended_by(next.q(), next.v(), step, tolerance));
   weigh(next, step, tolerance / doubt);
-  const double e3 = weighted_norm_of(null_3, step), e4 = weighted_norm_of(null_4, step),
-               e6 = weighted_norm_of(null_6, step), e7 = weighted_norm_of(d, step),
-               series = near_singularity(e3, e4, std::hypot(e6, e7 / of_estimate));
+  const auto [e3, e4, e6, e7] = estimates(step);
+  const double series = near_singularity(e3, e4, std::hypot(e6, e7 / of_estimate));
   const double e = std::max({e7, series, doubt * error_of_compliant_forces(std::span(difference).first(n))});
   if (e <= 1.0) estimate(step, e7 > 0.0 ? series / e7 : 0.0);
   if (doubt != 1.0) weigh(next, step, tolerance);
@@ -130,10 +148,10 @@ void ErkStepper::RungeKutta::estimate(double step, double of_order_8) {
     estimated.position = std::max(estimated.position, std::abs(difference[i]) * length);
     estimated.velocity = std::max(estimated.velocity, std::abs(difference[n + i]) * length);
     const double of_stages = of_step * step * length, of_sum = epsilon * length;
-    estimated.position_noise = std::max(
-        {estimated.position_noise, of_sum * std::abs(next.q[i]), epsilon * of_stages * std::abs(next.va[i])});
-    estimated.velocity_noise = std::max(estimated.velocity_noise,
-                                        of_stages * std::max(noise[i], epsilon * std::abs(next.va[n + i])));
+    estimated.position_noise = std::max({estimated.position_noise, of_sum * std::abs(next.q()[i]),
+                                         epsilon * of_stages * std::abs(next.v()[i])});
+    estimated.velocity_noise =
+        std::max(estimated.velocity_noise, of_stages * std::max(noise[i], epsilon * std::abs(next.a()[i])));
   }
   const double of_order_7 = std::max(estimated.position / scales.length, estimated.velocity / scales.speed());
   const double less = std::max(std::pow(std::min(of_order_7, 1.0), 1.0 / pair.order), of_order_8);
@@ -146,7 +164,7 @@ void ErkStepper::RungeKutta::estimate(double step, double of_order_8) {
 /// round-off.
 double ErkStepper::RungeKutta::error_of_compliant_forces(std::span<const double> dq) const {
   if (force_of_spring.empty()) return 0.0;
-  const double rounding = scales.rounding(next.q);
+  const double rounding = scales.rounding(next.q());
   double most = 0.0;
   for (std::size_t r = 0; r < force_of_spring.size(); ++r) {
     if (force_of_spring[r] == 0.0) continue;
@@ -166,15 +184,15 @@ double ErkStepper::RungeKutta::error_of_compliant_forces(std::span<const double>
 /// it.
 double ErkStepper::RungeKutta::project() {
   const auto [dq, dv] = halves(difference);
-  const auto [v, v_dot] = halves(next.va);
+  const auto q = next.q(), v = next.v();
   for (std::size_t i = 0; i < n; ++i) {
-    dq[i] = -next.q[i];
+    dq[i] = -q[i];
     dv[i] = -v[i];
   }
-  require(manifold.project(next.t, next.q, v, v_dot));
+  require(manifold.project(next.t, q, v, next.a()));
   if (manifold.turned() > most_turned) return std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < n; ++i) {
-    dq[i] += next.q[i];
+    dq[i] += q[i];
     dv[i] += v[i];
   }
   return weighted_norm();
@@ -183,7 +201,8 @@ double ErkStepper::RungeKutta::project() {
 /// The difference of the derivatives of the last stage and of those at the end of a step, times the step, as
 /// a fraction of the scene's size.
 double ErkStepper::RungeKutta::disagreement(double step) {
-  for (std::size_t i = 0; i < difference.size(); ++i) difference[i] = step * (k[stages - 1][i] - next.va[i]);
+  for (std::size_t i = 0; i < difference.size(); ++i)
+    difference[i] = step * (k[stages - 1][i] - next.x[n + i]);
   return tolerance * weighted_norm();
 }
 
@@ -192,12 +211,14 @@ double ErkStepper::RungeKutta::disagreement(double step) {
 void ErkStepper::RungeKutta::watch_stability(double step) {
   const double T2 = scales.time * scales.time;
   double rates = 0.0, states = 0.0;
-  last_difference.apply(step, k, stage_q.data(), n);
   for (std::size_t i = 0; i < n; ++i) {
+    double dq = 0.0;
+    for (std::size_t j = 0; j < stages; ++j)
+      dq += step * (pair.a[stages - 1][j] - pair.a[stages - 2][j]) * k[j][i];
     const double dv = k[stages - 1][i] - k[stages - 2][i];
     const double da = k[stages - 1][n + i] - k[stages - 2][n + i];
     rates += dv * dv + T2 * da * da;
-    states += stage_q[i] * stage_q[i] + T2 * dv * dv;
+    states += dq * dq + T2 * dv * dv;
   }
   const double round_off = 100.0 * epsilon * scales.length;
   if (states > round_off * round_off && step * step * rates > stable * stable * states) {

@@ -35,21 +35,21 @@ void ErkStepper::FrictionSwitches::make_room(const Problem& problem, const Start
 /// Which side `node` is on, with the multipliers that its acceleration was found with.
 void ErkStepper::FrictionSwitches::find_side(Node& node) {
   rk_.manifold.multipliers(multipliers_);
-  switches_.find({node.t, node.q, rk_.halves(node.va).first}, multipliers_, node.side);
+  switches_.find(node.instant(), multipliers_, node.side);
 }
 
 void ErkStepper::FrictionSwitches::find_side_again() {
   if (!any()) return;
   std::vector<double> unused(rk_.n);
-  rk_.require(rk_.manifold.accelerate({rk_.to.t, rk_.to.q, rk_.halves(rk_.to.va).first}, unused));
+  rk_.require(rk_.manifold.accelerate(rk_.to.instant(), unused));
   find_side(rk_.to);
 }
 
 /// Whether a stage of a step from `to` lies behind a switch.
 void ErkStepper::FrictionSwitches::check_switch(std::size_t i, double t) {
-  if (!counts(i) || !any()) return;
+  if (!counts(i)) return;
   rk_.manifold.multipliers(multipliers_);
-  switches_.find({t, rk_.stage_q, rk_.halves(rk_.stage(i)).first}, multipliers_, stage_side_);
+  switches_.find({t, rk_.stage(i, 0), rk_.stage(i, 1)}, multipliers_, stage_side_);
   passed_rest_ = passed_rest_ || switches_.slide_turned(rk_.to.side, stage_side_);
   if (switches_.same(rk_.to.side, stage_side_)) return;
   if (passed_switch_ && !switches_.same(behind_side_, stage_side_)) passed_several_ = true;
@@ -69,8 +69,7 @@ bool ErkStepper::FrictionSwitches::failed_behind_switch() {
   if (!switches_.any()) return false;
   if (passed_switch_) return true;
   try {
-    const auto [v, v_dot] = rk_.halves(rk_.next.va);
-    if (!rk_.manifold.accelerate({rk_.next.t, rk_.next.q, v}, v_dot)) return false;
+    if (!rk_.manifold.accelerate(rk_.next.instant(), rk_.next.a())) return false;
     find_side(rk_.next);
   } catch (const EquationFault&) {
     return false;
@@ -81,7 +80,7 @@ bool ErkStepper::FrictionSwitches::failed_behind_switch() {
 double ErkStepper::FrictionSwitches::effect_of_switch(const Node& a, const Node& b, double step) {
   const auto [dq, dv] = rk_.halves(rk_.difference);
   std::ranges::fill(dq, 0.0);
-  for (std::size_t i = 0; i < rk_.n; ++i) dv[i] = most_weight * step * (b.va[rk_.n + i] - a.va[rk_.n + i]);
+  for (std::size_t i = 0; i < rk_.n; ++i) dv[i] = most_weight * step * (b.a()[i] - a.a()[i]);
   return rk_.weighted_norm();
 }
 
@@ -136,16 +135,16 @@ bool ErkStepper::FrictionSwitches::stop_short(double step) {
 /// Why no step from a node, however short, leads over the switch in front of it. `next` goes straight on to
 /// where it is clearly behind.
 StepFailure ErkStepper::FrictionSwitches::why_not_over(Node& before) {
-  const auto [v, v_dot] = rk_.halves(rk_.next.va);
+  const auto q = rk_.next.q(), v = rk_.next.v();
   double ahead = rk_.shortest();
   do {
     ahead *= 2.0;
     rk_.next.t = before.t + ahead;
     for (std::size_t i = 0; i < rk_.n; ++i) {
-      rk_.next.q[i] = before.q[i] + ahead * before.va[i];
-      v[i] = before.va[i] + ahead * before.va[rk_.n + i];
+      q[i] = before.q()[i] + ahead * before.v()[i];
+      v[i] = before.v()[i] + ahead * before.a()[i];
     }
-    if (!rk_.manifold.accelerate({rk_.next.t, rk_.next.q, v}, v_dot)) break;
+    if (!rk_.manifold.accelerate(rk_.next.instant(), rk_.next.a())) break;
     find_side(rk_.next);
   } while (ahead < rk_.usual && switches_.same(before.side, rk_.next.side));
   const auto friction = switches_.turned(before.side, rk_.next.side);
@@ -162,12 +161,12 @@ bool ErkStepper::FrictionSwitches::driven_back() {
   const double jump = effect_of_switch(rk_.from, rk_.to, 1.0);
   for (double ahead = 4.0 * (rk_.to.t - rk_.from.t); ahead < 1e-3 * rk_.usual; ahead *= 8.0) {
     rk_.next.t = rk_.to.t + ahead;
-    const auto [v, v_dot] = rk_.halves(rk_.next.va);
+    const auto q = rk_.next.q(), v = rk_.next.v();
     for (std::size_t i = 0; i < rk_.n; ++i) {
-      rk_.next.q[i] = rk_.to.q[i] + ahead * (rk_.to.va[i] + 0.5 * ahead * rk_.to.va[rk_.n + i]);
-      v[i] = rk_.to.va[i] + ahead * rk_.to.va[rk_.n + i];
+      q[i] = rk_.to.q()[i] + ahead * (rk_.to.v()[i] + 0.5 * ahead * rk_.to.a()[i]);
+      v[i] = rk_.to.v()[i] + ahead * rk_.to.a()[i];
     }
-    if (!rk_.manifold.accelerate({rk_.next.t, rk_.next.q, v}, v_dot)) return false;
+    if (!rk_.manifold.accelerate(rk_.next.instant(), rk_.next.a())) return false;
     find_side(rk_.next);
     if (switches_.returns(rk_.from.side, rk_.to.side, rk_.next.side))
       return effect_of_switch(rk_.from, rk_.next, 1.0) < 0.5 * jump;
@@ -179,7 +178,7 @@ void ErkStepper::FrictionSwitches::go_on_behind_switch() {
   if (switches_.same(rk_.from.side, rk_.to.side)) return;
   rk_.h = rk_.usual;
   rk_.singular.forget();
-  rk_.singular.remember(rk_.to.t, rk_.halves(rk_.to.va).second);
+  rk_.singular.remember(rk_.to.t, rk_.to.a());
   const auto friction = switches_.turned(rk_.from.side, rk_.to.side);
   if (!friction || !driven_back()) return;
   read(rk_.from, before_switch_);
@@ -189,11 +188,11 @@ void ErkStepper::FrictionSwitches::go_on_behind_switch() {
 }
 
 void ErkStepper::FrictionSwitches::read(const Node& node, Motion& out) const {
-  const auto half = node.va.begin() + static_cast<std::ptrdiff_t>(rk_.n);
+  const auto q = node.q(), v = node.v(), a = node.a();
   out.t = node.t;
-  out.q = node.q;
-  out.v.assign(node.va.begin(), half);
-  out.a.assign(half, node.va.end());
+  out.q.assign(q.begin(), q.end());
+  out.v.assign(v.begin(), v.end());
+  out.a.assign(a.begin(), a.end());
 }
 
 void ErkStepper::FrictionSwitches::find_first_side() {
@@ -201,7 +200,7 @@ void ErkStepper::FrictionSwitches::find_first_side() {
   read(rk_.to, before_switch_);
   const Departure departure = sticking_->leave(before_switch_.instant(), before_switch_.a, rk_.to.side);
   if (departure.held_by) throw StepFailure{sticking_->would_stick(*departure.held_by), rk_.to.t};
-  if (departure.from_rest) std::ranges::copy(departure.a, rk_.halves(rk_.to.va).second.begin());
+  if (departure.from_rest) std::ranges::copy(departure.a, rk_.to.a().begin());
 }
 
 }  // namespace dalembert

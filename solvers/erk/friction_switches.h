@@ -24,6 +24,8 @@ class ErkStepper::FrictionSwitches {
   /// Of the last node, where no attempt has led.
   void find_side_again();
 
+  /// Whether there are switches.
+  [[nodiscard]] bool any() const { return switches_.any() || switches_.any_slides(); }
   /// An attempt starts; its stage i is at t.
   void start_attempt() { passed_switch_ = passed_several_ = passed_rest_ = false; }
   void check_switch(std::size_t i, double t);
@@ -46,7 +48,6 @@ class ErkStepper::FrictionSwitches {
   std::optional<StepFailure> end;  ///< what the run ends with where the last step ended
 
  private:
-  [[nodiscard]] bool any() const { return switches_.any() || switches_.any_slides(); }
   void find_side(Node& node);
   [[nodiscard]] bool failed_behind_switch();
   [[nodiscard]] StepFailure why_not_over(Node& before);

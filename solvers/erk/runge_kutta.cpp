@@ -15,13 +15,6 @@ constexpr int stages = pair.stages;
 /// The 13th stage serves the error estimate only.
 constexpr std::size_t last_stage_of_step = stages - 2;
 
-/// Of the stages 12 and 13, both at t + h.
-std::array<double, stages> difference_of_last_rows() {
-  std::array<double, stages> d{};
-  for (std::size_t j = 0; j < d.size(); ++j) d[j] = pair.a[12][j] - pair.a[11][j];
-  return d;
-}
-
 }  // namespace
 
 ErkStepper::RungeKutta::RungeKutta(const Problem& problem, const Start& start, const Options& options)
@@ -33,9 +26,7 @@ ErkStepper::RungeKutta::RungeKutta(const Problem& problem, const Start& start, c
       t_end(options.t_end),
       manifold(problem, start.rows, start.scales.lengths()),
       a(pair.a.begin(), pair.a.end()),
-      last_difference(difference_of_last_rows()),
-      stages_after_first((stages - 1) * 2 * n),
-      stage_q(start.q.size()),
+      stages_after_first((stages - 1) * 3 * n),
       difference(2 * start.q.size()),
       weight(difference.size()),
       noise(start.q.size()),
@@ -50,13 +41,12 @@ ErkStepper::RungeKutta::RungeKutta(const Problem& problem, const Start& start, c
       switching(*this, *system) {
   for (Node* node : {&from, &to, &middle, &next}) {
     node->t = options.t_start;
-    node->q = start.q;
-    node->va.reserve(2 * n);
-    node->va.assign(start.v.begin(), start.v.end());
-    node->va.insert(node->va.end(), start.a.begin(), start.a.end());
+    node->x.reserve(3 * n);
+    for (const auto* part : {&start.q, &start.v, &start.a})
+      node->x.insert(node->x.end(), part->begin(), part->end());
   }
   switching.make_room(problem, start);
-  for (std::size_t i = 1; i < k.size(); ++i) k[i] = stage(i).data();
+  for (std::size_t i = 1; i < k.size(); ++i) k[i] = stage(i, 1).data();
   singular.remember(to.t, start.a);
   find_sine(to);
   if (!system->compliant()) return;
@@ -74,7 +64,7 @@ void ErkStepper::RungeKutta::require(bool regular) {
 }
 
 void ErkStepper::RungeKutta::find_sine(Node& node) {
-  (void)manifold.sine({node.t, node.q, halves(node.va).first});
+  (void)manifold.sine(node.instant());
   note_sine(node);
 }
 
@@ -93,9 +83,8 @@ bool ErkStepper::RungeKutta::close_to_singular(double step) const {
 }
 
 void ErkStepper::RungeKutta::run_stage(std::size_t i, double t, bool onto_constraints) {
-  const auto [v, v_dot] = halves(stage(i));
-  require(onto_constraints ? manifold.project(t, stage_q, v, v_dot)
-                           : manifold.accelerate({t, stage_q, v}, v_dot));
+  const auto q = stage(i, 0), v = stage(i, 1), a_i = stage(i, 2);
+  require(onto_constraints ? manifold.project(t, q, v, a_i) : manifold.accelerate({t, q, v}, a_i));
 }
 
 /// Of an attempt.
@@ -111,23 +100,23 @@ void ErkStepper::RungeKutta::record_comparisons_of_stage(std::size_t i, double t
 
 void ErkStepper::RungeKutta::run_stages(const Node& start, double step, std::size_t last,
                                         bool onto_constraints) {
-  k[0] = start.va.data();
+  k[0] = start.v().data();
   singular.start_step(start);
   for (std::size_t i = 1; i <= last; ++i) {
-    a[i].move(step, k, start.q.data(), stage_q.data(), start.va.data(), stage(i).data(), n);
+    a[i].move(step, k, start.x.data(), stage(i, 0).data(), 2 * n);
     const double t = start.t + pair.c[i] * step;
     if (held != nullptr && &start == &to)
       record_comparisons_of_stage(i, t, onto_constraints);
     else
       run_stage(i, t, onto_constraints);
     singular.note_angle(i, t);
-    if (&start == &to) switching.check_switch(i, t);
+    if (&start == &to && switching.any()) switching.check_switch(i, t);
   }
 }
 
 void ErkStepper::RungeKutta::finish(const Node& start, double step, Node& end) const {
   end.t = start.t + step;
-  b.move(step, k, start.q.data(), end.q.data(), start.va.data(), end.va.data(), n);
+  b.move(step, k, start.x.data(), end.x.data(), 2 * n);
 }
 
 /// Half a step of the method itself from where the last step began; on the constraints, if on its way their
@@ -140,9 +129,8 @@ void ErkStepper::RungeKutta::find_middle() {
   const bool on = projected || (dips && least.sine < constants.close_to_dependent);
   run_stages(from, half, last_stage_of_step, on);
   finish(from, half, middle);
-  const auto [v, v_dot] = halves(middle.va);
-  require(on ? manifold.project(middle.t, middle.q, v, v_dot)
-             : manifold.accelerate({middle.t, middle.q, v}, v_dot));
+  require(on ? manifold.project(middle.t, middle.q(), middle.v(), middle.a())
+             : manifold.accelerate(middle.instant(), middle.a()));
   has_middle = true;
 }
 

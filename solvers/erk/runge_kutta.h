@@ -28,16 +28,16 @@ struct ErkStepper::RungeKutta {
 
   RungeKutta(const Problem& problem, const Start& start, const Options& options);
 
-  /// Velocities and accelerations.
+  /// Positions (0), velocities (1) and accelerations (2) of stage i > 0.
+  [[nodiscard]] std::span<double> stage(std::size_t i, std::size_t third) {
+    return std::span(stages_after_first).subspan(((i - 1) * 3 + third) * n, n);
+  }
+  /// Of positions and of velocities.
   [[nodiscard]] std::pair<std::span<double>, std::span<double>> halves(std::span<double> x) const {
     return {x.first(n), x.subspan(n)};
   }
-  /// Stage i > 0: its velocities and accelerations.
-  [[nodiscard]] std::span<double> stage(std::size_t i) {
-    return std::span(stages_after_first).subspan((i - 1) * 2 * n, 2 * n);
-  }
   static void require(bool regular);
-  /// Stages 2 to `last` of a step from `start`: a stage's velocity is written where its derivative is kept.
+  /// Stages 2 to `last` of a step from `start`.
   void run_stages(const Node& start, double step, std::size_t last, bool onto_constraints);
   void run_stage(std::size_t i, double t, bool onto_constraints);
   void record_comparisons_of_stage(std::size_t i, double t, bool onto_constraints);
@@ -50,7 +50,7 @@ struct ErkStepper::RungeKutta {
   void weigh(const Node& at, double step, double allowed);
   void adopt(const PathExtent& extent);
   [[nodiscard]] double weighted_norm() const;
-  [[nodiscard]] double weighted_norm_of(const Combination<stages>& sum, double step);
+  [[nodiscard]] std::array<double, 4> estimates(double step);
   [[nodiscard]] double error(double step, double doubt);
   void estimate(double step, double of_order_8);
   void measure_noise();
@@ -75,8 +75,7 @@ struct ErkStepper::RungeKutta {
   double tolerance, t_end;
   Manifold manifold;
   std::vector<Combination<stages>> a;
-  Combination<stages> b{pair.b}, d{pair.d}, last_difference;
-  Combination<stages> null_3{null_rules.third}, null_4{null_rules.fourth}, null_6{null_rules.sixth};
+  Combination<stages> b{pair.b};
   Node from, to;  // the last step; before the first, both are the start
   Node middle;    // of that step, if `has_middle`
   bool has_middle = false;
@@ -91,7 +90,6 @@ struct ErkStepper::RungeKutta {
   const Branches::Sides* held = nullptr;  // that the steps are taken on, if anything is compared
   std::array<Compared, noted.size()> compared;
   bool strayed = false;                                        // at a stage that was noted, see Branches
-  std::vector<double> stage_q;                                 // work
   std::vector<double> difference, weight;                      // of positions and velocities
   std::vector<double> noise, noise_q, noise_v;                 // of accelerations, see measure_noise; work
   double noise_of_positions = 0.0, noise_of_velocities = 0.0;  // of their projection, as lengths

@@ -100,8 +100,7 @@ double ErkStepper::SingularPassage::least_between_stages() const {
 }
 
 void ErkStepper::SingularPassage::extrapolate(std::size_t nodes, double t, Node& out) {
-  const auto [v, a] = rk_.halves(out.va);
-  extrapolation_.go(nodes, t, rk_.to.q, std::span(rk_.to.va).first(rk_.n), out.q, v, a);
+  extrapolation_.go(nodes, t, rk_.to.q(), rk_.to.v(), out.q(), out.v(), out.a());
   out.t = t;
 }
 
@@ -115,7 +114,7 @@ double ErkStepper::SingularPassage::find_singular(double& t) {
   Angle lowest = rk_.to.angle();
   for (int i = 0; i < attempts && lowest.sine > constants.singular_ratio * rk_.to.sine; ++i) {
     extrapolate(nodes, t, rk_.middle);
-    at[2] = {t, rk_.manifold.sine({t, rk_.middle.q, rk_.halves(rk_.middle.va).first})};
+    at[2] = {t, rk_.manifold.sine(rk_.middle.instant())};
     if (rk_.manifold.exchanges() != rk_.to.rows) return rk_.to.sine;
     if (at[2].sine < lowest.sine) lowest = at[2];
     const auto next_guess = least_of_parabola(at);
@@ -141,9 +140,8 @@ bool ErkStepper::SingularPassage::passes_beside(double singular) {
   const auto lengths = rk_.scales.lengths();
   double error = 0.0;
   for (std::size_t i = 0; i < rk_.n; ++i)
-    error = std::max(error, std::abs(rk_.next.q[i] - rk_.middle.q[i]) * lengths[i]);
-  const Manifold::Gap gap =
-      rk_.manifold.gap({t, rk_.next.q, rk_.halves(rk_.next.va).first}, rk_.scales.length);
+    error = std::max(error, std::abs(rk_.next.x[i] - rk_.middle.x[i]) * lengths[i]);
+  const Manifold::Gap gap = rk_.manifold.gap(rk_.next.instant(), rk_.scales.length);
   if (!(gap.distance > margin_of_gap * std::max(error, gap.rounding))) return false;
   const double unnoticed = constants.most_correction * rk_.tolerance * rk_.scales.length;
   if (gap.distance > unnoticed) return true;
@@ -178,10 +176,7 @@ bool ErkStepper::SingularPassage::take(double singular) {
   extrapolate(nodes, beyond, rk_.next);
   extrapolate(nodes - 1, beyond, rk_.middle);
   rk_.weigh(rk_.next, 0.0, rk_.tolerance);
-  for (std::size_t i = 0; i < rk_.n; ++i) {
-    rk_.difference[i] = rk_.next.q[i] - rk_.middle.q[i];
-    rk_.difference[rk_.n + i] = rk_.next.va[i] - rk_.middle.va[i];
-  }
+  for (std::size_t i = 0; i < rk_.difference.size(); ++i) rk_.difference[i] = rk_.next.x[i] - rk_.middle.x[i];
   if (!worth_taking(rk_.weighted_norm())) return false;
   if (rk_.next.t < rk_.t_end) {
     (void)rk_.project();
@@ -196,8 +191,7 @@ bool ErkStepper::SingularPassage::take(double singular) {
 }
 
 void ErkStepper::SingularPassage::read(double t, std::span<double> q, std::span<double> v) const {
-  extrapolation_.read(extrapolation_nodes_, t, {rk_.from.t, rk_.from.q, std::span(rk_.from.va).first(rk_.n)},
-                      {rk_.to.t, rk_.to.q, std::span(rk_.to.va).first(rk_.n)}, q, v);
+  extrapolation_.read(extrapolation_nodes_, t, rk_.from.instant(), rk_.to.instant(), q, v);
 }
 
 }  // namespace dalembert

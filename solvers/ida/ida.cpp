@@ -219,14 +219,11 @@ StepError IdaStepper::error() const { return solver_->reached; }
 
 void IdaStepper::interpolate(double t, std::span<double> q, std::span<double> v) {
   const Solver& s = *solver_;
-  if (s.steps == 0 || t == s.t) {
-    std::ranges::copy(s.instant(t, s.y.get()).q, q.begin());
-    std::ranges::copy(s.instant(t, s.y.get()).v, v.begin());
-    return;
-  }
-  check(IDAGetDky(s.ida.get(), t, 0, s.dense.get()), "IDAGetDky");
-  std::ranges::copy(s.instant(t, s.dense.get()).q, q.begin());
-  std::ranges::copy(s.instant(t, s.dense.get()).v, v.begin());
+  const bool at_node = s.steps == 0 || t == s.t;
+  if (!at_node) check(IDAGetDky(s.ida.get(), t, 0, s.dense.get()), "IDAGetDky");
+  const Instant at = s.instant(t, at_node ? s.y.get() : s.dense.get());
+  std::ranges::copy(at.q, q.begin());
+  std::ranges::copy(at.v, v.begin());
 }
 
 bool IdaStepper::compliant_multipliers(double t, CompliantMultipliers& out) const {

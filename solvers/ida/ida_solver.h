@@ -8,6 +8,7 @@
 #include <dalembert/solvers/ida/sundials.h>
 
 #include <ida/ida.h>
+#include <nvector/nvector_serial.h>
 
 #include <exception>
 #include <string>
@@ -73,9 +74,10 @@ struct IdaStepper::Solver {
   [[nodiscard]] std::size_t m() const { return rows.size(); }
   [[nodiscard]] std::size_t m_holonomic() const { return rows.holonomic; }
   [[nodiscard]] std::size_t unknowns() const { return 2 * n() + m() + m_holonomic(); }
-  [[nodiscard]] std::span<double> entries(N_Vector x) const { return {N_VGetArrayPointer(x), unknowns()}; }
+  [[nodiscard]] std::span<double> entries(N_Vector x) const { return {NV_DATA_S(x), unknowns()}; }
   [[nodiscard]] Instant instant(double at, N_Vector x) const {
-    return {at, entries(x).subspan(0, n()), entries(x).subspan(n(), n())};
+    const auto y = entries(x);
+    return {at, y.subspan(0, n()), y.subspan(n(), n())};
   }
 
   void make_linear_solver();

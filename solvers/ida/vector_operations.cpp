@@ -1,11 +1,14 @@
 #include "dalembert/solvers/ida/vector_operations.h"
 
+#include <dalembert/core/autodiff/derivatives.h>
+
 #include <nvector/nvector_serial.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
 namespace dalembert {
 
@@ -65,6 +68,33 @@ void scale(double a, N_Vector x, N_Vector result) {
   for (std::size_t i = 0; i < n; ++i) z[i] = a * u[i];
 }
 
+/// Sum of a_j x_j in one pass over memory, where SUNDIALS has one for each term.
+int linear_combination(int count, double* a, N_Vector* x, N_Vector result) {
+  const std::size_t n = length(result);
+  const auto sum_at = [&]<class T>(std::size_t i, T sum) {
+    for (int j = 0; j < count; ++j) {
+      T value;
+      std::memcpy(&value, NV_DATA_S(x[j]) + i, sizeof value);
+      sum += a[j] * value;
+    }
+    std::memcpy(NV_DATA_S(result) + i, &sum, sizeof sum);
+  };
+  std::size_t i = 0;
+  for (; i + 1 < n; i += 2) sum_at(i, detail::Pair{0.0, 0.0});
+  if (i < n) sum_at(i, 0.0);
+  return 0;
+}
+
+int linear_sums(int count, double a, N_Vector* x, double b, N_Vector* y, N_Vector* results) {
+  for (int j = 0; j < count; ++j) linear_sum(a, x[j], b, y[j], results[j]);
+  return 0;
+}
+
+int scale_all(int count, double* a, N_Vector* x, N_Vector* results) {
+  for (int j = 0; j < count; ++j) scale(a[j], x[j], results[j]);
+  return 0;
+}
+
 void constant(double a, N_Vector x) { std::fill_n(NV_DATA_S(x), length(x), a); }
 
 }  // namespace
@@ -75,6 +105,9 @@ void vectorise(N_Vector x) {
   x->ops->nvlinearsum = linear_sum;
   x->ops->nvscale = scale;
   x->ops->nvconst = constant;
+  x->ops->nvlinearcombination = linear_combination;
+  x->ops->nvlinearsumvectorarray = linear_sums;
+  x->ops->nvscalevectorarray = scale_all;
 }
 
 }  // namespace dalembert

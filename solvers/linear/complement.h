@@ -20,30 +20,34 @@ class ComplementPattern {
 
  private:
   friend class SchurComplement;
-  /// A row's entries in the system's W, and where its copies in W and V start.
-  struct Row {
-    std::size_t first, last, own;
+  /// An entry of W in use, by its number in the system's W.
+  struct Entry {
+    std::size_t place, column;
+    double inverse_mass;
   };
-  /// A sum of products of consecutive entries of W and V; goes to one place.
+  /// A sum of products of consecutive entries of the system's W and of V; goes to one place, as the first one
+  /// there or behind others.
   struct Product {
-    std::size_t place, a, b, count;
+    std::size_t place, w, v, count;
+    bool first = false;
   };
   /// Where a compliant row of the system stands on the diagonal.
   struct Diagonal {
     std::size_t row, place;
   };
   struct Plan {
-    std::vector<Row> rows;
-    std::vector<Diagonal> compliant;         // `place` is the number of an entry
-    std::vector<LdlPattern::Entry> entries;  // one per product
+    std::vector<std::size_t> row_end;
+    std::vector<Entry> entries;
+    std::vector<Diagonal> compliant;        // `place` is the number of a product
+    std::vector<LdlPattern::Entry> places;  // one per product
     std::vector<Product> products;
   };
   [[nodiscard]] static Plan plan(const System& system, std::span<const std::size_t> rows);
   ComplementPattern(const System& system, Plan plan);
 
   std::vector<double> inverse_mass_;
-  std::vector<Row> rows_;
-  std::vector<std::size_t> column_;
+  std::vector<std::size_t> row_end_;  // among the entries
+  std::vector<Entry> entries_;
   std::vector<Product> products_;
   std::vector<Diagonal> compliant_;
   LdlPattern ldl_;
@@ -77,7 +81,7 @@ class SchurComplement {
 
  private:
   const ComplementPattern* pattern_;
-  std::vector<double> w_, v_;
+  std::vector<double> v_;
   SparseLdl ldl_;
 };
 

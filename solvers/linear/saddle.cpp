@@ -72,8 +72,11 @@ WholeMatrix& SaddleMatrix::whole(SaddleValues::Blocks blocks) {
 bool SaddleMatrix::factorise(const SaddleValues& values) {
   ++factorisations_;
   const auto blocks = values.blocks();
-  by_complement_ = blocks == SaddleValues::Blocks::symmetric && pattern_->by_complement() &&
-                   complement().factorise(values) && complement().smallest_pivot() > constants.least_pivot;
+  by_complement_ = false;
+  if (blocks == SaddleValues::Blocks::symmetric && pattern_->by_complement()) {
+    SchurComplement& own = complement();
+    by_complement_ = own.factorise(values) && own.smallest_pivot() > constants.least_pivot;
+  }
   return by_complement_ || whole(blocks).factorise(values);
 }
 

@@ -120,7 +120,7 @@ void SingularExtrapolation::go(std::size_t nodes, double t, std::span<const doub
   }
 }
 
-void SingularExtrapolation::read(std::size_t nodes, double t, const End& from, const End& to,
+void SingularExtrapolation::read(std::size_t nodes, double t, const Instant& from, const Instant& to,
                                  std::span<double> q, std::span<double> v) const {
   const double length = to.t - from.t, at = (t - from.t) / length;
   const auto all = places(length);

@@ -40,15 +40,11 @@ class SingularExtrapolation {
   void go(std::size_t nodes, double t, std::span<const double> q0, std::span<const double> v0,
           std::span<double> q, std::span<double> v, std::span<double> a) const;
 
-  struct End {
-    double t;
-    std::span<const double> q, v;
-  };
   /// Between the last of those nodes and the state beyond t*, once that is known: a(t) = p(t) + (alpha +
   /// beta t) prod (t - t_j), alpha and beta so that q and v are met there. Interpolated, their noise and that
   /// of the accelerations is not amplified; and B^2 < A C for the moments A, B, C of a product that does not
   /// change its sign between both ends (Cauchy, Schwarz), so there always is one such polynomial.
-  void read(std::size_t nodes, double t, const End& from, const End& to, std::span<double> q,
+  void read(std::size_t nodes, double t, const Instant& from, const Instant& to, std::span<double> q,
             std::span<double> v) const;
 
  private:
