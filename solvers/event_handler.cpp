@@ -214,7 +214,7 @@ Change EventHandler::change_scene(const EventRecord& due, const FlatSample& at,
       next.system->layout()->forces.size() != integration.system().layout()->forces.size())
     refuse("its change adds to the scene; add everything before the run, and release or impose it there");
   if (auditor_ != nullptr) auditor_->replace_system(at.time, next.system);
-  const Problem always(next.system->without(next.system->conditional_constraints()));
+  const Problem always(next.system->without(next.system->layout()->conditional_constraints()));
   std::vector<double> v = next.v;
   const auto impulses = project_impulsively_onto(always, integration.scales(at.time), at.time, next.q, v,
                                                  integration.tolerance());
@@ -276,7 +276,7 @@ Stop EventHandler::restart(const Stop& stop, const FlatSample* before, Integrati
     return seen_.flat();
   };
   const OutputState start = (read(integration, t), seen_);
-  const bool timed = system.rheonomic() || system.has_timed_forces();
+  const bool timed = system.rheonomic() || system.forces().timed();
   const auto jumped = watch_.restart({start.flat(), before, asked_for_, timed, stop.not_reached, changed,
                                       ahead, integration.scales(t).time});
   Stop next{t, stop.ends_run};

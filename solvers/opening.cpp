@@ -19,12 +19,12 @@ namespace {
 
 /// An impact would have to give impulses to what reads the force of a contact.
 void require_no_force_reads(const System& system) {
-  const auto pattern = system.multiplier_force_pattern();
+  const auto pattern = system.forces().slope_pattern();
   for (std::size_t k = 0; k < pattern.size(); ++k) {
-    for (const std::size_t c : system.contacts()) {
+    for (const std::size_t c : system.layout()->contacts()) {
       const Layout::Constraint& contact = system.layout()->constraints[c];
       if (pattern[k].column != contact.own_rows().front()) continue;
-      throw InvalidScene(system.name_of_multiplier_force(k) + " reads the force of " + contact.label() +
+      throw InvalidScene(system.forces().owner_of_slope(k) + " reads the force of " + contact.label() +
                          ", which is one-sided: state it as a bilateral one, and end the run by an event "
                          "where its force vanishes");
     }
@@ -56,14 +56,14 @@ bool has_no_path(const System& system, const Start& start) {
 /// where friction turns: at least half as far as that.
 double end_of_sliding(const Problem& problem, const Start& start, TimeStepper& step, double from, double to) {
   const System& system = problem.system();
-  if (!system.slides()) return to;
+  if (!system.forces().any_slides()) return to;
   Manifold manifold(problem, start.rows, start.scales.lengths());
   std::vector<double> q(start.q), v(start.v), a(q.size()), lambda(system.rows());
   const auto turned = [&](double t) {
     step.interpolate(t, q, v);
     if (!manifold.accelerate({t, q, v}, a)) return true;
     manifold.multipliers(lambda);
-    return std::ranges::any_of(system.multiplier_force_pattern(), [&](const System::Entry& entry) {
+    return std::ranges::any_of(system.forces().slope_pattern(), [&](const System::Entry& entry) {
       return lambda[entry.column] * start.lambda[entry.column] < 0.0;
     });
   };
@@ -102,7 +102,7 @@ double lever_of_all(const System& stated, const Instant& at) {
 /// The sides on which comparisons with the time go on from the start. (Where something moves to depends on
 /// what holds it.)
 Branches::Sides sides_behind(const Problem& problem, const Start& start, const Options& options) {
-  if (!problem.system().rheonomic() && !problem.system().has_timed_forces()) return {};
+  if (!problem.system().rheonomic() && !problem.system().forces().timed()) return {};
   const Comparisons comparisons(problem, start, options.t_start, options.tolerance);
   if (!comparisons.chosen()) return {};
   Branches::Sides sides = *comparisons.held();
@@ -147,7 +147,7 @@ double measure_path(const Problem& problem, Start& start, const Options& options
 
 Opening open_run(const std::shared_ptr<const System>& stated, std::span<const double> q,
                  std::span<const double> v, const Options& options) {
-  const auto numbers = stated->conditional_constraints();
+  const auto numbers = stated->layout()->conditional_constraints();
   if (numbers.empty()) {
     const Problem problem(stated);
     Start start = first_start(problem, q, v, options, std::numeric_limits<double>::infinity());

@@ -97,7 +97,7 @@ class DerivativeCheck {
     system_.linearise({t_, flat(q_), flat(v_)}, flat(lambda_), d);
     const MatrixXd W = by_rows(flat(now_.w)), psi_q = by_rows(d.psi_q),
                    stiffness = by_entries(system_.stiffness_pattern(), d.stiffness),
-                   damping = by_entries(system_.damping_pattern(), d.damping);
+                   damping = by_entries(system_.forces().damping_pattern(), d.damping);
     const Index holonomic = as_index(system_.holonomic_rows());
     const std::vector<char> angles = system_.angles();
     const double length = length_of(system_, t_, q_), far = std::max(length, largest(q_, angles, false));
@@ -117,7 +117,7 @@ class DerivativeCheck {
       compare(kicked, &Values::F, damping.col(j), "dF/dv", j);
     }
     MatrixXd by_lambda = MatrixXd::Zero(q_.size(), lambda_.size());
-    const auto pattern = system_.multiplier_force_pattern();
+    const auto pattern = system_.forces().slope_pattern();
     for (std::size_t k = 0; k < pattern.size(); ++k)
       by_lambda(as_index(pattern[k].row), as_index(pattern[k].column)) += d.friction[k];
     const double force = lambda_.size() > 0 ? or_else(lambda_.cwiseAbs().maxCoeff(), 1.0) : 1.0;
@@ -154,7 +154,7 @@ class DerivativeCheck {
     auto e = system_.evaluation();
     std::vector<double> gamma(system_.rows());
     system_.evaluate_with_bias(at, e, gamma);
-    system_.add_multiplier_forces(at, flat(lambda), e.force);
+    system_.forces().add_reading(at, flat(lambda), e.force);
     const VectorXd F = as_vector(e.force);
     VectorXd forces = F;
     for (std::size_t r = 0; r < system_.rows(); ++r)

@@ -80,14 +80,12 @@ std::string System::describe() const {
       << " in " << layout_->dimension << " dimensions, " << n << " coordinates\n"
       << "constraints: " << kinds(parts_.constraints) << "; " << holonomic_rows() << " holonomic and "
       << nonholonomic << " nonholonomic equations, " << (rheonomic() ? "rheonomic" : "scleronomic") << '\n'
-      << (contacts().empty()
+      << (layout_->contacts().empty()
               ? ""
-              : "one-sided of these: " + std::to_string(contacts().size()) + ", counted as closed\n")
+              : "one-sided of these: " + std::to_string(layout_->contacts().size()) + ", counted as closed\n")
       << freedom_by_count(*this) << "islands that do not act on each other: " << islands(*this).count << '\n'
-      << "forces: " << kinds(std::span(parts_.forces).first(first_reading_)) << " besides constant ones"
-      << (has_multiplier_forces()
-              ? ", and " + kinds(std::span(parts_.forces).subspan(first_reading_)) + " that read multipliers"
-              : "")
+      << "forces: " << kinds(forces_.plain()) << " besides constant ones"
+      << (forces_.read_multipliers() ? ", and " + kinds(forces_.reading()) + " that read multipliers" : "")
       << '\n'
       << "unknowns of the stabilised index-2 equations: " << 2 * n + rows() + holonomic_rows() << '\n';
   const auto left_out = [&out](bool is, const char* what) {
@@ -97,8 +95,8 @@ std::string System::describe() const {
   left_out(rows() > 0 && !rheonomic(), "time derivatives of the constraints: none depends on time");
   left_out(rows() > 0 && !compliant(), "compliance: all constraints are rigid");
   left_out(stiffness_pattern_.empty(), "the stiffness block: no force or constraint varies with position");
-  left_out(damping_pattern_.empty(), "the damping block: no force depends on velocities");
-  left_out(!has_multiplier_forces() && rows() > 0, "friction: no force reads a multiplier");
+  left_out(forces_.damping_pattern().empty(), "the damping block: no force depends on velocities");
+  left_out(!forces_.read_multipliers() && rows() > 0, "friction: no force reads a multiplier");
   left_out(holonomic_rows() == 0, "the position multipliers mu: there is no holonomic constraint");
   left_out(rows() == 0, "the constraint forces: there is no constraint");
   return out.str();

@@ -47,8 +47,8 @@ VirtualWork virtual_work(const System& system, const FlatSample& sample) {
   const Eigen::VectorXd work = tangent_space(system, e.w).transpose() * Z;
   if (work.size() > 0) result.largest = work.cwiseAbs().maxCoeff();
 
-  result.forces.push_back({"constant forces", system.constant_power(sample.v)});
-  system.for_each_force_power(at, sample.lambda, [&result](std::string name, double power) {
+  result.forces.push_back({"constant forces", system.forces().constant_power(sample.v)});
+  system.forces().for_each_power(at, sample.lambda, [&result](std::string name, double power) {
     result.forces.push_back({std::move(name), power});
   });
   return result;

@@ -3,8 +3,56 @@
 #include <dalembert/core/errors.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace dalembert {
+
+namespace {
+
+std::vector<std::size_t> constraints_that(const Layout& layout, const auto& hold) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t c = 0; c < layout.constraints.size(); ++c)
+    if (hold(layout.constraints[c].condition)) numbers.push_back(c);
+  return numbers;
+}
+
+}  // namespace
+
+std::vector<std::size_t> Layout::contacts() const {
+  return constraints_that(*this, [](const Condition& c) { return c.contact.has_value(); });
+}
+
+std::vector<std::size_t> Layout::frictional_constraints() const {
+  return constraints_that(*this, [](const Condition& c) { return c.roughness.has_value(); });
+}
+
+std::vector<std::size_t> Layout::conditional_constraints() const {
+  return constraints_that(*this, [](const Condition& c) { return c.contact || c.roughness; });
+}
+
+std::vector<std::size_t> Layout::released() const {
+  return constraints_that(*this, [](const Condition& c) { return c.released; });
+}
+
+std::string Layout::conditional_label() const {
+  for (const Constraint& c : constraints)
+    if (c.condition.contact || c.condition.roughness || c.condition.released) return c.label();
+  return {};
+}
+
+void Layout::index_slots(std::size_t coordinates) {
+  touching_start.assign(coordinates + 1, 0);
+  for (const int coordinate : slot_coordinate) ++touching_start[static_cast<std::size_t>(coordinate) + 1];
+  std::partial_sum(touching_start.begin(), touching_start.end(), touching_start.begin());
+  touching.resize(slot_coordinate.size());
+  std::vector<int> next = touching_start;
+  for (const Constraint& c : constraints) {
+    for (const std::size_t slot : c.slots()) {
+      const auto coordinate = static_cast<std::size_t>(slot_coordinate[slot]);
+      touching[static_cast<std::size_t>(next[coordinate]++)] = static_cast<int>(slot);
+    }
+  }
+}
 
 const Layout::Particle* Layout::particle_at(int coordinate) const {
   const auto next = std::ranges::upper_bound(particles, coordinate, {}, &Particle::coordinate);

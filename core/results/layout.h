@@ -108,6 +108,18 @@ struct Layout {
     const auto first = static_cast<std::size_t>(touching_start[i]);
     return std::span(touching).subspan(first, static_cast<std::size_t>(touching_start[i + 1]) - first);
   }
+  /// Sets which slots act on each coordinate, once all have their places.
+  void index_slots(std::size_t coordinates);
+
+  /// The numbers of one-sided constraints, of those of Coulomb's law, and of both.
+  [[nodiscard]] std::vector<std::size_t> contacts() const;
+  [[nodiscard]] std::vector<std::size_t> frictional_constraints() const;
+  [[nodiscard]] std::vector<std::size_t> conditional_constraints() const;
+  /// Of those that their scene has released.
+  [[nodiscard]] std::vector<std::size_t> released() const;
+  /// The label of a constraint that does not always hold; empty if all do.
+  [[nodiscard]] std::string conditional_label() const;
+
   /// The particle that a coordinate belongs to, or none: it is a rotor's.
   [[nodiscard]] const Particle* particle_at(int coordinate) const;
   /// particle "bob" along x, or the rotor.

@@ -85,23 +85,23 @@ System Scene<D>::system() const {
     together += gravity.acceleration;
     std::array<double, 3> g{};
     std::ranges::copy(gravity.acceleration, g.begin());
-    parts.gravities.push_back({number, g});
+    parts.forces.gravities.push_back({number, g});
   }
-  parts.constant_force.resize(q_.size());
+  parts.forces.constant.resize(q_.size());
   for (const auto& particle : layout_.particles) {
     for (int k = 0; k < D; ++k)
-      parts.constant_force[static_cast<std::size_t>(particle.coordinate + k)] = particle.mass * together[k];
+      parts.forces.constant[static_cast<std::size_t>(particle.coordinate + k)] = particle.mass * together[k];
   }
   for (const auto& group : constraints_) {
     parts.constraints.push_back(group.batch->clone());
     parts.constraint_numbers.push_back(group.numbers);
   }
   for (const auto& group : forces_) {
-    parts.forces.push_back(group.batch->clone());
-    parts.force_numbers.push_back(group.numbers);
+    parts.forces.batches.push_back(group.batch->clone());
+    parts.forces.numbers.push_back(group.numbers);
   }
   const System all(std::move(parts));
-  const auto released = all.released();
+  const auto released = all.layout()->released();
   return released.empty() ? all : all.without(released);
 }
 

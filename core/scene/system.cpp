@@ -4,40 +4,22 @@
 #include <dalembert/core/errors.h>
 
 #include <algorithm>
-#include <iomanip>
 #include <numeric>
-#include <sstream>
 #include <utility>
 
 namespace dalembert {
 
-std::string System::at_time(double t) {
-  std::ostringstream out;
-  out << " (t = " << std::setprecision(10) << t << ')';
-  return out.str();
-}
-
-void System::append_blocks(std::span<const int> coordinates, std::size_t width, std::vector<Entry>& pattern) {
-  for (std::size_t first = 0; first < coordinates.size(); first += width) {
-    for (const int row : coordinates.subspan(first, width)) {
-      for (const int column : coordinates.subspan(first, width))
-        pattern.push_back({static_cast<std::size_t>(row), static_cast<std::size_t>(column)});
-    }
-  }
-}
-
 System::System(SystemParts parts) : parts_(std::move(parts)) {
-  place_constraints();
+  const auto layout = std::make_shared<Layout>(std::move(parts_.layout));
+  place_constraints(*layout);
+  layout->index_slots(coordinates());
   stiffness_of_constraints_ = stiffness_pattern_.size();
-  sort_forces();
-  place_forces(parts_.layout);
-  stated_forces_ = parts_.forces.size();
-  stated_multiplier_force_entries_ = multiplier_force_pattern_.size();
-  index_layout();
-  layout_ = std::make_shared<const Layout>(std::move(parts_.layout));
+  forces_ = ForceBatches(std::move(parts_.forces), layout, parts_.constraints.size(), stiffness_pattern_);
+  layout->applied = std::make_shared<const AppliedForces>(forces_.applied());
+  layout_ = layout;
 }
 
-void System::place_constraints() {
+void System::place_constraints(Layout& layout) {
   auto& batches = parts_.constraints;
   // Holonomic rows first: sort the batches, and with them the numbers of their elements.
   std::vector<std::size_t> order(batches.size());
@@ -54,7 +36,7 @@ void System::place_constraints() {
   parts_.constraint_numbers = std::move(numbers);
 
   row_start_.push_back(0);
-  auto& slots = parts_.layout.slot_coordinate;
+  auto& slots = layout.slot_coordinate;
   for (std::size_t b = 0; b < batches.size(); ++b) {
     const ConstraintShape shape = batches[b]->shape();
     const auto width = static_cast<std::size_t>(shape.width);
@@ -63,9 +45,9 @@ void System::place_constraints() {
     constraint_places_.push_back(
         {Places::from(row_start_.size() - 1, row_count), Places::from(w_columns_.size(), row_count * width),
          Places::from(stiffness_pattern_.size(), batches[b]->size() * width * width), shape.holonomic});
-    append_blocks(coordinates, width, stiffness_pattern_);
+    detail::append_blocks(coordinates, width, stiffness_pattern_);
     for (std::size_t i = 0; i < batches[b]->size(); ++i) {
-      auto& info = parts_.layout.constraints[static_cast<std::size_t>(parts_.constraint_numbers[b][i])];
+      auto& info = layout.constraints[static_cast<std::size_t>(parts_.constraint_numbers[b][i])];
       info.first_row = static_cast<int>(rows());
       info.first_slot = static_cast<int>(slots.size());
       const auto own = coordinates.subspan(i * width, width);
@@ -93,10 +75,6 @@ bool System::rheonomic() const {
   return std::ranges::any_of(parts_.constraints, [](const auto& batch) { return batch->shape().timed; });
 }
 
-bool System::has_timed_forces() const {
-  return std::ranges::any_of(parts_.forces, [](const auto& batch) { return batch->shape().timed; });
-}
-
 System::Evaluation System::evaluation() const {
   return {std::vector<double>(parts_.masses.size()), std::vector<double>(holonomic_rows()),
           std::vector<double>(rows()), std::vector<double>(w_columns_.size())};
@@ -104,8 +82,8 @@ System::Evaluation System::evaluation() const {
 
 System::Linearisation System::linearisation() const {
   return {std::vector<double>(w_columns_.size()), std::vector<double>(stiffness_pattern_.size()),
-          std::vector<double>(damping_pattern_.size()),
-          std::vector<double>(multiplier_force_pattern_.size())};
+          std::vector<double>(forces_.damping_pattern().size()),
+          std::vector<double>(forces_.slope_pattern().size())};
 }
 
 template <class F>
@@ -118,7 +96,7 @@ void System::on_constraints(double t, const F& f) const {
       });
     } catch (const ElementFault& fault) {
       const auto number = static_cast<std::size_t>(parts_.constraint_numbers[b][fault.element]);
-      throw EquationFault(layout_->constraints[number].label() + ' ' + fault.what + at_time(t));
+      throw EquationFault(layout_->constraints[number].label() + ' ' + fault.what + detail::at_time(t));
     }
   }
 }
@@ -134,10 +112,7 @@ void System::evaluate_all(const Instant& at, Evaluation& out, std::span<double> 
     for (auto* part : {&out.g, &out.psi, &out.w}) std::ranges::fill(*part, 0.0);
     std::ranges::fill(gamma, 0.0);
   }
-  Branches::or_naturally<EquationFault>([&] {
-    std::ranges::copy(parts_.constant_force, out.force.begin());
-    add_forces(at, out.force);
-  });
+  Branches::or_naturally<EquationFault>([&] { forces_.evaluate(at, out.force); });
   on_constraints(at.t, [&](const ConstraintBatch& batch, const ConstraintPlaces& own) {
     batch.evaluate(
         at,
@@ -220,10 +195,6 @@ double System::elastic_energy(std::span<const double> lambda) const {
   return V;
 }
 
-double System::constant_power(std::span<const double> v) const {
-  return std::inner_product(v.begin(), v.end(), parts_.constant_force.begin(), 0.0);
-}
-
 const Layout::Constraint& System::constraint_of_row(std::size_t row, std::size_t& batch) const {
   const auto first = [](const ConstraintPlaces& own) { return own.rows.front(); };
   const auto next = std::ranges::upper_bound(constraint_places_, row, {}, first);
@@ -231,6 +202,27 @@ const Layout::Constraint& System::constraint_of_row(std::size_t row, std::size_t
   const auto i = (row - first(constraint_places_[batch])) /
                  static_cast<std::size_t>(parts_.constraints[batch]->shape().rows);
   return layout_->constraints[static_cast<std::size_t>(parts_.constraint_numbers[batch][i])];
+}
+
+std::string System::label_of_batch(std::size_t batch) const {
+  const auto of = [](const auto& all, const auto& label) {
+    return all.size() == 1 ? label(0)
+                           : "one of the " + std::to_string(all.size()) + ' ' + std::string(all.shape().kind);
+  };
+  if (batch >= parts_.constraints.size()) {
+    batch -= parts_.constraints.size();
+    return of(forces_.batch(batch), [&](std::size_t i) { return forces_.label(batch, i); });
+  }
+  const auto& numbers = parts_.constraint_numbers[batch];
+  return of(*parts_.constraints[batch], [&](std::size_t i) {
+    return layout_->constraints[static_cast<std::size_t>(numbers[i])].label();
+  });
+}
+
+bool System::timed_batch(std::size_t batch) const {
+  const std::size_t constraints = parts_.constraints.size();
+  return batch < constraints ? parts_.constraints[batch]->shape().timed
+                             : forces_.batch(batch - constraints).shape().timed;
 }
 
 std::string System::row_label(std::size_t row) const {

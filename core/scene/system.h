@@ -1,11 +1,9 @@
 #pragma once
 
 #include <dalembert/core/equations/batch.h>
-#include <dalembert/core/forces/sliding_friction.h>
-#include <dalembert/core/results/applied_forces.h>
 #include <dalembert/core/results/layout.h>
+#include <dalembert/core/scene/force_batches.h>
 
-#include <array>
 #include <functional>
 #include <memory>
 #include <span>
@@ -16,16 +14,12 @@ namespace dalembert {
 
 /// The parts a System is made of; Scene::system() fills them in.
 struct SystemParts {
-  Layout layout{};                       ///< rows, slots and applied forces are filled in by System
-  std::vector<double> masses{};          ///< one per coordinate; a rotor's inertia
-  std::vector<double> constant_force{};  ///< one per coordinate
+  Layout layout{};               ///< rows, slots and applied forces are filled in by System
+  std::vector<double> masses{};  ///< one per coordinate; a rotor's inertia
   // Shared by all systems of a run, whatever is in force.
   std::vector<std::shared_ptr<const ConstraintBatch>> constraints{};
   std::vector<std::vector<int>> constraint_numbers{};  ///< per batch: the scene's number of each element
-  // Shared likewise, and with the results of a run, which evaluate forces where they are read.
-  std::vector<std::shared_ptr<const ForceBatch>> forces{};
-  std::vector<std::vector<int>> force_numbers{};
-  std::vector<std::pair<int, std::array<double, 3>>> gravities{};  ///< the scene's number, acceleration
+  ForceParts forces{};
   std::function<double(double t)> extent{};  ///< diagonal of the box around all points at the start [length]
 };
 
@@ -54,10 +48,7 @@ class System {
     std::vector<double> damping;    ///< d(F + F_f)/dv, in the order of its pattern
     std::vector<double> friction;   ///< dF_f/dlambda, in the order of its pattern
   };
-  struct Entry {
-    std::size_t row;
-    std::size_t column;
-  };
+  using Entry = MatrixEntry;
 
   explicit System(SystemParts parts);
 
@@ -66,8 +57,6 @@ class System {
   [[nodiscard]] std::size_t holonomic_rows() const { return holonomic_rows_; }
   /// Whether any constraint depends on time explicitly.
   [[nodiscard]] bool rheonomic() const;
-  /// Whether any force does.
-  [[nodiscard]] bool has_timed_forces() const;
   [[nodiscard]] const RowLaw& law(std::size_t row) const { return laws_[row]; }
   /// Whether any row is not rigid.
   [[nodiscard]] bool compliant() const { return compliant_rows() > 0; }
@@ -78,34 +67,19 @@ class System {
   /// Diagonal of the box around all points, the driven ones where they are at the start of the run [length].
   [[nodiscard]] double extent(double t_start) const { return parts_.extent(t_start); }
   [[nodiscard]] const std::shared_ptr<const Layout>& layout() const { return layout_; }
+  /// F, its parts and its derivatives.
+  [[nodiscard]] const ForceBatches& forces() const { return forces_; }
 
   /// Pattern of W: its entries by rows, `for (const std::size_t k : row(r))`, and the column of each, the
   /// coordinate w_columns()[k]. A column may occur twice in a row; its entries add.
   [[nodiscard]] Places row(std::size_t r) const { return {row_start_[r], row_start_[r + 1]}; }
   [[nodiscard]] std::span<const std::size_t> w_columns() const { return w_columns_; }
-  /// Places of the entries of Linearisation; places may repeat, their entries add.
+  /// Places of the entries of the stiffness; places may repeat, their entries add.
   [[nodiscard]] std::span<const Entry> stiffness_pattern() const { return stiffness_pattern_; }
-  [[nodiscard]] std::span<const Entry> damping_pattern() const { return damping_pattern_; }
   /// The number of entries of the stiffness that are those of constraints; they come first.
   [[nodiscard]] std::size_t stiffness_of_constraints() const { return stiffness_of_constraints_; }
-  /// Places of dF_f/dlambda: a coordinate and a row. Empty if no force reads a multiplier.
-  [[nodiscard]] std::span<const Entry> multiplier_force_pattern() const { return multiplier_force_pattern_; }
-  [[nodiscard]] bool has_multiplier_forces() const { return !multiplier_force_pattern_.empty(); }
-  /// The number of them that are of forces that the scene states; the rest is of what slides.
-  [[nodiscard]] std::size_t stated_multiplier_force_entries() const {
-    return stated_multiplier_force_entries_;
-  }
-
-  /// One-sided constraints, those of Coulomb's law, and both, by their numbers in the layout.
-  [[nodiscard]] std::vector<std::size_t> contacts() const;
-  [[nodiscard]] std::vector<std::size_t> frictional_constraints() const;
-  [[nodiscard]] std::vector<std::size_t> conditional_constraints() const;
-  /// The rows of these that are in force.
+  /// The rows in force of constraints that hold only at times.
   [[nodiscard]] std::vector<std::size_t> conditional_rows() const;
-  /// Those that their scene has released.
-  [[nodiscard]] std::vector<std::size_t> released() const;
-  /// The label of one that does not always hold; empty if all do.
-  [[nodiscard]] std::string conditional_label() const;
   /// g and psi of the rows of these at an instant, also of those that are not in force; 0 in
   /// other rows. Throws like `evaluate`.
   void gaps(const Instant& at, std::span<double> g, std::span<double> psi) const;
@@ -121,9 +95,6 @@ class System {
     double slow;
   };
   [[nodiscard]] System sliding(std::span<const Slide> slides) const;
-  /// What these exert, as multipliers of their rows and in their slots. Throws like `evaluate`.
-  void exert_sliding(const Instant& at, std::span<double> lambda, std::span<double> slots) const;
-  [[nodiscard]] bool slides() const { return !slides_.empty(); }
   /// Whether a row is in force, and how many are.
   [[nodiscard]] bool in_force(std::size_t row) const { return out_of_force_.empty() || !out_of_force_[row]; }
   [[nodiscard]] std::size_t rows_in_force() const { return rows_in_force_; }
@@ -144,12 +115,10 @@ class System {
   /// The part of it from the constraints: the first `stiffness_of_constraints` entries, and psi_q.
   void linearise_constraints(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
   /// And the part from the forces: all the rest.
-  void linearise_forces(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
-
-  /// Adds F_f for the multipliers lambda to F. Throws like `evaluate`.
-  void add_multiplier_forces(const Instant& at, std::span<const double> lambda, std::span<double> F) const;
-  /// dF_f/dlambda, in the order of its pattern. Throws like `evaluate`.
-  void multiplier_force_slope(const Instant& at, std::span<const double> lambda, std::span<double> out) const;
+  void linearise_forces(const Instant& at, std::span<const double> lambda, Linearisation& out) const {
+    forces_.slope(at, lambda, out.friction);
+    forces_.linearise(at, lambda, out.stiffness, out.damping);
+  }
 
   /// What multipliers exert at the points the constraints were stated for, out of W: for every row as many
   /// numbers as its constraint has inputs, in the order of rows; see detail::forces_at_points. `lengths` has
@@ -162,22 +131,11 @@ class System {
   void constraint_forces(std::span<const double> w, std::span<const double> lambda,
                          std::span<double> slots) const;
   [[nodiscard]] double kinetic_energy(std::span<const double> v) const;
-  /// Energy of all forces that have one.
-  [[nodiscard]] double potential_energy(const Instant& at) const;
   /// Energy of the compliant constraints, the sum of C lambda^2 / 2.
   [[nodiscard]] double elastic_energy(std::span<const double> lambda) const;
 
-  /// F . v of the constant forces together, and of every other one, by its label.
-  [[nodiscard]] double constant_power(std::span<const double> v) const;
-  void for_each_force_power(const Instant& at, std::span<const double> lambda,
-                            const std::function<void(std::string, double)>& f) const;
-
-  /// The label of the force that an entry of the stiffness beyond those of the constraints belongs to.
-  [[nodiscard]] std::string force_of_stiffness(std::size_t entry) const;
-  /// The label of the force that an entry of dF_f/dlambda belongs to.
-  [[nodiscard]] std::string name_of_multiplier_force(std::size_t entry) const;
   /// The number of batches in Branches that the scene states; those of what slides come behind.
-  [[nodiscard]] std::size_t stated_batches() const { return parts_.constraints.size() + stated_forces_; }
+  [[nodiscard]] std::size_t stated_batches() const { return parts_.constraints.size() + forces_.stated(); }
   /// The label of what a batch holds, by its number in Branches.
   [[nodiscard]] std::string label_of_batch(std::size_t batch) const;
   /// Whether its equations depend on time explicitly.
@@ -197,50 +155,23 @@ class System {
  private:
   /// Unless gamma is empty, with the bias.
   void evaluate_all(const Instant& at, Evaluation& out, std::span<double> gamma) const;
-  /// When, for the end of an error.
-  [[nodiscard]] static std::string at_time(double t);
-  /// A pattern's dense blocks, rows first, one per element.
-  static void append_blocks(std::span<const int> coordinates, std::size_t width, std::vector<Entry>& pattern);
-  void place_constraints();
-  /// Those that read multipliers behind the others.
-  void sort_forces();
-  /// Those that have no place yet.
-  void place_forces(const Layout& layout);
-  /// Which slots act on each coordinate, and where each force is found.
-  void index_layout();
-  [[nodiscard]] std::string force_label(std::size_t batch, std::size_t element) const;
+  void place_constraints(Layout& layout);
   [[nodiscard]] const Layout::Constraint& constraint_of_row(std::size_t row, std::size_t& batch) const;
 
   template <class F>
   void on_constraints(double t, const F& f) const;
-  /// F without friction.
-  void add_forces(const Instant& at, std::span<double> F) const;
-  /// On the batches from one to before another.
-  template <class F>
-  void on_forces(std::size_t from, std::size_t end, const Instant& at, std::span<const double> lambda,
-                 const F& f) const;
-
   /// Where a batch's part of each array is.
   struct ConstraintPlaces {
     Places rows, w, stiffness;
     bool holonomic;
   };
-  /// And at which row the multipliers of each element begin, if it reads any.
-  struct ForcePlaces {
-    Places slope, stiffness, damping;
-    std::vector<std::size_t> first_row{};
-  };
   /// Of these rows; empty if all rows are in force.
   [[nodiscard]] std::span<const char> out_of_force(const Places& own) const {
     return out_of_force_.empty() ? std::span<const char>() : own.in(std::span(out_of_force_));
   }
-  /// The label of the force that an entry of an array belongs to.
-  [[nodiscard]] std::string force_of(std::size_t entry, Places ForcePlaces::*array) const;
-
   SystemParts parts_;
   std::shared_ptr<const Layout> layout_;
   std::vector<ConstraintPlaces> constraint_places_;
-  std::vector<ForcePlaces> force_places_;
   std::size_t holonomic_rows_ = 0;
   std::vector<std::size_t> row_start_;
   std::vector<std::size_t> w_columns_;
@@ -249,13 +180,8 @@ class System {
   std::vector<RowLaw> laws_;
   std::size_t compliant_rows_ = 0;
   std::vector<Entry> stiffness_pattern_;
-  std::vector<Entry> damping_pattern_;
   std::size_t stiffness_of_constraints_ = 0;
-  // Batches of forces: those that read multipliers, and behind what the scene states what slides.
-  std::size_t first_reading_ = 0, stated_forces_ = 0;
-  std::size_t stated_multiplier_force_entries_ = 0;
-  std::vector<std::shared_ptr<const SlidingFriction>> slides_;
-  std::vector<Entry> multiplier_force_pattern_;
+  ForceBatches forces_;
 };
 
 }  // namespace dalembert

@@ -4,45 +4,12 @@
 
 namespace dalembert {
 
-namespace {
-
-std::vector<std::size_t> constraints_that(const Layout& layout, const auto& hold) {
-  std::vector<std::size_t> numbers;
-  for (std::size_t c = 0; c < layout.constraints.size(); ++c)
-    if (hold(layout.constraints[c].condition)) numbers.push_back(c);
-  return numbers;
-}
-
-}  // namespace
-
-std::vector<std::size_t> System::contacts() const {
-  return constraints_that(*layout_, [](const Condition& c) { return c.contact.has_value(); });
-}
-
-std::vector<std::size_t> System::frictional_constraints() const {
-  return constraints_that(*layout_, [](const Condition& c) { return c.roughness.has_value(); });
-}
-
-std::vector<std::size_t> System::conditional_constraints() const {
-  return constraints_that(*layout_, [](const Condition& c) { return c.contact || c.roughness; });
-}
-
 std::vector<std::size_t> System::conditional_rows() const {
   std::vector<std::size_t> rows;
-  for (const std::size_t number : conditional_constraints())
+  for (const std::size_t number : layout_->conditional_constraints())
     for (const std::size_t r : layout_->constraints[number].own_rows())
       if (in_force(r)) rows.push_back(r);
   return rows;
-}
-
-std::vector<std::size_t> System::released() const {
-  return constraints_that(*layout_, [](const Condition& c) { return c.released; });
-}
-
-std::string System::conditional_label() const {
-  for (const Layout::Constraint& c : layout_->constraints)
-    if (c.condition.contact || c.condition.roughness || c.condition.released) return c.label();
-  return {};
 }
 
 System System::without(std::span<const std::size_t> constraints) const {
@@ -71,11 +38,9 @@ System System::sliding(std::span<const Slide> slides) const {
       numbers.push_back(*place);
     }
     if (own.empty()) continue;
-    other.slides_.push_back(std::make_shared<const SlidingFriction>(parts_.constraints[b], std::move(own)));
-    other.parts_.forces.push_back(other.slides_.back());
-    other.parts_.force_numbers.push_back(std::move(numbers));
+    other.forces_.add_sliding(std::make_shared<const SlidingFriction>(parts_.constraints[b], std::move(own)),
+                              std::move(numbers), other.stiffness_pattern_);
   }
-  other.place_forces(*layout_);
   return other;
 }
 

@@ -26,7 +26,7 @@ void ImpactLaws::check(const Jump& jump, bool at_start, const Claim& claim, Find
     const auto own = stated_->layout()->constraints[number].own_rows().in(jump.impulses);
     return std::ranges::any_of(own, [](double P) { return P != 0.0; });
   };
-  std::vector<std::size_t> idle = stated_->conditional_constraints();
+  std::vector<std::size_t> idle = stated_->layout()->conditional_constraints();
   std::erase_if(idle, carries);
   const System acting = stated_->without(idle);
   acting.evaluate({jump.time, jump.q, jump.v_before}, before_);

@@ -36,8 +36,8 @@ void LedgerKeeper::find_powers(const FlatSample& sample) {
     if (first) names_.push_back(name);
     powers_.push_back(value);
   };
-  put("constant forces", stated_->constant_power(sample.v));
-  stated_->for_each_force_power({sample.time, sample.q, sample.v}, sample.lambda, put);
+  put("constant forces", stated_->forces().constant_power(sample.v));
+  stated_->forces().for_each_power({sample.time, sample.q, sample.v}, sample.lambda, put);
   const Layout& layout = *stated_->layout();
   const auto power_of = [&](const Layout::Constraint& c) {
     double P = 0.0;

@@ -18,7 +18,7 @@ SampleLaws::SampleLaws(std::shared_ptr<const System> stated, const Claim& claim)
       u_(stated_->rows()),
       residual_(stated_->coordinates()),
       terms_(stated_->coordinates()),
-      conditional_(stated_->conditional_constraints()),
+      conditional_(stated_->layout()->conditional_constraints()),
       acts_(conditional_.size(), 1),
       acted_(conditional_.size(), 1),
       always_(stated_->rows(), 1) {
@@ -58,7 +58,7 @@ void SampleLaws::find_what_acts(const FlatSample& sample) {
 void SampleLaws::evaluate(const FlatSample& sample) {
   const Instant at{sample.time, sample.q, sample.v};
   acting_->evaluate_with_bias(at, e_, gamma_);
-  if (acting_->has_multiplier_forces()) add_forces_that_read(sample);
+  if (acting_->forces().read_multipliers()) add_forces_that_read(sample);
   const bool redundant = std::ranges::find(sample.unique, char{0}) != sample.unique.end();
   dependence_ = redundant ? Limits::dependent : 0.0;
   largest_force_ = 0.0;
@@ -79,9 +79,9 @@ double SampleLaws::inertia(std::size_t i) const {
 /// Where a multiplier that is read is not determined, nor are the forces that read it.
 void SampleLaws::add_forces_that_read(const FlatSample& sample) {
   const auto unknown = [&](const System::Entry& entry) { return std::isnan(sample.lambda[entry.column]); };
-  if (std::ranges::none_of(acting_->multiplier_force_pattern(), unknown))
-    return acting_->add_multiplier_forces({sample.time, sample.q, sample.v}, sample.lambda, e_.force);
-  for (const System::Entry& entry : acting_->multiplier_force_pattern())
+  if (std::ranges::none_of(acting_->forces().slope_pattern(), unknown))
+    return acting_->forces().add_reading({sample.time, sample.q, sample.v}, sample.lambda, e_.force);
+  for (const System::Entry& entry : acting_->forces().slope_pattern())
     e_.force[entry.row] = std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -201,7 +201,7 @@ void SampleLaws::check_point_forces(const FlatSample& sample, Findings& findings
 
 void SampleLaws::check_energy(const FlatSample& sample, Findings& findings) const {
   const double T = acting_->kinetic_energy(sample.v),
-               V = acting_->potential_energy({sample.time, sample.q, sample.v}),
+               V = acting_->forces().energy({sample.time, sample.q, sample.v}),
                elastic = acting_->compliant() ? acting_->elastic_energy(sample.lambda) : 0.0;
   findings.weigh(Law::energy, {}, sample.time, std::abs(sample.energy - (T + V + elastic)),
                  limits_.relative(T + std::abs(V) + elastic));

@@ -10,14 +10,15 @@
 namespace dalembert {
 
 bool conservative(const System& system) {
-  return !system.rheonomic() && !system.has_multiplier_forces() && system.damping_pattern().empty();
+  return !system.rheonomic() && !system.forces().read_multipliers() &&
+         system.forces().damping_pattern().empty();
 }
 
 WorkBalance::WorkBalance(std::shared_ptr<const System> stated, const Claim& claim)
     : stated_(std::move(stated)),
       limits_(*stated_, claim),
       watches_(conservative(*stated_)),
-      falls_(!stated_->frictional_constraints().empty()),
+      falls_(!stated_->layout()->frictional_constraints().empty()),
       v_(stated_->coordinates()),
       at_rest_(stated_->coordinates()),
       g_(stated_->rows()),
@@ -66,7 +67,7 @@ bool WorkBalance::potentials_depend_on_time(const FlatSample& sample) const {
   if (stated_->stiffness_pattern().size() == stated_->stiffness_of_constraints())
     return false;  // constant ones
   constexpr double part = 0.382;
-  const auto potential = [&](double t) { return stated_->potential_energy({t, sample.q, sample.v}); };
+  const auto potential = [&](double t) { return stated_->forces().energy({t, sample.q, sample.v}); };
   try {
     const double V = potential(sample.time);
     return potential(checked_ + part * (sample.time - checked_)) != V ||
@@ -92,7 +93,8 @@ bool WorkBalance::constraints_drive(const FlatSample& sample) {
 /// What forces do where a position errs by the accuracy or a rounding, or is moved by what rounding leaves of
 /// forces in balance: by r |F|/m for the time since the last sample.
 double WorkBalance::work_of_errors(const FlatSample& sample) {
-  stated_->without(stated_->conditional_constraints()).evaluate({sample.time, sample.q, sample.v}, e_);
+  stated_->without(stated_->layout()->conditional_constraints())
+      .evaluate({sample.time, sample.q, sample.v}, e_);
   const double time = sample.time - checked_;
   double sum = 0.0;
   for (std::size_t i = 0; i < e_.force.size(); ++i) {

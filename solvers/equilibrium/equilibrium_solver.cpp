@@ -32,17 +32,17 @@ RotatingFrame frame_of(double time, const UniformRotation<3>& turning, const Lay
 }
 
 void require_frictionless(const System& system) {
-  if (!system.has_multiplier_forces()) return;
-  throw NoEquilibrium(system.name_of_multiplier_force(0) +
+  if (!system.forces().read_multipliers()) return;
+  throw NoEquilibrium(system.forces().owner_of_slope(0) +
                       " reads a multiplier: at rest friction takes any value up to its limit, and equilibria "
                       "fill a region; leave it out to find the one without friction, or let a run come to "
                       "rest");
 }
 
 void require_bilateral(const System& system) {
-  const auto label = system.conditional_label();
+  const auto label = system.layout()->conditional_label();
   if (label.empty()) return;
-  for (const std::size_t c : system.released())
+  for (const std::size_t c : system.layout()->released())
     throw InvalidScene("Equilibria of scene \"" + system.layout()->scene +
                        "\": " + system.layout()->constraints[c].label() +
                        " has been released and is not in force; put it back, or build the scene without it");
@@ -374,7 +374,7 @@ std::shared_ptr<const Record> EquilibriumSolver::record(const State& found) cons
   std::vector<double> a(s.q.size()), forces(system().layout()->slot_coordinate.size());
   frame().apply(s.v, a);
   system().constraint_forces(e.w, s.lambda, forces);
-  const double energy = system().kinetic_energy(s.v) + system().potential_energy({time(), s.q, s.v}) +
+  const double energy = system().kinetic_energy(s.v) + system().forces().energy({time(), s.q, s.v}) +
                         system().elastic_energy(s.lambda);
   auto record = std::make_shared<Record>();
   record->layout = system().layout();

@@ -40,11 +40,11 @@ void require_suited(const System& system, double period) {
          << ", must be finite and > 0";
     throw InvalidArgument(what.str());
   }
-  if (const auto label = system.conditional_label(); !label.empty())
+  if (const auto label = system.layout()->conditional_label(); !label.empty())
     throw InvalidScene("Floquet multipliers: " + label +
                        " does not always hold; they are defined for scenes without such constraints");
-  if (system.has_multiplier_forces())
-    throw InvalidScene("Floquet multipliers: " + system.name_of_multiplier_force(0) +
+  if (system.forces().read_multipliers())
+    throw InvalidScene("Floquet multipliers: " + system.forces().owner_of_slope(0) +
                        " reads a multiplier; they are defined for scenes without such forces");
 }
 

@@ -95,7 +95,7 @@ LinearTerms linear_terms(const System& system, const RotatingFrame& frame, const
     append(terms.stiffness, row, column, -slopes.stiffness[k]);
   }
   for (std::size_t k = 0; k < slopes.damping.size(); ++k) {
-    const System::Entry place = system.damping_pattern()[k];
+    const System::Entry place = system.forces().damping_pattern()[k];
     append(terms.damping, place.row, place.column, -slopes.damping[k]);
     if (frame.rotates()) append_rotating(frame, place, slopes.damping[k], terms.stiffness);
   }

@@ -230,10 +230,10 @@ void require_suited_to_steady(const System& system) {
     throw InvalidScene(scene +
                        "a constraint changes with time; let what it drives turn freely, with its rate as "
                        "stated, or ask for floquet multipliers");
-  if (const auto label = system.conditional_label(); !label.empty())
+  if (const auto label = system.layout()->conditional_label(); !label.empty())
     throw InvalidScene(scene + label + " does not always hold; state it as a bilateral one");
-  if (system.has_multiplier_forces())
-    throw InvalidScene(scene + system.name_of_multiplier_force(0) + " reads a multiplier");
+  if (system.forces().read_multipliers())
+    throw InvalidScene(scene + system.forces().owner_of_slope(0) + " reads a multiplier");
 }
 
 }  // namespace

@@ -99,12 +99,13 @@ std::string IdaStepper::Solver::cause() const {
            "large";
   if (sine() < constants.close_to_dependent) return "the constraints are nearly linearly dependent here";
   if (newton.fastest().of_forces * scales.time > stiff_rate)
-    return system->force_of_stiffness(newton.fastest().stiffest) + " is very stiff, or a force discontinuous";
+    return system->forces().owner_of_stiffness(newton.fastest().stiffest) +
+           " is very stiff, or a force discontinuous";
   return "look for a discontinuous force";
 }
 
 std::string IdaStepper::Solver::advice() const {
-  return "stiff: " + system->force_of_stiffness(newton.fastest().stiffest) +
+  return "stiff: " + system->forces().owner_of_stiffness(newton.fastest().stiffest) +
          " causes vibrations much faster than the motion; if it is a spring, state it as a constraint with "
          "compliance 1/stiffness, as in compliant(Distance{a, b, length}, 1.0 / stiffness)";
 }

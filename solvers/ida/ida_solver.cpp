@@ -71,9 +71,9 @@ void IdaStepper::Solver::residual(double at, N_Vector x, N_Vector xp, N_Vector r
   ++evaluations;
   const Instant now = instant(at, x);
   system->evaluate(now, e);
-  if (system->has_multiplier_forces()) {
+  if (system->forces().read_multipliers()) {
     spread_multipliers(x);
-    system->add_multiplier_forces(now, lambda, e.force);
+    system->forces().add_reading(now, lambda, e.force);
   }
   evaluated_at = at;
   evaluated = x;

@@ -63,8 +63,8 @@ NewtonMatrix::NewtonMatrix(const Problem& problem, const ActiveRows& rows, doubl
     if (row >= system.holonomic_rows() || system.law(row).compliant())
       needs_k1_[islands.of_row(system, row)] = 1;
   }
-  for (std::size_t k = 0; k < system.multiplier_force_pattern().size(); ++k) {
-    const auto [coordinate, row] = system.multiplier_force_pattern()[k];
+  for (std::size_t k = 0; k < system.forces().slope_pattern().size(); ++k) {
+    const auto [coordinate, row] = system.forces().slope_pattern()[k];
     needs_k1_[islands.of_coordinate[coordinate]] = 1;
     const auto active = static_cast<std::size_t>(std::ranges::find(rows.rows, row) - rows.rows.begin());
     if (active < rows.holonomic) friction_.push_back({k, coordinate, active});
@@ -110,7 +110,7 @@ void NewtonMatrix::judge(double c) {
         (k < first_force_entry_ ? of_constraints : of_forces) * std::abs(linear_.stiffness[k]);
   }
   for (std::size_t k = 0; k < linear_.damping.size(); ++k)
-    p_[system_->damping_pattern()[k].row] += std::abs(linear_.damping[k]) / c;
+    p_[system_->forces().damping_pattern()[k].row] += std::abs(linear_.damping[k]) / c;
   std::ranges::fill(stiff_, 0);
   for (std::size_t i = 0; i < p_.size(); ++i) {
     if (p_[i] > still_soft_ * system_->masses()[i]) stiff_[problem_.islands().of_coordinate[i]] = 1;
@@ -128,7 +128,7 @@ void NewtonMatrix::leave_out_soft_forces() {
   for (std::size_t k = 0; k < linear_.stiffness.size(); ++k)
     if (soft(system_->stiffness_pattern()[k])) linear_.stiffness[k] = 0.0;
   for (std::size_t k = 0; k < linear_.damping.size(); ++k)
-    if (soft(system_->damping_pattern()[k])) linear_.damping[k] = 0.0;
+    if (soft(system_->forces().damping_pattern()[k])) linear_.damping[k] = 0.0;
 }
 
 bool NewtonMatrix::factorise(const Instant& at, const System::Evaluation& e, std::span<const double> lambda,
@@ -156,7 +156,7 @@ bool NewtonMatrix::factorise(const Instant& at, const System::Evaluation& e, std
 
 /// That friction does not turn the sign of the determinant, see MultiplierForceSolver.
 void NewtonMatrix::require_acceleration(double c, double t) {
-  if (!system_->has_multiplier_forces() || k1_->matrix.sign_of_determinant() > 0) return;
+  if (!system_->forces().read_multipliers() || k1_->matrix.sign_of_determinant() > 0) return;
   std::vector<double> slope(linear_.friction.size(), 0.0);
   slope.swap(linear_.friction);
   const bool turned = factorise_stiff(c) && k1_->matrix.sign_of_determinant() > 0;
@@ -218,7 +218,7 @@ void NewtonMatrix::eliminate(double c, std::span<const double> b) {
   for (std::size_t i = 0; i < n; ++i) x1_[i] = -b2[i] - c * b1[i];
   if (k1_in_use_) {
     for (std::size_t k = 0; k < linear_.damping.size(); ++k) {
-      const auto [row, column] = system_->damping_pattern()[k];
+      const auto [row, column] = system_->forces().damping_pattern()[k];
       x1_[row] += linear_.damping[k] * p_[column];
     }
   }

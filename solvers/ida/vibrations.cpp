@@ -13,7 +13,7 @@ Vibrations fastest_vibrations(const System& system, std::span<const double> w,
   const auto damping = scratch;
   std::ranges::fill(damping, 0.0);
   for (std::size_t k = 0; k < linear.damping.size(); ++k) {
-    double& most = damping[system.damping_pattern()[k].row];
+    double& most = damping[system.forces().damping_pattern()[k].row];
     most = std::max(most, std::abs(linear.damping[k]));
   }
   double square = 0.0;

@@ -49,10 +49,10 @@ WholePattern::Plan WholePattern::plan(const System& system, std::span<const std:
       used.push_back(k);
     }
   };
-  add(system.multiplier_force_pattern(), place_of_row, plan.slope);
+  add(system.forces().slope_pattern(), place_of_row, plan.slope);
   if (blocks == SaddleValues::Blocks::slope) return plan;
   add(system.stiffness_pattern(), place, plan.stiffness);
-  add(system.damping_pattern(), place, plan.damping);
+  add(system.forces().damping_pattern(), place, plan.damping);
   return plan;
 }
 

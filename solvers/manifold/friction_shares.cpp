@@ -40,7 +40,7 @@ VectorXd least_largest(const MatrixXd& A, const VectorXd& a, const std::vector<I
 }  // namespace
 
 FrictionShares::FrictionShares(const System& system) {
-  for (const std::size_t number : system.frictional_constraints()) {
+  for (const std::size_t number : system.layout()->frictional_constraints()) {
     const Layout::Constraint& its = system.layout()->constraints[number];
     if (!system.in_force(its.own_rows().front())) continue;
     const auto& law = *its.condition.roughness;

@@ -32,7 +32,7 @@ Manifold::Manifold(const Problem& problem, const ActiveRows& rows, std::vector<d
   x_.resize(matrix_.size());
   q_before_.resize(system_->coordinates());
   w_before_.resize(e_.w.size());
-  if (system_->has_multiplier_forces()) friction_.emplace(problem, rows);
+  if (system_->forces().read_multipliers()) friction_.emplace(problem, rows);
   if (!system_->compliant()) return;
   s_.resize(system_->rows(), 0.0);
   reflected_ = s_;
@@ -294,7 +294,7 @@ bool Manifold::project(double t, std::span<double> q, std::span<double> v, std::
   }
   if (!factorise()) return false;
   correct_velocities(v);
-  if (system_->damping_pattern().empty()) {
+  if (system_->forces().damping_pattern().empty()) {
     system_->bias({t, q, v}, gamma_);
   } else {
     evaluate_with_bias({t, q, v});

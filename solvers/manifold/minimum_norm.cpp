@@ -104,7 +104,7 @@ void MinimumNorm::place(const System& system) {
     }
     first += static_cast<Eigen::Index>(c->rows) * c->inputs;
   }
-  for (const std::size_t number : system.conditional_constraints()) {
+  for (const std::size_t number : system.layout()->conditional_constraints()) {
     const auto& c = system.layout()->constraints[number];
     if (c.condition.contact && system.in_force(c.own_rows().front()))
       one_sided_.push_back({.pressing_row = c.first_row, .sign = c.condition.contact->sign()});

@@ -24,7 +24,8 @@ OutputState::OutputState(const System& system, const Start& start, bool changes)
       a(start.a),
       lambda(start.lambda),
       forces(system.layout()->slot_coordinate.size()) {
-  if (changes || start.rows.size() < system.rows_in_force() || !system.conditional_constraints().empty())
+  if (changes || start.rows.size() < system.rows_in_force() ||
+      !system.layout()->conditional_constraints().empty())
     unique.resize(lambda.size());
 }
 
@@ -290,12 +291,12 @@ void Recovery::recover(Manifold& manifold, OutputState& m, long steps) {
   m.correction = 0.0;
   for (std::size_t i = 0; i < q_given_.size(); ++i)
     m.correction = std::max(m.correction, std::abs(m.q[i] - q_given_[i]) * lengths_[i]);
-  m.energy = system_->kinetic_energy(m.v) + system_->potential_energy({m.t, m.q, m.v});
+  m.energy = system_->kinetic_energy(m.v) + system_->forces().energy({m.t, m.q, m.v});
   if (system_->compliant()) m.energy += system_->elastic_energy(m.lambda);
   require_finite(m);
   leave_forces_out(m);
   if (std::ranges::count(left_out_, 0)) mark(manifold, m, steps);
-  if (system_->slides()) system_->exert_sliding({m.t, m.q, m.v}, m.lambda, m.forces);
+  if (system_->forces().any_slides()) system_->forces().exert_sliding({m.t, m.q, m.v}, m.lambda, m.forces);
 }
 
 void Recovery::mark(Manifold& manifold, OutputState& m, long steps) {

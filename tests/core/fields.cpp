@@ -32,7 +32,7 @@ class Fields : public testing::Test {
 TEST_F(Fields, PointGravityPullsOnePoint) {
   scene.add(PointGravity{p, 2.0, {0.0, -9.81}});
   EXPECT_EQ(force(), Eigen::Vector3d(0.0, -19.62, 0.0));
-  EXPECT_EQ(scene.system().potential_energy(state.instant()), 2.0 * 9.81 * 4.0);
+  EXPECT_EQ(scene.system().forces().energy(state.instant()), 2.0 * 9.81 * 4.0);
 }
 
 // |v| = 2.5.
@@ -56,7 +56,7 @@ TEST_F(Fields, QuadraticDragVanishesAtRestWithItsDerivatives) {
 TEST_F(Fields, TorqueActsOnARotor) {
   scene.add(Torque{rotor, 1.25});
   EXPECT_EQ(force(), Eigen::Vector3d(0.0, 0.0, 1.25));
-  EXPECT_EQ(scene.system().potential_energy(state.instant()), -1.25 * 0.7);
+  EXPECT_EQ(scene.system().forces().energy(state.instant()), -1.25 * 0.7);
 }
 
 // Stretched from 4 to |(3, 4)| = 5 with stiffness 10: it pulls by 10 towards the origin.
@@ -66,7 +66,7 @@ TEST_F(Fields, AnElasticStringPullsWhenTautAndHangsWhenSlack) {
   expect_consistent_force();
   state.q.head(2) = Eigen::Vector2d(1.0, 2.0);
   EXPECT_EQ(force(), Eigen::Vector3d::Zero());
-  EXPECT_EQ(scene.system().potential_energy(state.instant()), 0.0);
+  EXPECT_EQ(scene.system().forces().energy(state.instant()), 0.0);
 }
 
 TEST_F(Fields, RefuseWhatMakesNoSense) {

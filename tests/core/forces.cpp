@@ -35,7 +35,7 @@ class Forces : public testing::Test {
       const auto energy = [&](double s) {
         State to = state;
         to.q[j] += s;
-        return Eigen::VectorXd::Constant(1, -system.potential_energy(to.instant()));
+        return Eigen::VectorXd::Constant(1, -system.forces().energy(to.instant()));
       };
       expect_slope(slope(energy), force_at(state).segment(j, 1), "F = -dV/dq");
     }
@@ -47,7 +47,7 @@ TEST_F(Forces, AStretchedSpringPulls) {
   scene.add(Spring{a, b, 10.0, 2.0});
   const State s{0.0, Eigen::Vector4d(1.0, 1.0, 4.0, 5.0), Eigen::Vector4d::Zero()};
   EXPECT_TRUE(force_at(s).isApprox(Eigen::Vector4d(18.0, 24.0, -18.0, -24.0), 1e-15));
-  EXPECT_DOUBLE_EQ(scene.system().potential_energy(s.instant()), 45.0);
+  EXPECT_DOUBLE_EQ(scene.system().forces().energy(s.instant()), 45.0);
 }
 
 // Compressed from 7 to 5: it pushes b away with 20.
@@ -87,7 +87,7 @@ TEST_F(Forces, ADamperResistsTheRateOfItsLength) {
   const State s{0.0, Eigen::Vector4d(1.0, 1.0, 4.0, 5.0), Eigen::Vector4d(0.0, -1.0, 1.0, 1.0)};
   const Vec<2> on_a = 2.0 * 11.0 / 5.0 * Vec<2>(0.6, 0.8);
   EXPECT_TRUE(force_at(s).isApprox((Eigen::Vector4d() << on_a, -on_a).finished(), 1e-15));
-  EXPECT_EQ(scene.system().potential_energy(s.instant()), 0.0);
+  EXPECT_EQ(scene.system().forces().energy(s.instant()), 0.0);
 }
 
 // A velocity across the line of sight does not change the distance.

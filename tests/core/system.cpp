@@ -106,7 +106,7 @@ TEST_F(MixedScene, PotentialEnergyIsThatOfGravitySpringAndPotential) {
   const double height = -0.2 + 2.0 * 0.9 + 4.0 * 1.3;
   const double stretch = std::hypot(2.1, 0.4) - 0.3;
   const double expected = 9.81 * height + 2.5 * stretch * stretch + 0.7 * 0.25 * -0.2;
-  EXPECT_NEAR(scene.system().potential_energy(state.instant()), expected, 10.0 * 2.3e-16 * 100.0);
+  EXPECT_NEAR(scene.system().forces().energy(state.instant()), expected, 10.0 * 2.3e-16 * 100.0);
 }
 
 TEST_F(MixedScene, TwoSystemsOfOneSceneGiveTheSameBits) {

@@ -95,7 +95,7 @@ class Contacts {
   [[nodiscard]] std::string gaps(const FlatSample& at) {
     const auto e = evaluated(at);
     std::string fault;
-    for (const std::size_t c : system_.contacts()) {
+    for (const std::size_t c : system_.layout()->contacts()) {
       double square = 0.0, rounding = 0.0;
       for (const std::size_t k : system_.row(row_of(c))) {
         square += e.w[k] * e.w[k];
@@ -115,7 +115,7 @@ class Contacts {
     double largest = mass_ * s_.length / s_.time / s_.time;
     for (const double f : at.lambda)
       if (std::abs(f) > largest) largest = std::abs(f);
-    for (const std::size_t c : system_.contacts()) {
+    for (const std::size_t c : system_.layout()->contacts()) {
       const double wrong = -sign_of(c) * at.lambda[row_of(c)];
       const std::string fault = too_large("pull of " + system_.row_label(row_of(c)), at.time, wrong,
                                           error_of_run * s_.accuracy * largest);
@@ -126,13 +126,13 @@ class Contacts {
 
   /// Friction is within its cone, and drives nothing.
   [[nodiscard]] std::string friction(const FlatSample& at) {
-    if (system_.frictional_constraints().empty()) return {};
+    if (system_.layout()->frictional_constraints().empty()) return {};
     const auto e = evaluated(at);
     double largest = mass_ * s_.length / s_.time / s_.time;
     for (const double f : at.lambda)
       if (std::abs(f) > largest) largest = std::abs(f);
     const double allowed = error_of_run * s_.accuracy * largest;
-    for (const std::size_t c : system_.frictional_constraints()) {
+    for (const std::size_t c : system_.layout()->frictional_constraints()) {
       const Layout::Constraint& its = system_.layout()->constraints[c];
       const Roughness& law = *its.condition.roughness;
       double square = 0.0, power = 0.0;
@@ -178,9 +178,9 @@ class Contacts {
     double unbalanced = 0.0;
     for (const double p : momentum) unbalanced = std::max(unbalanced, std::abs(p));
     // What slides in space may rest with what is left of its way in one direction (rest_in_space).
-    const double stopped = D == 3 && !system_.frictional_constraints().empty() ? 10.0 * slow : slow;
+    const double stopped = D == 3 && !system_.layout()->frictional_constraints().empty() ? 10.0 * slow : slow;
     std::string fault = too_large("momentum out of balance", before.time, unbalanced, mass_ * stopped);
-    for (const std::size_t c : system_.contacts()) {
+    for (const std::size_t c : system_.layout()->contacts()) {
       if (fault.empty() && !rests(before.time))
         fault = too_large("pulling impulse of " + system_.row_label(row_of(c)), before.time,
                           -sign_of(c) * impulse[c], round_off * largest);

@@ -46,8 +46,8 @@ double largest(std::span<const double> x) {
 /// The system as it is at a sample: one-sided constraints without a force have no rows, nor have rough ones
 /// where they may slide.
 System in_force(const System& system, const FlatSample& sample) {
-  std::vector<std::size_t> idle = system.frictional_constraints();
-  for (const std::size_t c : system.contacts()) {
+  std::vector<std::size_t> idle = system.layout()->frictional_constraints();
+  for (const std::size_t c : system.layout()->contacts()) {
     const auto row = system.layout()->constraints[c].own_rows().front();
     if (sample.lambda[row] == 0.0) idle.push_back(c);
   }
@@ -157,7 +157,8 @@ std::string Check::run(double accuracy, std::string& detail) {
   const bool determined = finite(sample.forces);
   const Instant at{sample.time, sample.q, sample.v};
   system.evaluate(at, e);
-  if (determined && system.has_multiplier_forces()) system.add_multiplier_forces(at, sample.lambda, e.force);
+  if (determined && system.forces().read_multipliers())
+    system.forces().add_reading(at, sample.lambda, e.force);
   const std::vector<double> scale = units(system, length);
   for (std::size_t i = 0; i < scale.size(); ++i) {
     speed = std::max(speed, std::sqrt(std::abs(e.force[i]) / system.masses()[i] / scale[i]) * length);
@@ -165,8 +166,8 @@ std::string Check::run(double accuracy, std::string& detail) {
   std::string fault = residuals(determined ? held : std::max(held, error_of_run * accuracy), detail);
   if (!determined) return fault;
   if (fault.empty()) fault = accelerations(detail);
-  return fault.empty() && system.frictional_constraints().empty() ? principle(detail)
-                                                                  : fault;  // friction does work
+  return fault.empty() && system.layout()->frictional_constraints().empty() ? principle(detail)
+                                                                            : fault;  // friction does work
 }
 
 std::string fault_of_times(std::span<const double> times, std::span<const double> wanted,
@@ -204,7 +205,7 @@ std::string fault_of_run(const Draft<D>& draft, const Trajectory<D>& run, std::o
     const std::string fault = check.run(run.statistics().accuracy, detail);
     if (!fault.empty()) return fault;
   }
-  return system.conditional_constraints().empty() ? "" : fault_of_contacts(draft, run, detail);
+  return system.layout()->conditional_constraints().empty() ? "" : fault_of_contacts(draft, run, detail);
 }
 
 template std::string fault_of_run(const Draft<2>&, const Trajectory<2>&, std::optional<double>, std::string&);

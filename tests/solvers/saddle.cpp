@@ -208,12 +208,12 @@ TEST(SaddleMatrix, SolvesWithWhateverBlocksItIsGiven) {
   symmetric.bottomRightCorner(m, m) = vector(diagonal).asDiagonal();
   Eigen::MatrixXd with_slope = symmetric;
   for (std::size_t i = 0; i < d.friction.size(); ++i) {
-    const auto [coordinate, row] = p.system.multiplier_force_pattern()[i];
+    const auto [coordinate, row] = p.system.forces().slope_pattern()[i];
     with_slope(index(coordinate), n + index(row)) -= d.friction[i];
   }
   Eigen::MatrixXd all = with_slope;
   all.topLeftCorner(n, n) -= h * by_entries(n, p.system.stiffness_pattern(), d.stiffness) +
-                             k * by_entries(n, p.system.damping_pattern(), d.damping);
+                             k * by_entries(n, p.system.forces().damping_pattern(), d.damping);
   all.bottomLeftCorner(m, n) = by_rows(p.system, lower);
 
   SaddleMatrix matrix(Problem(p.system).pattern(p.rows.rows));

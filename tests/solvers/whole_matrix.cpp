@@ -66,7 +66,7 @@ TEST_F(WholeMatrixTest, HoldsStiffnessAndDampingWithTheirFactors) {
   for (std::size_t k = 0; k < lower.size(); ++k) lower[k] += h * d.psi_q[k];
   ASSERT_TRUE(matrix.factorise({.w = e.w, .lower = lower, .forces = &d, .h = h, .d = c}));
   const Eigen::MatrixXd H = -by_entries(4, system.stiffness_pattern(), d.stiffness);
-  const Eigen::MatrixXd D = -by_entries(4, system.damping_pattern(), d.damping);
+  const Eigen::MatrixXd D = -by_entries(4, system.forces().damping_pattern(), d.damping);
   expect_solved(masses(system) + h * H + c * D, by_rows(system, lower), solution(matrix));
 }
 
