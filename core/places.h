@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <span>
 
@@ -26,7 +27,11 @@ class Places {
   [[nodiscard]] std::size_t front() const { return first_; }
   [[nodiscard]] std::size_t size() const { return last_ - first_; }
   /// Those of an array.
-  [[nodiscard]] auto in(auto array) const { return std::span(array.data() + first_, size()); }
+  template <class T>
+  [[nodiscard]] std::span<T> in(std::span<T> array) const {
+    assert(last_ <= array.size());
+    return {array.data() + first_, size()};  // without the cases that subspan tells apart
+  }
 
  private:
   std::size_t first_, last_;

@@ -99,7 +99,7 @@ std::unique_ptr<Segment> Integration::make_segment(const Problem& problem, Start
                                                 std::move(output), std::move(stepper), std::nullopt});
   if (const Branches::Sides* const held = made->comparisons.held()) made->stepper->hold_sides(*held);
   // A run by the explicit stepper finds itself where friction sticks.
-  if (problem.system().forces().read_multipliers() && options_.stepper == Stepper::ida)
+  if (problem.system().forces().has_friction() && options_.stepper == Stepper::ida)
     made->sticking.emplace(problem, made->start, options_.tolerance);
   return made;
 }

@@ -19,12 +19,12 @@ namespace {
 
 /// An impact would have to give impulses to what reads the force of a contact.
 void require_no_force_reads(const System& system) {
-  const auto pattern = system.forces().slope_pattern();
+  const auto pattern = system.forces().friction_pattern();
   for (std::size_t k = 0; k < pattern.size(); ++k) {
     for (const std::size_t c : system.layout()->contacts()) {
       const Layout::Constraint& contact = system.layout()->constraints[c];
       if (pattern[k].column != contact.own_rows().front()) continue;
-      throw InvalidScene(system.forces().owner_of_slope(k) + " reads the force of " + contact.label() +
+      throw InvalidScene(system.forces().owner_of_friction(k) + " reads the force of " + contact.label() +
                          ", which is one-sided: state it as a bilateral one, and end the run by an event "
                          "where its force vanishes");
     }
@@ -63,7 +63,7 @@ double end_of_sliding(const Problem& problem, const Start& start, TimeStepper& s
     step.interpolate(t, q, v);
     if (!manifold.accelerate({t, q, v}, a)) return true;
     manifold.multipliers(lambda);
-    return std::ranges::any_of(system.forces().slope_pattern(), [&](const System::Entry& entry) {
+    return std::ranges::any_of(system.forces().friction_pattern(), [&](const MatrixEntry& entry) {
       return lambda[entry.column] * start.lambda[entry.column] < 0.0;
     });
   };

@@ -117,7 +117,7 @@ class DerivativeCheck {
       compare(kicked, &Values::F, damping.col(j), "dF/dv", j);
     }
     MatrixXd by_lambda = MatrixXd::Zero(q_.size(), lambda_.size());
-    const auto pattern = system_.forces().slope_pattern();
+    const auto pattern = system_.forces().friction_pattern();
     for (std::size_t k = 0; k < pattern.size(); ++k)
       by_lambda(as_index(pattern[k].row), as_index(pattern[k].column)) += d.friction[k];
     const double force = lambda_.size() > 0 ? or_else(lambda_.cwiseAbs().maxCoeff(), 1.0) : 1.0;
@@ -142,7 +142,7 @@ class DerivativeCheck {
       for (const std::size_t k : system_.row(r)) dense(as_index(r), as_index(system_.w_columns()[k])) += w[k];
     return dense;
   }
-  [[nodiscard]] MatrixXd by_entries(std::span<const System::Entry> pattern,
+  [[nodiscard]] MatrixXd by_entries(std::span<const MatrixEntry> pattern,
                                     std::span<const double> values) const {
     MatrixXd dense = MatrixXd::Zero(q_.size(), q_.size());
     for (std::size_t k = 0; k < pattern.size(); ++k)
@@ -154,7 +154,7 @@ class DerivativeCheck {
     auto e = system_.evaluation();
     std::vector<double> gamma(system_.rows());
     system_.evaluate_with_bias(at, e, gamma);
-    system_.forces().add_reading(at, flat(lambda), e.force);
+    system_.forces().add_friction(at, flat(lambda), e.force);
     const VectorXd F = as_vector(e.force);
     VectorXd forces = F;
     for (std::size_t r = 0; r < system_.rows(); ++r)

@@ -24,7 +24,7 @@ Eigen::MatrixXd by_rows(const System& system, std::span<const double> w) {
   return dense;
 }
 
-Eigen::MatrixXd by_entries(Eigen::Index n, std::span<const System::Entry> pattern,
+Eigen::MatrixXd by_entries(Eigen::Index n, std::span<const MatrixEntry> pattern,
                            std::span<const double> values) {
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t k = 0; k < pattern.size(); ++k)
@@ -42,8 +42,8 @@ Values values(const System& system, const State& s) {
 
 Eigen::VectorXd friction(const System& system, const State& s, const Eigen::VectorXd& lambda) {
   Eigen::VectorXd F = Eigen::VectorXd::Zero(index(system.coordinates()));
-  system.forces().add_reading(s.instant(), {lambda.data(), static_cast<std::size_t>(lambda.size())},
-                              {F.data(), static_cast<std::size_t>(F.size())});
+  system.forces().add_friction(s.instant(), {lambda.data(), static_cast<std::size_t>(lambda.size())},
+                               {F.data(), static_cast<std::size_t>(F.size())});
   return F;
 }
 
@@ -53,8 +53,8 @@ Derivatives derivatives(const System& system, const State& s, const Eigen::Vecto
   const Eigen::Index n = index(system.coordinates());
   Eigen::MatrixXd by_lambda = Eigen::MatrixXd::Zero(n, index(system.rows()));
   for (std::size_t k = 0; k < d.friction.size(); ++k)
-    by_lambda(index(system.forces().slope_pattern()[k].row),
-              index(system.forces().slope_pattern()[k].column)) += d.friction[k];
+    by_lambda(index(system.forces().friction_pattern()[k].row),
+              index(system.forces().friction_pattern()[k].column)) += d.friction[k];
   return {by_rows(system, d.psi_q), by_entries(n, system.stiffness_pattern(), d.stiffness),
           by_entries(n, system.forces().damping_pattern(), d.damping), by_lambda};
 }

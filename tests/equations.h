@@ -33,7 +33,7 @@ Eigen::MatrixXd masses(const System& system);
 
 Eigen::MatrixXd by_rows(const System& system, std::span<const double> w);
 
-Eigen::MatrixXd by_entries(Eigen::Index n, std::span<const System::Entry> pattern,
+Eigen::MatrixXd by_entries(Eigen::Index n, std::span<const MatrixEntry> pattern,
                            std::span<const double> values);
 
 struct Values {

@@ -85,7 +85,7 @@ std::string System::describe() const {
               : "one-sided of these: " + std::to_string(layout_->contacts().size()) + ", counted as closed\n")
       << freedom_by_count(*this) << "islands that do not act on each other: " << islands(*this).count << '\n'
       << "forces: " << kinds(forces_.plain()) << " besides constant ones"
-      << (forces_.read_multipliers() ? ", and " + kinds(forces_.reading()) + " that read multipliers" : "")
+      << (forces_.has_friction() ? ", and " + kinds(forces_.friction()) + " that read multipliers" : "")
       << '\n'
       << "unknowns of the stabilised index-2 equations: " << 2 * n + rows() + holonomic_rows() << '\n';
   const auto left_out = [&out](bool is, const char* what) {
@@ -96,7 +96,7 @@ std::string System::describe() const {
   left_out(rows() > 0 && !compliant(), "compliance: all constraints are rigid");
   left_out(stiffness_pattern_.empty(), "the stiffness block: no force or constraint varies with position");
   left_out(forces_.damping_pattern().empty(), "the damping block: no force depends on velocities");
-  left_out(!forces_.read_multipliers() && rows() > 0, "friction: no force reads a multiplier");
+  left_out(!forces_.has_friction() && rows() > 0, "friction: no force reads a multiplier");
   left_out(holonomic_rows() == 0, "the position multipliers mu: there is no holonomic constraint");
   left_out(rows() == 0, "the constraint forces: there is no constraint");
   return out.str();

@@ -13,7 +13,8 @@ Islands islands(const System& system) {
   }
   for (const auto& entry : system.stiffness_pattern()) sets.join(entry.row, entry.column);
   for (const auto& entry : system.forces().damping_pattern()) sets.join(entry.row, entry.column);
-  for (const auto& entry : system.forces().slope_pattern()) sets.join(entry.row, first_column(entry.column));
+  for (const auto& entry : system.forces().friction_pattern())
+    sets.join(entry.row, first_column(entry.column));
 
   Islands islands{0, std::vector<std::size_t>(n)};
   for (std::size_t i = 0; i < n; ++i) {

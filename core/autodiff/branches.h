@@ -29,8 +29,8 @@ class Branches {
   /// Of each batch, in the order in which it makes them.
   using Sides = std::vector<std::vector<Comparison>>;
 
-  /// Notes in `recorded` what is compared, and evaluates on the sides of `held`; each unless it is null. With
-  /// neither nobody listens, as long as it lives.
+  /// Notes in `recorded` what is compared, and evaluates on the sides of `held`; each unless it is null. If
+  /// both are nobody listens, not even an outer one, as long as it lives.
   Branches(Sides* recorded, const Sides* held)
       : recorded_(recorded),
         held_(held),

@@ -7,6 +7,7 @@ namespace {
 /// Calls f(first, end) for ranges of elements, of so many rows each, that are all in force.
 template <class F>
 void for_those_in_force(std::size_t size, std::size_t rows, std::span<const char> out_of_force, const F& f) {
+  if (out_of_force.empty()) return f(std::size_t{0}, size);
   for (std::size_t i = 0; i < size;) {
     std::size_t end = i;
     while (end < size && !out_of_force[end * rows]) ++end;
@@ -62,8 +63,6 @@ void ConstraintBatch::bias(const Instant& at, std::span<double> gamma,
 
 void ConstraintBatch::linearise(const Instant& at, std::span<const double> lambda, std::span<double> psi_q,
                                 std::span<double> stiffness, std::span<const char> out_of_force) const {
-  if (out_of_force.empty())
-    return equations_.linearise(at, 0, size(), lambda.data(), psi_q.data(), stiffness.data());
   const auto rows = static_cast<std::size_t>(type_->equation.rows),
              width = static_cast<std::size_t>(type_->equation.elements.coordinates);
   for_those_in_force(size(), rows, out_of_force, [&](std::size_t first, std::size_t end) {

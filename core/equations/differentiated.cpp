@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <iomanip>
 #include <numeric>
+#include <sstream>
 #include <type_traits>
 
 namespace dalembert::detail {
@@ -27,6 +29,12 @@ template <int K>
 }
 
 }  // namespace
+
+EquationFault named(const ElementFault& fault, const std::string& label, double t) {
+  std::ostringstream when;
+  when << " (t = " << std::setprecision(10) << t << ')';
+  return EquationFault(label + ' ' + fault.what + when.str());
+}
 
 void rethrow_as_fault(std::size_t element) {
   try {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dalembert/core/equations/kernel.h>
+#include <dalembert/core/errors.h>
 
 #include <cstddef>
 #include <span>
@@ -26,6 +27,9 @@ struct ConstraintValues {
 };
 
 namespace detail {
+
+/// The error of an element of this label at time t.
+[[nodiscard]] EquationFault named(const ElementFault& fault, const std::string& label, double t);
 
 inline void require_finite(bool finite, std::size_t element, const char* what) {
   if (!finite) throw ElementFault{element, what};

@@ -17,8 +17,8 @@ void require_all_placed(const Layout& layout, std::span<const double> q) {
 }
 
 void require_frictionless(const System& system) {
-  if (!system.forces().read_multipliers()) return;
-  throw InvalidArgument(system.forces().owner_of_slope(0) +
+  if (!system.forces().has_friction()) return;
+  throw InvalidArgument(system.forces().owner_of_friction(0) +
                         " reads a multiplier: the motion alone does not tell it from the force of "
                         "constraint; compare a scene without it");
 }

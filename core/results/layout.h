@@ -111,11 +111,11 @@ struct Layout {
   /// Sets which slots act on each coordinate, once all have their places.
   void index_slots(std::size_t coordinates);
 
-  /// The numbers of one-sided constraints, of those of Coulomb's law, and of both.
+  /// The numbers of one-sided constraints, of those of Coulomb's law, and of all that are either.
   [[nodiscard]] std::vector<std::size_t> contacts() const;
   [[nodiscard]] std::vector<std::size_t> frictional_constraints() const;
   [[nodiscard]] std::vector<std::size_t> conditional_constraints() const;
-  /// Of those that their scene has released.
+  /// Those that the scene has released.
   [[nodiscard]] std::vector<std::size_t> released() const;
   /// The label of a constraint that does not always hold; empty if all do.
   [[nodiscard]] std::string conditional_label() const;

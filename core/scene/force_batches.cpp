@@ -4,27 +4,9 @@
 #include <dalembert/core/errors.h>
 
 #include <algorithm>
-#include <iomanip>
 #include <numeric>
-#include <sstream>
 
 namespace dalembert {
-
-void detail::append_blocks(std::span<const int> coordinates, std::size_t width,
-                           std::vector<MatrixEntry>& pattern) {
-  for (std::size_t first = 0; first < coordinates.size(); first += width) {
-    for (const int row : coordinates.subspan(first, width)) {
-      for (const int column : coordinates.subspan(first, width))
-        pattern.push_back({static_cast<std::size_t>(row), static_cast<std::size_t>(column)});
-    }
-  }
-}
-
-std::string detail::at_time(double t) {
-  std::ostringstream out;
-  out << " (t = " << std::setprecision(10) << t << ')';
-  return out.str();
-}
 
 ForceBatches::ForceBatches(ForceParts parts, std::shared_ptr<const Layout> layout, std::size_t first_batch,
                            std::vector<MatrixEntry>& stiffness)
@@ -34,7 +16,7 @@ ForceBatches::ForceBatches(ForceParts parts, std::shared_ptr<const Layout> layou
       stated_(parts_.batches.size()) {
   sort();
   place(stiffness);
-  stated_slope_entries_ = slope_pattern_.size();
+  stated_friction_entries_ = friction_pattern_.size();
 }
 
 void ForceBatches::add_sliding(std::shared_ptr<const SlidingFriction> friction, std::vector<int> constraints,
@@ -50,7 +32,7 @@ void ForceBatches::sort() {
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto reading = std::stable_partition(order.begin(), order.end(),
                                              [this](std::size_t b) { return batch(b).shape().rows == 0; });
-  first_reading_ = static_cast<std::size_t>(reading - order.begin());
+  first_friction_ = static_cast<std::size_t>(reading - order.begin());
   std::vector<std::shared_ptr<const ForceBatch>> batches;
   std::vector<std::vector<int>> numbers;
   for (const std::size_t b : order) {
@@ -66,7 +48,7 @@ void ForceBatches::place(std::vector<MatrixEntry>& stiffness) {
     const ForceShape shape = batch(b).shape();
     const auto width = static_cast<std::size_t>(shape.width), rows = static_cast<std::size_t>(shape.rows);
     const std::size_t blocks = batch(b).size() * width * width;
-    Own own{Places::from(slope_pattern_.size(), batch(b).size() * rows * width),
+    Own own{Places::from(friction_pattern_.size(), batch(b).size() * rows * width),
             Places::from(stiffness.size(), blocks),
             Places::from(damping_pattern_.size(), shape.dissipative ? blocks : 0)};
     detail::append_blocks(batch(b).coordinates(), width, stiffness);
@@ -76,7 +58,7 @@ void ForceBatches::place(std::vector<MatrixEntry>& stiffness) {
       own.first_row.push_back(layout_->constraints[constraint].own_rows().front());
       for (std::size_t r = 0; r < rows; ++r) {
         for (const int coordinate : batch(b).coordinates().subspan(i * width, width))
-          slope_pattern_.push_back({static_cast<std::size_t>(coordinate), own.first_row[i] + r});
+          friction_pattern_.push_back({static_cast<std::size_t>(coordinate), own.first_row[i] + r});
       }
     }
     places_.push_back(std::move(own));
@@ -88,36 +70,44 @@ bool ForceBatches::timed() const {
 }
 
 template <class F>
+void ForceBatches::named(std::size_t b, double t, const F& f) const {
+  try {
+    f();
+  } catch (const ElementFault& fault) {
+    throw detail::named(fault, label(b, fault.element), t);
+  }
+}
+
+template <class F>
 void ForceBatches::on(std::size_t from, std::size_t end, const Instant& at, std::span<const double> lambda,
                       const F& f) const {
   for (std::size_t b = from; b < end; ++b) {
-    const Own& own = places_[b];
-    try {
+    named(b, at.t, [&] {
       Branches::enter_batch(first_batch_ + b);
-      f(batch(b), Multipliers{lambda, own.first_row}, own);
-    } catch (const ElementFault& fault) {
-      throw EquationFault(label(b, fault.element) + ' ' + fault.what + detail::at_time(at.t));
-    }
+      f(batch(b), Multipliers{lambda, places_[b].first_row}, places_[b]);
+    });
   }
 }
 
 void ForceBatches::evaluate(const Instant& at, std::span<double> F) const {
   std::ranges::copy(parts_.constant, F.begin());
-  on(0, first_reading_, at, {},
+  on(0, first_friction_, at, {},
      [&](const ForceBatch& batch, const Multipliers& none, const Own&) { batch.add_force(at, none, F); });
 }
 
-void ForceBatches::add_reading(const Instant& at, std::span<const double> lambda, std::span<double> F) const {
-  on(first_reading_, parts_.batches.size(), at, lambda,
+void ForceBatches::add_friction(const Instant& at, std::span<const double> lambda,
+                                std::span<double> F) const {
+  on(first_friction_, parts_.batches.size(), at, lambda,
      [&](const ForceBatch& batch, const Multipliers& read, const Own&) { batch.add_force(at, read, F); });
 }
 
-void ForceBatches::slope(const Instant& at, std::span<const double> lambda, std::span<double> out) const {
+void ForceBatches::friction_slope(const Instant& at, std::span<const double> lambda,
+                                  std::span<double> out) const {
   const auto write = [&](const ForceBatch& batch, const Multipliers& read, const Own& own) {
     batch.slope(at, read, own.slope.in(out));
   };
   Branches::or_naturally<EquationFault>(
-      [&] { on(first_reading_, parts_.batches.size(), at, lambda, write); });
+      [&] { on(first_friction_, parts_.batches.size(), at, lambda, write); });
 }
 
 void ForceBatches::linearise(const Instant& at, std::span<const double> lambda, std::span<double> stiffness,
@@ -137,7 +127,7 @@ void ForceBatches::exert_sliding(const Instant& at, std::span<double> lambda, st
 
 double ForceBatches::energy(const Instant& at) const {
   double V = -std::inner_product(at.q.begin(), at.q.end(), parts_.constant.begin(), 0.0);
-  on(0, first_reading_, at, {},
+  on(0, first_friction_, at, {},
      [&](const ForceBatch& batch, const Multipliers&, const Own&) { V += batch.energy(at); });
   return V;
 }
@@ -150,7 +140,7 @@ void ForceBatches::for_each_power(const Instant& at, std::span<const double> lam
                                   const std::function<void(std::string, double)>& f) const {
   for (std::size_t b = 0; b < parts_.batches.size(); ++b) {
     std::vector<double> power(batch(b).size());
-    batch(b).power(at, {lambda, places_[b].first_row}, power);
+    named(b, at.t, [&] { batch(b).power(at, {lambda, places_[b].first_row}, power); });
     for (std::size_t i = 0; i < power.size(); ++i) f(label(b, i), power[i]);
   }
 }
@@ -185,6 +175,6 @@ std::string ForceBatches::owner_of(std::size_t entry, Places Own::*array) const 
 std::string ForceBatches::owner_of_stiffness(std::size_t entry) const {
   return owner_of(entry, &Own::stiffness);
 }
-std::string ForceBatches::owner_of_slope(std::size_t entry) const { return owner_of(entry, &Own::slope); }
+std::string ForceBatches::owner_of_friction(std::size_t entry) const { return owner_of(entry, &Own::slope); }
 
 }  // namespace dalembert

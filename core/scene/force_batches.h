@@ -4,6 +4,7 @@
 #include <dalembert/core/forces/sliding_friction.h>
 #include <dalembert/core/results/applied_forces.h>
 #include <dalembert/core/results/layout.h>
+#include <dalembert/core/scene/pattern.h>
 
 #include <array>
 #include <functional>
@@ -15,18 +16,6 @@
 
 namespace dalembert {
 
-/// A place in a sparse matrix.
-struct MatrixEntry {
-  std::size_t row, column;
-};
-
-namespace detail {
-/// Appends a dense block, rows first, for each element that reads so many coordinates.
-void append_blocks(std::span<const int> coordinates, std::size_t width, std::vector<MatrixEntry>& pattern);
-/// When, for the end of an error.
-[[nodiscard]] std::string at_time(double t);
-}  // namespace detail
-
 /// What the forces of a scene are made of; Scene::system() fills it in.
 struct ForceParts {
   std::vector<double> constant{};  ///< one per coordinate
@@ -37,9 +26,9 @@ struct ForceParts {
   std::vector<std::pair<int, std::array<double, 3>>> gravities{};  ///< the scene's number, acceleration
 };
 
-/// All forces of a scene but those of constraint, in batches of one type: F(t,q,v), and F_f(t,q,v,lambda) of
-/// those that read multipliers, called friction; the last ones are of what slides. Functions of an instant
-/// throw EquationFault if a force throws or is not finite.
+/// The applied forces of a scene, in batches of one type: F(t,q,v), and behind it F_f(t,q,v,lambda) of those
+/// that read multipliers, called friction. What slides comes last. Functions of an instant throw
+/// EquationFault if a force throws or is not finite.
 class ForceBatches {
  public:
   ForceBatches() = default;
@@ -57,17 +46,17 @@ class ForceBatches {
   /// Places of the entries of d(F + F_f)/dv; places may repeat, their entries add.
   [[nodiscard]] std::span<const MatrixEntry> damping_pattern() const { return damping_pattern_; }
   /// Places of dF_f/dlambda: a coordinate and a row. Empty if no force reads a multiplier.
-  [[nodiscard]] std::span<const MatrixEntry> slope_pattern() const { return slope_pattern_; }
-  [[nodiscard]] bool read_multipliers() const { return !slope_pattern_.empty(); }
+  [[nodiscard]] std::span<const MatrixEntry> friction_pattern() const { return friction_pattern_; }
+  [[nodiscard]] bool has_friction() const { return !friction_pattern_.empty(); }
   /// The number of them that are of forces that the scene states; the rest is of what slides.
-  [[nodiscard]] std::size_t stated_slope_entries() const { return stated_slope_entries_; }
+  [[nodiscard]] std::size_t stated_friction_entries() const { return stated_friction_entries_; }
 
   /// F.
   void evaluate(const Instant& at, std::span<double> F) const;
   /// Adds F_f for the multipliers lambda.
-  void add_reading(const Instant& at, std::span<const double> lambda, std::span<double> F) const;
+  void add_friction(const Instant& at, std::span<const double> lambda, std::span<double> F) const;
   /// dF_f/dlambda, in the order of its pattern.
-  void slope(const Instant& at, std::span<const double> lambda, std::span<double> out) const;
+  void friction_slope(const Instant& at, std::span<const double> lambda, std::span<double> out) const;
   /// d(F + F_f)/dq and d(F + F_f)/dv, in the order of their patterns.
   void linearise(const Instant& at, std::span<const double> lambda, std::span<double> stiffness,
                  std::span<double> damping) const;
@@ -85,13 +74,13 @@ class ForceBatches {
   /// The label of the force that an entry belongs to: of the stiffness, beyond those of the constraints, or
   /// of dF_f/dlambda.
   [[nodiscard]] std::string owner_of_stiffness(std::size_t entry) const;
-  [[nodiscard]] std::string owner_of_slope(std::size_t entry) const;
+  [[nodiscard]] std::string owner_of_friction(std::size_t entry) const;
   /// The number of batches that the scene states; those of what slides come behind.
   [[nodiscard]] std::size_t stated() const { return stated_; }
   [[nodiscard]] const ForceBatch& batch(std::size_t b) const { return *parts_.batches[b]; }
   /// Those that read no multipliers, and those that do.
-  [[nodiscard]] auto plain() const { return std::span(parts_.batches).first(first_reading_); }
-  [[nodiscard]] auto reading() const { return std::span(parts_.batches).subspan(first_reading_); }
+  [[nodiscard]] auto plain() const { return std::span(parts_.batches).first(first_friction_); }
+  [[nodiscard]] auto friction() const { return std::span(parts_.batches).subspan(first_friction_); }
   [[nodiscard]] std::string label(std::size_t batch, std::size_t element) const;
 
  private:
@@ -105,6 +94,9 @@ class ForceBatches {
   void sort();
   /// Those that have no place yet.
   void place(std::vector<MatrixEntry>& stiffness);
+  /// Calls f, which evaluates a batch; what it throws gets the label of the force.
+  template <class F>
+  void named(std::size_t batch, double t, const F& f) const;
   /// On the batches from one to before another.
   template <class F>
   void on(std::size_t from, std::size_t end, const Instant& at, std::span<const double> lambda,
@@ -115,9 +107,9 @@ class ForceBatches {
   ForceParts parts_;
   std::shared_ptr<const Layout> layout_;
   std::size_t first_batch_ = 0;
-  std::size_t first_reading_ = 0, stated_ = 0, stated_slope_entries_ = 0;
+  std::size_t first_friction_ = 0, stated_ = 0, stated_friction_entries_ = 0;
   std::vector<Own> places_;
-  std::vector<MatrixEntry> damping_pattern_, slope_pattern_;
+  std::vector<MatrixEntry> damping_pattern_, friction_pattern_;
   std::vector<std::shared_ptr<const SlidingFriction>> slides_;
 };
 

@@ -83,7 +83,7 @@ System::Evaluation System::evaluation() const {
 System::Linearisation System::linearisation() const {
   return {std::vector<double>(w_columns_.size()), std::vector<double>(stiffness_pattern_.size()),
           std::vector<double>(forces_.damping_pattern().size()),
-          std::vector<double>(forces_.slope_pattern().size())};
+          std::vector<double>(forces_.friction_pattern().size())};
 }
 
 template <class F>
@@ -96,7 +96,7 @@ void System::on_constraints(double t, const F& f) const {
       });
     } catch (const ElementFault& fault) {
       const auto number = static_cast<std::size_t>(parts_.constraint_numbers[b][fault.element]);
-      throw EquationFault(layout_->constraints[number].label() + ' ' + fault.what + detail::at_time(t));
+      throw detail::named(fault, layout_->constraints[number].label(), t);
     }
   }
 }

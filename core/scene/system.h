@@ -48,7 +48,6 @@ class System {
     std::vector<double> damping;    ///< d(F + F_f)/dv, in the order of its pattern
     std::vector<double> friction;   ///< dF_f/dlambda, in the order of its pattern
   };
-  using Entry = MatrixEntry;
 
   explicit System(SystemParts parts);
 
@@ -67,7 +66,7 @@ class System {
   /// Diagonal of the box around all points, the driven ones where they are at the start of the run [length].
   [[nodiscard]] double extent(double t_start) const { return parts_.extent(t_start); }
   [[nodiscard]] const std::shared_ptr<const Layout>& layout() const { return layout_; }
-  /// F, its parts and its derivatives.
+  /// The applied forces: F, F_f, their derivatives and energies.
   [[nodiscard]] const ForceBatches& forces() const { return forces_; }
 
   /// Pattern of W: its entries by rows, `for (const std::size_t k : row(r))`, and the column of each, the
@@ -75,7 +74,7 @@ class System {
   [[nodiscard]] Places row(std::size_t r) const { return {row_start_[r], row_start_[r + 1]}; }
   [[nodiscard]] std::span<const std::size_t> w_columns() const { return w_columns_; }
   /// Places of the entries of the stiffness; places may repeat, their entries add.
-  [[nodiscard]] std::span<const Entry> stiffness_pattern() const { return stiffness_pattern_; }
+  [[nodiscard]] std::span<const MatrixEntry> stiffness_pattern() const { return stiffness_pattern_; }
   /// The number of entries of the stiffness that are those of constraints; they come first.
   [[nodiscard]] std::size_t stiffness_of_constraints() const { return stiffness_of_constraints_; }
   /// The rows in force of constraints that hold only at times.
@@ -116,7 +115,7 @@ class System {
   void linearise_constraints(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
   /// And the part from the forces: all the rest.
   void linearise_forces(const Instant& at, std::span<const double> lambda, Linearisation& out) const {
-    forces_.slope(at, lambda, out.friction);
+    forces_.friction_slope(at, lambda, out.friction);
     forces_.linearise(at, lambda, out.stiffness, out.damping);
   }
 
@@ -160,6 +159,7 @@ class System {
 
   template <class F>
   void on_constraints(double t, const F& f) const;
+
   /// Where a batch's part of each array is.
   struct ConstraintPlaces {
     Places rows, w, stiffness;
@@ -169,6 +169,7 @@ class System {
   [[nodiscard]] std::span<const char> out_of_force(const Places& own) const {
     return out_of_force_.empty() ? std::span<const char>() : own.in(std::span(out_of_force_));
   }
+
   SystemParts parts_;
   std::shared_ptr<const Layout> layout_;
   std::vector<ConstraintPlaces> constraint_places_;
@@ -179,7 +180,7 @@ class System {
   std::size_t rows_in_force_ = 0;
   std::vector<RowLaw> laws_;
   std::size_t compliant_rows_ = 0;
-  std::vector<Entry> stiffness_pattern_;
+  std::vector<MatrixEntry> stiffness_pattern_;
   std::size_t stiffness_of_constraints_ = 0;
   ForceBatches forces_;
 };

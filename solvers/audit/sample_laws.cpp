@@ -58,7 +58,7 @@ void SampleLaws::find_what_acts(const FlatSample& sample) {
 void SampleLaws::evaluate(const FlatSample& sample) {
   const Instant at{sample.time, sample.q, sample.v};
   acting_->evaluate_with_bias(at, e_, gamma_);
-  if (acting_->forces().read_multipliers()) add_forces_that_read(sample);
+  if (acting_->forces().has_friction()) add_forces_that_read(sample);
   const bool redundant = std::ranges::find(sample.unique, char{0}) != sample.unique.end();
   dependence_ = redundant ? Limits::dependent : 0.0;
   largest_force_ = 0.0;
@@ -78,10 +78,10 @@ double SampleLaws::inertia(std::size_t i) const {
 
 /// Where a multiplier that is read is not determined, nor are the forces that read it.
 void SampleLaws::add_forces_that_read(const FlatSample& sample) {
-  const auto unknown = [&](const System::Entry& entry) { return std::isnan(sample.lambda[entry.column]); };
-  if (std::ranges::none_of(acting_->forces().slope_pattern(), unknown))
-    return acting_->forces().add_reading({sample.time, sample.q, sample.v}, sample.lambda, e_.force);
-  for (const System::Entry& entry : acting_->forces().slope_pattern())
+  const auto unknown = [&](const MatrixEntry& entry) { return std::isnan(sample.lambda[entry.column]); };
+  if (std::ranges::none_of(acting_->forces().friction_pattern(), unknown))
+    return acting_->forces().add_friction({sample.time, sample.q, sample.v}, sample.lambda, e_.force);
+  for (const MatrixEntry& entry : acting_->forces().friction_pattern())
     e_.force[entry.row] = std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -10,8 +10,7 @@
 namespace dalembert {
 
 bool conservative(const System& system) {
-  return !system.rheonomic() && !system.forces().read_multipliers() &&
-         system.forces().damping_pattern().empty();
+  return !system.rheonomic() && !system.forces().has_friction() && system.forces().damping_pattern().empty();
 }
 
 WorkBalance::WorkBalance(std::shared_ptr<const System> stated, const Claim& claim)

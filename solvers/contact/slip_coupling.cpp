@@ -38,7 +38,7 @@ SlipCoupling::Equations::Equations(const System& all, std::shared_ptr<const Syst
       t(at.t),
       e(all.evaluation()),
       gamma(all.rows()),
-      slope(free.system().forces().slope_pattern().size()),
+      slope(free.system().forces().friction_pattern().size()),
       a(at.q.size()),
       lambda(all.rows()) {
   for (const SlipRows& its : of) {
@@ -52,7 +52,7 @@ SlipCoupling::Equations::Equations(const System& all, std::shared_ptr<const Syst
   std::vector<double> v(at.v.begin(), at.v.end());
   if (!manifold.solve_motion(at.t, at.q, v, a, lambda)) throw linearly_dependent(at.t);
   w = std::move(of_free.w);
-  if (!slope.empty()) free.system().forces().slope(at, lambda, slope);
+  if (!slope.empty()) free.system().forces().friction_slope(at, lambda, slope);
   if (free.system().compliant()) s.resize(all.rows());
   for (std::size_t r = 0; r < s.size(); ++r) {  // their forces are given
     if (free.system().law(r).compliant())

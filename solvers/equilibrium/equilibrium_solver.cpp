@@ -32,8 +32,8 @@ RotatingFrame frame_of(double time, const UniformRotation<3>& turning, const Lay
 }
 
 void require_frictionless(const System& system) {
-  if (!system.forces().read_multipliers()) return;
-  throw NoEquilibrium(system.forces().owner_of_slope(0) +
+  if (!system.forces().has_friction()) return;
+  throw NoEquilibrium(system.forces().owner_of_friction(0) +
                       " reads a multiplier: at rest friction takes any value up to its limit, and equilibria "
                       "fill a region; leave it out to find the one without friction, or let a run come to "
                       "rest");

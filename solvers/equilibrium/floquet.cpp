@@ -43,8 +43,8 @@ void require_suited(const System& system, double period) {
   if (const auto label = system.layout()->conditional_label(); !label.empty())
     throw InvalidScene("Floquet multipliers: " + label +
                        " does not always hold; they are defined for scenes without such constraints");
-  if (system.forces().read_multipliers())
-    throw InvalidScene("Floquet multipliers: " + system.forces().owner_of_slope(0) +
+  if (system.forces().has_friction())
+    throw InvalidScene("Floquet multipliers: " + system.forces().owner_of_friction(0) +
                        " reads a multiplier; they are defined for scenes without such forces");
 }
 

@@ -14,7 +14,7 @@ void append(LinearTerms::Entries& to, std::size_t row, std::size_t column, doubl
 }
 
 /// -F_v A, from an entry of F_v.
-void append_rotating(const RotatingFrame& frame, const System::Entry& place, double slope,
+void append_rotating(const RotatingFrame& frame, const MatrixEntry& place, double slope,
                      LinearTerms::Entries& K) {
   const auto row = static_cast<Eigen::Index>(place.column);
   for (RotatingFrame::Sparse::InnerIterator a(frame.matrix(), row); a; ++a)
@@ -95,7 +95,7 @@ LinearTerms linear_terms(const System& system, const RotatingFrame& frame, const
     append(terms.stiffness, row, column, -slopes.stiffness[k]);
   }
   for (std::size_t k = 0; k < slopes.damping.size(); ++k) {
-    const System::Entry place = system.forces().damping_pattern()[k];
+    const MatrixEntry place = system.forces().damping_pattern()[k];
     append(terms.damping, place.row, place.column, -slopes.damping[k]);
     if (frame.rotates()) append_rotating(frame, place, slopes.damping[k], terms.stiffness);
   }

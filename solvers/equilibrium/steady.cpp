@@ -232,8 +232,8 @@ void require_suited_to_steady(const System& system) {
                        "stated, or ask for floquet multipliers");
   if (const auto label = system.layout()->conditional_label(); !label.empty())
     throw InvalidScene(scene + label + " does not always hold; state it as a bilateral one");
-  if (system.forces().read_multipliers())
-    throw InvalidScene(scene + system.forces().owner_of_slope(0) + " reads a multiplier");
+  if (system.forces().has_friction())
+    throw InvalidScene(scene + system.forces().owner_of_friction(0) + " reads a multiplier");
 }
 
 }  // namespace

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <dalembert/core/autodiff/derivatives.h>
 #include <dalembert/solvers/base/hidden.h>
+#include <dalembert/solvers/base/pairs.h>
 
 #include <array>
 #include <cstddef>
-#include <cstring>
 #include <utility>
 
 namespace DALEMBERT_HIDDEN dalembert {
@@ -15,7 +14,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 template <int Stages>
 class Combination {
  public:
-  using Stage = std::array<const double*, Stages>;
+  using Derivatives = std::array<const double*, Stages>;
 
   explicit Combination(const std::array<double, Stages>& weights) {
     for (int j = 0; j < Stages; ++j) {
@@ -27,7 +26,7 @@ class Combination {
   }
 
   /// out = from + h sum_j weight_j k_j, `size` numbers.
-  void move(double h, const Stage& k, const double* from, double* out, std::size_t size) const {
+  void move(double h, const Derivatives& k, const double* from, double* out, std::size_t size) const {
     [&]<std::size_t... N>(std::index_sequence<N...>) {
       (void)((count_ == N + 1 && (move_by<N + 1>(h, k, from, out, size), true)) || ...);
     }
@@ -35,29 +34,19 @@ class Combination {
   }
 
  private:
-  /// By pairs: a compiler, which does not know that `out` is no stage, would have to make sure of it.
   template <std::size_t N>
-  void move_by(double h, const Stage& k, const double* from, double* out, std::size_t size) const {
+  void move_by(double h, const Derivatives& k, const double* from, double* out, std::size_t size) const {
     std::array<double, N> c;
     std::array<const double*, N> x;
     for (std::size_t j = 0; j < N; ++j) {
       c[j] = h * weight_[j];
       x[j] = k[stage_[j]];
     }
-    const auto move_at = [&]<class T>(std::size_t i, T sum) {
-      const auto at = [i](const double* numbers) {
-        T value;
-        std::memcpy(&value, numbers + i, sizeof value);
-        return value;
-      };
-      [&]<std::size_t... J>(std::index_sequence<J...>) { ((sum += c[J] * at(x[J])), ...); }
+    write_by_pairs(out, size, [&]<class T>(std::size_t i, T sum) DALEMBERT_INLINE_LAMBDA {
+      [&]<std::size_t... J>(std::index_sequence<J...>) { ((sum += c[J] * load<T>(x[J] + i)), ...); }
       (std::make_index_sequence<N>{});
-      sum = at(from) + sum;
-      std::memcpy(out + i, &sum, sizeof sum);
-    };
-    std::size_t i = 0;
-    for (; i + 1 < size; i += 2) move_at(i, detail::Pair{0.0, 0.0});
-    if (i < size) move_at(i, 0.0);
+      return T(load<T>(from + i) + sum);
+    });
   }
 
   std::size_t count_ = 0;

@@ -180,7 +180,7 @@ void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v)
   for (std::size_t i = 0; i < s.n; ++i) {
     const std::array speeds{s.from.v()[i], s.middle.v()[i], s.to.v()[i]},
         accelerations{s.from.a()[i], s.middle.a()[i], s.to.a()[i]};
-    const auto x = polynomial({s.from.x[i], s.middle.x[i], s.to.x[i]}, speeds, accelerations);
+    const auto x = polynomial({s.from.q()[i], s.middle.q()[i], s.to.q()[i]}, speeds, accelerations);
     const double better = of_velocities(speeds, accelerations).value;
     const double cubic = of_ends({speeds[0], speeds[2]}, {accelerations[0], accelerations[2]}).value;
     const double round_off = 10.0 * (rounding + of_time * std::abs(speeds[0])) / h;
@@ -196,7 +196,7 @@ void ErkStepper::sketch(double t, std::span<double> q, std::span<double> v) {
   const Hermite<2> of_ends({s.from.t, s.to.t}, t);
   for (std::size_t i = 0; i < s.n; ++i) {
     const auto x =
-        of_ends({s.from.x[i], s.to.x[i]}, {s.from.v()[i], s.to.v()[i]}, {s.from.a()[i], s.to.a()[i]});
+        of_ends({s.from.q()[i], s.to.q()[i]}, {s.from.v()[i], s.to.v()[i]}, {s.from.a()[i], s.to.a()[i]});
     q[i] = x.value;
     v[i] = x.derivative;
   }

@@ -63,8 +63,8 @@ double near_singularity(double e3, double e4, double e6) {
 void ErkStepper::RungeKutta::measure_noise() {
   const auto rounded = [this](double x) { return x * (chance() % 2 == 0 ? 1.0 + epsilon : 1.0 - epsilon); };
   for (std::size_t i = 0; i < n; ++i) {
-    noise_q[i] = rounded(to.x[i]);
-    noise_v[i] = rounded(to.x[n + i]);
+    noise_q[i] = rounded(to.q()[i]);
+    noise_v[i] = rounded(to.v()[i]);
   }
   const auto a = std::span(difference).first(n);
   try {
@@ -101,6 +101,11 @@ void ErkStepper::RungeKutta::adopt(const PathExtent& extent) {
   for (std::size_t i = 0; i < n; ++i) lengths[i] = scales.is_angle[i] ? scales.length : 1.0;
 }
 
+/// Of a sum over positions and velocities.
+double ErkStepper::RungeKutta::root_mean(double sum) const {
+  return std::sqrt(sum / static_cast<double>(difference.size()));
+}
+
 /// Weighted root mean square of `difference`.
 double ErkStepper::RungeKutta::weighted_norm() const {
   double sum = 0.0;
@@ -108,7 +113,7 @@ double ErkStepper::RungeKutta::weighted_norm() const {
     const double e = difference[i] * weight[i];
     sum += e * e;
   }
-  return std::sqrt(sum / static_cast<double>(difference.size()));
+  return root_mean(sum);
 }
 
 /// The sizes of the null rules of a step, and that of its error of order 7, which stays in `difference`.
@@ -121,8 +126,8 @@ std::array<double, 4> ErkStepper::RungeKutta::estimates(double step) {
     for (std::size_t half : {0U, 1U}) squares[half] += (e[half] * weight[i]) * (e[half] * weight[i]);
     difference[i] = e[1][1];
   }
-  const auto root = [this](double sum) { return std::sqrt(sum / static_cast<double>(difference.size())); };
-  return {root(squares[0][0]), root(squares[0][1]), root(squares[1][0]), root(squares[1][1])};
+  return {root_mean(squares[0][0]), root_mean(squares[0][1]), root_mean(squares[1][0]),
+          root_mean(squares[1][1])};
 }
 
 /// The estimated error of a step to `next` over the tolerance, or where the estimate is doubtful over a part

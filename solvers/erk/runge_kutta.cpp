@@ -46,7 +46,7 @@ ErkStepper::RungeKutta::RungeKutta(const Problem& problem, const Start& start, c
       node->x.insert(node->x.end(), part->begin(), part->end());
   }
   switching.make_room(problem, start);
-  for (std::size_t i = 1; i < k.size(); ++i) k[i] = stage(i, 1).data();
+  for (std::size_t i = 1; i < k.size(); ++i) k[i] = stage(i).v.data();
   singular.remember(to.t, start.a);
   find_sine(to);
   if (!system->compliant()) return;
@@ -83,8 +83,8 @@ bool ErkStepper::RungeKutta::close_to_singular(double step) const {
 }
 
 void ErkStepper::RungeKutta::run_stage(std::size_t i, double t, bool onto_constraints) {
-  const auto q = stage(i, 0), v = stage(i, 1), a_i = stage(i, 2);
-  require(onto_constraints ? manifold.project(t, q, v, a_i) : manifold.accelerate({t, q, v}, a_i));
+  const auto [q, v, v_dot] = stage(i);
+  require(onto_constraints ? manifold.project(t, q, v, v_dot) : manifold.accelerate({t, q, v}, v_dot));
 }
 
 /// Of an attempt.
@@ -103,7 +103,7 @@ void ErkStepper::RungeKutta::run_stages(const Node& start, double step, std::siz
   k[0] = start.v().data();
   singular.start_step(start);
   for (std::size_t i = 1; i <= last; ++i) {
-    a[i].move(step, k, start.x.data(), stage(i, 0).data(), 2 * n);
+    a[i].move(step, k, start.x.data(), stage(i).q.data(), 2 * n);
     const double t = start.t + pair.c[i] * step;
     if (held != nullptr && &start == &to)
       record_comparisons_of_stage(i, t, onto_constraints);

@@ -28,9 +28,13 @@ struct ErkStepper::RungeKutta {
 
   RungeKutta(const Problem& problem, const Start& start, const Options& options);
 
-  /// Positions (0), velocities (1) and accelerations (2) of stage i > 0.
-  [[nodiscard]] std::span<double> stage(std::size_t i, std::size_t third) {
-    return std::span(stages_after_first).subspan(((i - 1) * 3 + third) * n, n);
+  struct Stage {
+    std::span<double> q, v, a;
+  };
+  /// Stage i > 0.
+  [[nodiscard]] Stage stage(std::size_t i) {
+    const auto x = std::span(stages_after_first).subspan((i - 1) * 3 * n, 3 * n);
+    return {x.first(n), x.subspan(n, n), x.subspan(2 * n, n)};
   }
   /// Of positions and of velocities.
   [[nodiscard]] std::pair<std::span<double>, std::span<double>> halves(std::span<double> x) const {
@@ -49,6 +53,7 @@ struct ErkStepper::RungeKutta {
 
   void weigh(const Node& at, double step, double allowed);
   void adopt(const PathExtent& extent);
+  [[nodiscard]] double root_mean(double sum) const;
   [[nodiscard]] double weighted_norm() const;
   [[nodiscard]] std::array<double, 4> estimates(double step);
   [[nodiscard]] double error(double step, double doubt);

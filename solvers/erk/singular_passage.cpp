@@ -140,7 +140,7 @@ bool ErkStepper::SingularPassage::passes_beside(double singular) {
   const auto lengths = rk_.scales.lengths();
   double error = 0.0;
   for (std::size_t i = 0; i < rk_.n; ++i)
-    error = std::max(error, std::abs(rk_.next.x[i] - rk_.middle.x[i]) * lengths[i]);
+    error = std::max(error, std::abs(rk_.next.q()[i] - rk_.middle.q()[i]) * lengths[i]);
   const Manifold::Gap gap = rk_.manifold.gap(rk_.next.instant(), rk_.scales.length);
   if (!(gap.distance > margin_of_gap * std::max(error, gap.rounding))) return false;
   const double unnoticed = constants.most_correction * rk_.tolerance * rk_.scales.length;

@@ -71,9 +71,9 @@ void IdaStepper::Solver::residual(double at, N_Vector x, N_Vector xp, N_Vector r
   ++evaluations;
   const Instant now = instant(at, x);
   system->evaluate(now, e);
-  if (system->forces().read_multipliers()) {
+  if (system->forces().has_friction()) {
     spread_multipliers(x);
-    system->forces().add_reading(now, lambda, e.force);
+    system->forces().add_friction(now, lambda, e.force);
   }
   evaluated_at = at;
   evaluated = x;

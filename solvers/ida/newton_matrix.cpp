@@ -63,8 +63,8 @@ NewtonMatrix::NewtonMatrix(const Problem& problem, const ActiveRows& rows, doubl
     if (row >= system.holonomic_rows() || system.law(row).compliant())
       needs_k1_[islands.of_row(system, row)] = 1;
   }
-  for (std::size_t k = 0; k < system.forces().slope_pattern().size(); ++k) {
-    const auto [coordinate, row] = system.forces().slope_pattern()[k];
+  for (std::size_t k = 0; k < system.forces().friction_pattern().size(); ++k) {
+    const auto [coordinate, row] = system.forces().friction_pattern()[k];
     needs_k1_[islands.of_coordinate[coordinate]] = 1;
     const auto active = static_cast<std::size_t>(std::ranges::find(rows.rows, row) - rows.rows.begin());
     if (active < rows.holonomic) friction_.push_back({k, coordinate, active});
@@ -122,7 +122,7 @@ void NewtonMatrix::converged_badly() {
 }
 
 void NewtonMatrix::leave_out_soft_forces() {
-  const auto soft = [this](const System::Entry& entry) {
+  const auto soft = [this](const MatrixEntry& entry) {
     return !stiff_[problem_.islands().of_coordinate[entry.row]];
   };
   for (std::size_t k = 0; k < linear_.stiffness.size(); ++k)
@@ -156,7 +156,7 @@ bool NewtonMatrix::factorise(const Instant& at, const System::Evaluation& e, std
 
 /// That friction does not turn the sign of the determinant, see MultiplierForceSolver.
 void NewtonMatrix::require_acceleration(double c, double t) {
-  if (!system_->forces().read_multipliers() || k1_->matrix.sign_of_determinant() > 0) return;
+  if (!system_->forces().has_friction() || k1_->matrix.sign_of_determinant() > 0) return;
   std::vector<double> slope(linear_.friction.size(), 0.0);
   slope.swap(linear_.friction);
   const bool turned = factorise_stiff(c) && k1_->matrix.sign_of_determinant() > 0;

@@ -1,6 +1,6 @@
 #include "dalembert/solvers/ida/vector_operations.h"
 
-#include <dalembert/core/autodiff/derivatives.h>
+#include <dalembert/solvers/base/pairs.h>
 
 #include <nvector/nvector_serial.h>
 
@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 
 namespace dalembert {
 
@@ -68,20 +67,12 @@ void scale(double a, N_Vector x, N_Vector result) {
   for (std::size_t i = 0; i < n; ++i) z[i] = a * u[i];
 }
 
-/// Sum of a_j x_j in one pass over memory, where SUNDIALS has one for each term.
 int linear_combination(int count, double* a, N_Vector* x, N_Vector result) {
-  const std::size_t n = length(result);
-  const auto sum_at = [&]<class T>(std::size_t i, T sum) {
-    for (int j = 0; j < count; ++j) {
-      T value;
-      std::memcpy(&value, NV_DATA_S(x[j]) + i, sizeof value);
-      sum += a[j] * value;
-    }
-    std::memcpy(NV_DATA_S(result) + i, &sum, sizeof sum);
-  };
-  std::size_t i = 0;
-  for (; i + 1 < n; i += 2) sum_at(i, detail::Pair{0.0, 0.0});
-  if (i < n) sum_at(i, 0.0);
+  write_by_pairs(NV_DATA_S(result), length(result),
+                 [&]<class T>(std::size_t i, T sum) DALEMBERT_INLINE_LAMBDA {
+                   for (int j = 0; j < count; ++j) sum += a[j] * load<T>(NV_DATA_S(x[j]) + i);
+                   return sum;
+                 });
   return 0;
 }
 

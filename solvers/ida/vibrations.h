@@ -12,7 +12,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 struct Vibrations {
   double of_compliance = 0.0;  ///< of compliant rows; 0 if there are none
   double of_forces = 0.0;      ///< of the forces' stiffness
-  std::size_t stiffest = 0;    ///< the entry of the stiffness that gives it, see ForceBatches::owner_of_stiffness
+  std::size_t stiffest = 0;    ///< the entry that gives it, see ForceBatches::owner_of_stiffness
 };
 
 /// A force whose own damping is beyond critical does not vibrate; the stiffness of a damper that turns is

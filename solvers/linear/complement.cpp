@@ -30,10 +30,11 @@ ComplementPattern::Plan ComplementPattern::plan(const System& system, std::span<
   for (std::size_t r = 0; r < rows.size(); ++r) {
     for (const std::size_t k : system.row(rows[r])) {
       const std::size_t column = system.w_columns()[k];
-      by_coordinate[column].push_back({r, k, plan.entries.size()});
-      plan.entries.push_back({k, column, 1.0 / system.masses()[column]});
+      by_coordinate[column].push_back({r, k, plan.w.size()});
+      plan.w.push_back(k);
+      plan.column.push_back(column);
     }
-    plan.row_end.push_back(plan.entries.size());
+    plan.row_end.push_back(plan.w.size());
   }
   struct Pair {
     std::size_t row, column, w, v;
@@ -77,7 +78,8 @@ ComplementPattern::ComplementPattern(const System& system, std::span<const std::
 
 ComplementPattern::ComplementPattern(const System& system, Plan plan)
     : row_end_(std::move(plan.row_end)),
-      entries_(std::move(plan.entries)),
+      w_(std::move(plan.w)),
+      column_(std::move(plan.column)),
       products_(std::move(plan.products)),
       compliant_(std::move(plan.compliant)),
       ldl_(row_end_.size(), plan.places) {
@@ -90,12 +92,11 @@ ComplementPattern::ComplementPattern(const System& system, Plan plan)
 }
 
 SchurComplement::SchurComplement(const ComplementPattern& pattern)
-    : pattern_(&pattern), v_(pattern.entries_.size()), ldl_(pattern.ldl_) {}
+    : pattern_(&pattern), v_(pattern.w_.size()), ldl_(pattern.ldl_) {}
 
 bool SchurComplement::factorise(const SaddleValues& values) {
   const ComplementPattern& p = *pattern_;
-  for (std::size_t k = 0; k < v_.size(); ++k)
-    v_[k] = values.w[p.entries_[k].place] * p.entries_[k].inverse_mass;
+  for (std::size_t k = 0; k < v_.size(); ++k) v_[k] = values.w[p.w_[k]] * p.inverse_mass_[p.column_[k]];
   const auto S = ldl_.values();
   for (const auto& product : p.products_) {
     double sum = 0.0;
@@ -113,16 +114,16 @@ void SchurComplement::solve(std::span<double> x) {
   const std::size_t n = p.inverse_mass_.size();
   const auto y = x.subspan(n);
   std::size_t k = 0;
-  for (std::size_t r = 0; r < y.size(); ++r) {
+  for (std::size_t r = 0; r < p.row_end_.size(); ++r) {
     double sum = 0.0;
-    for (; k < p.row_end_[r]; ++k) sum += v_[k] * x[p.entries_[k].column];
+    for (; k < p.row_end_[r]; ++k) sum += v_[k] * x[p.column_[k]];
     y[r] -= sum;
   }
   ldl_.solve(y);
   for (std::size_t i = 0; i < n; ++i) x[i] *= p.inverse_mass_[i];
   k = 0;
-  for (std::size_t r = 0; r < y.size(); ++r)
-    for (; k < p.row_end_[r]; ++k) x[p.entries_[k].column] += v_[k] * y[r];
+  for (std::size_t r = 0; r < p.row_end_.size(); ++r)
+    for (; k < p.row_end_[r]; ++k) x[p.column_[k]] += v_[k] * y[r];
 }
 
 }  // namespace dalembert

@@ -20,13 +20,8 @@ class ComplementPattern {
 
  private:
   friend class SchurComplement;
-  /// An entry of W in use, by its number in the system's W.
-  struct Entry {
-    std::size_t place, column;
-    double inverse_mass;
-  };
-  /// A sum of products of consecutive entries of the system's W and of V; goes to one place, as the first one
-  /// there or behind others.
+  /// A sum of products of consecutive entries of the system's W and of V. The first one of a place sets it,
+  /// the others add.
   struct Product {
     std::size_t place, w, v, count;
     bool first = false;
@@ -37,7 +32,7 @@ class ComplementPattern {
   };
   struct Plan {
     std::vector<std::size_t> row_end;
-    std::vector<Entry> entries;
+    std::vector<std::size_t> w, column;
     std::vector<Diagonal> compliant;        // `place` is the number of a product
     std::vector<LdlPattern::Entry> places;  // one per product
     std::vector<Product> products;
@@ -46,8 +41,8 @@ class ComplementPattern {
   ComplementPattern(const System& system, Plan plan);
 
   std::vector<double> inverse_mass_;
-  std::vector<std::size_t> row_end_;  // among the entries
-  std::vector<Entry> entries_;
+  // Of the entries of V: where each row ends, and of each its number in the system's W and its coordinate.
+  std::vector<std::size_t> row_end_, w_, column_;
   std::vector<Product> products_;
   std::vector<Diagonal> compliant_;
   LdlPattern ldl_;

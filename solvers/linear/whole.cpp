@@ -40,8 +40,8 @@ WholePattern::Plan WholePattern::plan(const System& system, std::span<const std:
     ++next;
   }
   if (blocks == SaddleValues::Blocks::symmetric) return plan;
-  const auto add = [&](std::span<const System::Entry> pattern,
-                       const std::vector<std::size_t>& place_of_column, std::vector<std::size_t>& used) {
+  const auto add = [&](std::span<const MatrixEntry> pattern, const std::vector<std::size_t>& place_of_column,
+                       std::vector<std::size_t>& used) {
     for (std::size_t k = 0; k < pattern.size(); ++k) {
       const std::size_t row = place[pattern[k].row], column = place_of_column[pattern[k].column];
       if (row == none || column == none) continue;
@@ -49,7 +49,7 @@ WholePattern::Plan WholePattern::plan(const System& system, std::span<const std:
       used.push_back(k);
     }
   };
-  add(system.forces().slope_pattern(), place_of_row, plan.slope);
+  add(system.forces().friction_pattern(), place_of_row, plan.slope);
   if (blocks == SaddleValues::Blocks::slope) return plan;
   add(system.stiffness_pattern(), place, plan.stiffness);
   add(system.forces().damping_pattern(), place, plan.damping);

@@ -32,7 +32,7 @@ Manifold::Manifold(const Problem& problem, const ActiveRows& rows, std::vector<d
   x_.resize(matrix_.size());
   q_before_.resize(system_->coordinates());
   w_before_.resize(e_.w.size());
-  if (system_->forces().read_multipliers()) friction_.emplace(problem, rows);
+  if (system_->forces().has_friction()) friction_.emplace(problem, rows);
   if (!system_->compliant()) return;
   s_.resize(system_->rows(), 0.0);
   reflected_ = s_;

@@ -31,8 +31,8 @@ void refuse_friction(const System& system, std::span<const double> slope, double
     if (std::abs(slope[k]) > std::abs(slope[steepest])) steepest = k;
   std::ostringstream what;
   what.precision(10);
-  what << system.forces().owner_of_slope(steepest) << " changes the multiplier of "
-       << system.row_label(system.forces().slope_pattern()[steepest].column)
+  what << system.forces().owner_of_friction(steepest) << " changes the multiplier of "
+       << system.row_label(system.forces().friction_pattern()[steepest].column)
        << " that it reads so strongly that there is no acceleration, or no unique one (Painleve's paradox; "
           "t = "
        << t << "); make the friction smaller, or end the run before";
@@ -45,7 +45,7 @@ MultiplierForceSolver::MultiplierForceSolver(const Problem& problem, const Activ
       matrix_(problem.pattern(rows.rows), SaddleValues::Blocks::slope),
       given_(matrix_.size()),
       lambda_(system_->rows()),
-      slope_(system_->forces().slope_pattern().size()),
+      slope_(system_->forces().friction_pattern().size()),
       slope_mirrored_(slope_.size()),
       force_(system_->coordinates()),
       predicted_(force_.size()),
@@ -53,7 +53,7 @@ MultiplierForceSolver::MultiplierForceSolver(const Problem& problem, const Activ
 
 void MultiplierForceSolver::add_slope(double factor, std::span<const double> x, std::span<double> y) const {
   for (std::size_t k = 0; k < slope_.size(); ++k) {
-    const auto [coordinate, row] = system_->forces().slope_pattern()[k];
+    const auto [coordinate, row] = system_->forces().friction_pattern()[k];
     y[coordinate] += factor * slope_[k] * x[row];
   }
 }
@@ -104,9 +104,9 @@ MultiplierForceSolver::Outcome MultiplierForceSolver::iterate(const Instant& at,
                                                               std::span<double> x) {
   const std::size_t n = force_.size();
   std::ranges::fill(force_, 0.0);
-  system_->forces().add_reading(at, lambda_, force_);
+  system_->forces().add_friction(at, lambda_, force_);
   for (int step = 0; step < most_newton_steps; ++step) {
-    system_->forces().slope(at, lambda_, slope_);
+    system_->forces().friction_slope(at, lambda_, slope_);
     if (!matrix_.factorise({.w = w, .s = s, .slope = slope_}))
       return matrix_.factorise({.w = w, .s = s}) ? Outcome::none : Outcome::singular;
     // F_f(lambda) - slope lambda: what stands on the right of (2), and with slope times the new lambda
@@ -120,7 +120,7 @@ MultiplierForceSolver::Outcome MultiplierForceSolver::iterate(const Instant& at,
     read_multipliers(w, s, x);
     add_slope(1.0, lambda_, predicted_);
     std::ranges::fill(force_, 0.0);
-    system_->forces().add_reading(at, lambda_, force_);
+    system_->forces().add_friction(at, lambda_, force_);
     if (converged()) return matrix_.sign_of_determinant() > 0 ? Outcome::solved : Outcome::none;
   }
   return Outcome::none;
@@ -153,7 +153,7 @@ bool MultiplierForceSolver::solve(const Instant& at, std::span<const double> w, 
 bool MultiplierForceSolver::mirrored_slope(const Instant& at) try {
   for (const double value : lambda_) mirrored_.push_back(-value);
   const Branches anywhere(nullptr, nullptr);
-  system_->forces().slope(at, mirrored_, slope_mirrored_);
+  system_->forces().friction_slope(at, mirrored_, slope_mirrored_);
   return true;
 } catch (const EquationFault&) {
   return false;
@@ -182,7 +182,7 @@ void MultiplierForceSolver::find_what_is_read(const Instant& at) {
     std::ranges::generate(v, [&] { return any_up_to(speed); });
     std::ranges::generate(lambda, [&] { return any_up_to(force); });
     try {
-      system_->forces().slope({at.t, at.q, v}, lambda, slope);
+      system_->forces().friction_slope({at.t, at.q, v}, lambda, slope);
     } catch (const EquationFault&) {
       std::ranges::fill(slope, 1.0);  // a law without values there may read anything
     }
@@ -196,7 +196,7 @@ void MultiplierForceSolver::find_what_is_read(const Instant& at) {
 bool MultiplierForceSolver::changes_forces(const Eigen::VectorXd& multipliers) const {
   Eigen::VectorXd change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(force_.size())), terms = change;
   for (std::size_t k = 0; k < slope_.size(); ++k) {
-    const auto [coordinate, row] = system_->forces().slope_pattern()[k];
+    const auto [coordinate, row] = system_->forces().friction_pattern()[k];
     const double term = slope_[k] * multipliers[static_cast<Eigen::Index>(row)];
     change[static_cast<Eigen::Index>(coordinate)] += term;
     terms[static_cast<Eigen::Index>(coordinate)] += std::abs(term);
@@ -210,12 +210,12 @@ void MultiplierForceSolver::require_determined(const Instant& at, const MinimumN
   for (const auto& column : multipliers.null_space().colwise()) changes = changes || changes_forces(column);
   std::vector<char> sloped(system_->rows(), 0);
   for (std::size_t k = 0; k < slope_.size(); ++k)
-    if (slope_[k] != 0.0) sloped[system_->forces().slope_pattern()[k].column] = 1;
+    if (slope_[k] != 0.0) sloped[system_->forces().friction_pattern()[k].column] = 1;
   for (std::size_t k = 0; k < slope_.size(); ++k) {
-    const std::size_t row = system_->forces().slope_pattern()[k].column;
+    const std::size_t row = system_->forces().friction_pattern()[k].column;
     const bool at_rest = reads_[k] && !sloped[row];
     if (multipliers.unique()[row] || !(at_rest || (changes && sloped[row]))) continue;
-    throw InconsistentStart(system_->forces().owner_of_slope(k) + " reads the multiplier of " +
+    throw InconsistentStart(system_->forces().owner_of_friction(k) + " reads the multiplier of " +
                             system_->row_label(row) +
                             ", which the motion does not determine: that constraint is redundant; "
                             "remove what repeats it, or make it compliant");

@@ -17,7 +17,7 @@ ComparedEquations::ComparedEquations(const Problem& problem, const Start& start,
       e_(system_->evaluation()),
       lambda_(start.lambda.size()),
       a_(start.q.size()) {
-  if (system_->forces().read_multipliers()) start_listening(problem, start);
+  if (system_->forces().has_friction()) start_listening(problem, start);
 }
 
 void ComparedEquations::start_listening(const Problem& problem, const Start& start) {
@@ -28,13 +28,13 @@ void ComparedEquations::start_listening(const Problem& problem, const Start& sta
 bool ComparedEquations::record(const Instant& at, const Branches::Sides* held, Branches::Sides& out) {
   const Branches listening(&out, held);
   try {
-    if (!system_->forces().read_multipliers()) {
+    if (!system_->forces().has_friction()) {
       system_->evaluate(at, e_);
       return true;
     }
     if (!manifold_->accelerate(at, a_)) return false;
     manifold_->multipliers(lambda_);
-    system_->forces().add_reading(at, lambda_, e_.force);
+    system_->forces().add_friction(at, lambda_, e_.force);
     return true;
   } catch (const EquationFault&) {
     return false;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/core/equations/arguments.h>
 #include <dalembert/solvers/base/hidden.h>
 
 #include <array>

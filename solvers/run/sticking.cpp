@@ -56,8 +56,8 @@ Sticking::Sticking(const Problem& problem, const Start& start, double tolerance)
       lambda_(start.lambda) {}
 
 void Sticking::find_slope(const Motion& at, Slope& side) {
-  side.resize(system_->forces().slope_pattern().size());
-  system_->forces().slope(at.instant(), lambda_, side);
+  side.resize(system_->forces().friction_pattern().size());
+  system_->forces().friction_slope(at.instant(), lambda_, side);
 }
 
 bool Sticking::accelerate(Motion& at, Slope& side) {

@@ -8,23 +8,23 @@
 namespace dalembert {
 
 Switches::Switches(const System& system) : system_(&system) {
-  const std::size_t entries = system.forces().slope_pattern().size();
+  const std::size_t entries = system.forces().friction_pattern().size();
   std::string label;
   for (std::size_t k = 0; k < entries; ++k) {
-    const std::string own = system.forces().owner_of_slope(k);
+    const std::string own = system.forces().owner_of_friction(k);
     if (own == std::exchange(label, own)) continue;
     first_.push_back(k);
-    if (k < system.forces().stated_slope_entries()) laws_ = first_.size();
+    if (k < system.forces().stated_friction_entries()) laws_ = first_.size();
   }
   first_.push_back(entries);
 }
 
-void Switches::make_room(Slope& slope) const { slope.reserve(system_->forces().slope_pattern().size()); }
+void Switches::make_room(Slope& slope) const { slope.reserve(system_->forces().friction_pattern().size()); }
 
 void Switches::find(const Instant& at, std::span<const double> lambda, Slope& out) const {
-  out.resize(system_->forces().slope_pattern().size());
+  out.resize(system_->forces().friction_pattern().size());
   try {
-    system_->forces().slope(at, lambda, out);
+    system_->forces().friction_slope(at, lambda, out);
   } catch (const EquationFault&) {  // where it reverses it may have no derivative
     out.clear();
   }

@@ -37,7 +37,7 @@ class Switches {
   /// The friction that turned from `a` to `b`, if one did.
   [[nodiscard]] std::optional<std::size_t> turned(const Slope& a, const Slope& b) const;
   [[nodiscard]] std::string friction(std::size_t i) const {
-    return system_->forces().owner_of_slope(first_[i]);
+    return system_->forces().owner_of_friction(first_[i]);
   }
   /// The length of a friction's slope.
   [[nodiscard]] double steepness(const Slope& a, std::size_t i) const { return std::sqrt(turn(a, a, i)); }

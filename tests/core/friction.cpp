@@ -7,6 +7,8 @@
 #include <Eigen/Core>
 #include <gmock/gmock.h>
 
+#include <stdexcept>
+
 namespace dalembert::friction_test {
 namespace {
 
@@ -159,6 +161,24 @@ TEST(FrictionPower, IsNamed) {
   EXPECT_EQ(at.forces[1].name, "FrictionLaw \"rough\"");
   EXPECT_NEAR(at.forces[1].power, -15.0, 1e-14);  // a few roundings
   EXPECT_NEAR(at.constraints[0].power, 0.0, 1e-14);
+}
+
+TEST(FrictionPower, OfAForceThatThrowsIsAnErrorByName) {
+  bool broken = false;
+  Scene<2> scene;
+  const auto block = scene.add_particle({.mass = 2.0, .velocity = {3.0, 0.0}});
+  const auto table = scene.add(OnCurve{block, Plane<2>{}});
+  scene.add(friction_law(table, points(block),
+                         [&broken](auto lambda, auto, auto v) {
+                           if (broken) throw std::runtime_error("no more");
+                           return (-0.25 * lambda * v.normalized()).eval();
+                         }),
+            "rough");
+  const auto sample = Simulation<2>(scene, {.t_end = 0.1}).sample();
+  broken = true;
+  EXPECT_THAT([&] { (void)virtual_work(scene, sample); },
+              ThrowsMessage<EquationFault>(
+                  AllOf(HasSubstr("FrictionLaw \"rough\" threw \"no more\""), HasSubstr("(t = 0)"))));
 }
 
 }  // namespace

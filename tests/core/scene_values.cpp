@@ -80,7 +80,7 @@ std::vector<double> equations(const Scene<2>& scene) {
   system.evaluate(at, e);
   std::vector<double> lambda(system.rows());
   for (std::size_t r = 0; r < lambda.size(); ++r) lambda[r] = 1.0 + static_cast<double>(r);
-  system.forces().add_reading(at, lambda, e.force);
+  system.forces().add_friction(at, lambda, e.force);
   std::vector<double> gamma(system.rows());
   system.bias(at, gamma);
   std::vector<double> all{system.extent(0.2)};

@@ -157,8 +157,7 @@ std::string Check::run(double accuracy, std::string& detail) {
   const bool determined = finite(sample.forces);
   const Instant at{sample.time, sample.q, sample.v};
   system.evaluate(at, e);
-  if (determined && system.forces().read_multipliers())
-    system.forces().add_reading(at, sample.lambda, e.force);
+  if (determined && system.forces().has_friction()) system.forces().add_friction(at, sample.lambda, e.force);
   const std::vector<double> scale = units(system, length);
   for (std::size_t i = 0; i < scale.size(); ++i) {
     speed = std::max(speed, std::sqrt(std::abs(e.force[i]) / system.masses()[i] / scale[i]) * length);

@@ -13,7 +13,7 @@ import sys
 NONE = [
     r"^core/analysis/describe\.cpp",  # the report of a scene, docs/redundancy.md
     r"^core/results/(audit|csv|statistics|event)\.cpp",  # names of laws, a file, a report, verbs
-    r"^core/scene/system_forces\.cpp: return",  # "one of the ...", a label
+    r"^core/scene/system\.cpp: return",  # "one of the ...", a label
     r"^view/glb\.cpp: static_assert",  # of the machine
     r"^core/equations/constraint\.h: return",  # the meaning of multipliers in general
     r"^solvers/audit/ledger_keeper\.cpp",  # names of accounts

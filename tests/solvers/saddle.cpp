@@ -208,7 +208,7 @@ TEST(SaddleMatrix, SolvesWithWhateverBlocksItIsGiven) {
   symmetric.bottomRightCorner(m, m) = vector(diagonal).asDiagonal();
   Eigen::MatrixXd with_slope = symmetric;
   for (std::size_t i = 0; i < d.friction.size(); ++i) {
-    const auto [coordinate, row] = p.system.forces().slope_pattern()[i];
+    const auto [coordinate, row] = p.system.forces().friction_pattern()[i];
     with_slope(index(coordinate), n + index(row)) -= d.friction[i];
   }
   Eigen::MatrixXd all = with_slope;

@@ -32,7 +32,7 @@ TEST(StoppedRun, IsNotGoneOnWith) {
     for (const double height : {0.502, 0.501, 0.5})
       marks.push_back({.name = "mark",
                        .function = [=](const Sample<2>& now) { return now.position(ball).y() - height; }});
-    // (Each evaluation starts a run of its own: few are needed.)
+    // One run per evaluation: a loose tolerance keeps them few.
     const Options options{.t_end = 1.0, .samples = 6, .tolerance = 1e-4, .stepper = stepper, .dense = true};
     const auto whole = simulate(scene, options, marks);
     ASSERT_GT(whole.events().size(), 6U);
