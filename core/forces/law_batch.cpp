@@ -33,41 +33,51 @@ void LawBatch::replace(std::size_t i, const void* force) {
 
 std::unique_ptr<ForceBatch> LawBatch::clone() const { return std::make_unique<LawBatch>(*this); }
 
-/// What the law of one element is evaluated at, and the forces on its inputs.
+/// What the law of one element after another is evaluated at, and the forces on its inputs.
 struct LawBatch::Work {
   Work(const LawBatch& batch, const Instant& instant) : own(batch), at(instant) {}
   const LawBatch& own;
   const Instant& at;
   const ElementType& of = own.elements_.type();
   std::size_t n = static_cast<std::size_t>(of.inputs);
-  Scratch room{4 * Scratch::size_of<double>(n) + Scratch::size_of<double>(own.width())};
-  double *x = room.take<double>(n), *v = room.take<double>(n), *f = room.take<double>(n),
-         *g = room.take<double>(own.width());
+  Scratch room{Scratch::size_of<double>(3 * n + own.width())};
+  double *x = room.take<double>(3 * n + own.width()), *v = x + n, *f = v + n, *g = f + n;
+  detail::Pass pass{.elements = own.elements_.data(),
+                    .i = 0,
+                    .count = 1,
+                    .t = at.t,
+                    .t_s = 0.0,
+                    .x = of.direct ? at.q.data() : x,
+                    .x_s = nullptr,
+                    .v = of.direct ? at.v.data() : v,
+                    .at = own.in_order_.data(),
+                    .first = 0,
+                    .out = f};
 
-  [[nodiscard]] detail::Pass pass_of(std::size_t i, std::span<const double> lambda) {
-    detail::Pass pass{.elements = own.elements_.data(),
-                      .i = i,
-                      .count = 1,
-                      .t = at.t,
-                      .t_s = 0.0,
-                      .x = x,
-                      .x_s = v,
-                      .v = v,
-                      .lambda = lambda.data(),
-                      .at = own.in_order_.data(),
-                      .first = 0,
-                      .out = f};
-    own.elements_.gather(i, at, x, v);
-    return pass;
+  /// What simply reads coordinates does so; of other elements the inputs are gathered.
+  void go_to(std::size_t i, std::span<const double> lambda) {
+    pass.i = i;
+    pass.lambda = lambda.data();
+    if (of.direct) {
+      pass.at = own.elements_.coordinates(i).data();
+    } else {
+      own.elements_.gather(i, at, x, v);
+    }
   }
   void evaluate(std::size_t i, std::span<const double> lambda) {
-    detail::Pass pass = pass_of(i, lambda);
+    go_to(i, lambda);
     detail::run(own.type_->numbers, pass);
   }
-  void require_finite(std::size_t i) const {
-    bool finite = true;
-    for (std::size_t k = 0; k < n; ++k) finite &= std::isfinite(f[k]);
-    detail::require_finite(finite, i, "is not a finite number");
+  void require_finite() const {
+    double zero = 0.0;  // or NaN
+    for (std::size_t k = 0; k < n; ++k) zero += 0.0 * f[k];
+    detail::require_finite(zero == 0.0, pass.i, "is not a finite number");
+  }
+  /// The forces on the coordinates that the element reads.
+  [[nodiscard]] const double* on_coordinates() const {
+    if (of.direct) return f;
+    own.elements_.pull_back(pass.i, f, g);
+    return g;
   }
   /// The multipliers that element i reads.
   [[nodiscard]] std::span<const double> read(const Multipliers& lambda, std::size_t i) const {
@@ -92,7 +102,8 @@ struct LawBatch::Slopes {
 
   void run(int first) {
     Branches::again(mark);
-    detail::Pass pass = work.pass_of(i, lambda);
+    work.go_to(i, lambda);
+    detail::Pass pass = work.pass;
     pass.first = first;
     pass.out = f;
     detail::run(work.own.type_->duals, pass);
@@ -121,20 +132,20 @@ void LawBatch::add_force(const Instant& at, const Multipliers& lambda, std::span
     const auto read = work.read(lambda, i);
     if (by_numbers) {
       work.evaluate(i, read);
-      work.require_finite(i);
+      work.require_finite();
     } else {  // with numbers that report their comparisons
       detail::with_directions(type_->directions, [&](auto K) {
         Branches::or_naturally<ElementFault>([&] {
           Slopes<K.value> slopes(work, i, read);
           slopes.run(0);
           for (std::size_t k = 0; k < work.n; ++k) work.f[k] = slopes.f[k].value;
-          work.require_finite(i);
+          work.require_finite();
         });
       });
     }
-    elements_.pull_back(i, work.f, work.g);
+    const double* const acting = work.on_coordinates();
     const auto place = elements_.coordinates(i);
-    for (std::size_t k = 0; k < place.size(); ++k) F[static_cast<std::size_t>(place[k])] += work.g[k];
+    for (std::size_t k = 0; k < place.size(); ++k) F[static_cast<std::size_t>(place[k])] += acting[k];
   }
 }
 
@@ -142,7 +153,8 @@ void LawBatch::power(const Instant& at, const Multipliers& lambda, std::span<dou
   Work work(*this, at);
   for (std::size_t i = 0; i < size(); ++i) {
     work.evaluate(i, work.read(lambda, i));
-    out[i] = std::inner_product(work.f, work.f + work.n, work.v, 0.0);
+    out[i] = 0.0;
+    for (std::size_t k = 0; k < work.n; ++k) out[i] += work.f[k] * work.pass.v[work.pass.at[k]];
   }
 }
 
@@ -150,8 +162,8 @@ void LawBatch::force(std::size_t element, const Instant& at, std::span<const dou
                      std::span<double> out) const {
   Work work(*this, at);
   work.evaluate(element, lambda);
-  work.require_finite(element);
-  elements_.pull_back(element, work.f, out.data());
+  work.require_finite();
+  std::copy_n(work.on_coordinates(), out.size(), out.begin());
 }
 
 void LawBatch::slope(const Instant& at, const Multipliers& lambda, std::span<double> out) const {

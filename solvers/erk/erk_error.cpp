@@ -118,11 +118,13 @@ double ErkStepper::RungeKutta::weighted_norm() const {
 
 /// The sizes of the null rules of a step, and that of its error of order 7, which stays in `difference`.
 std::array<double, 4> ErkStepper::RungeKutta::estimates(double step) {
+  std::array<Four, stages> c;
+  for (std::size_t j = 0; j < stages; ++j) c[j] = {step * estimating[j][0], step * estimating[j][1]};
   Four squares{};
   for (std::size_t i = 0; i < difference.size(); ++i) {
     Four e{};
     for (std::size_t j = 0; j < stages; ++j)
-      for (std::size_t half : {0U, 1U}) e[half] += estimating[j][half] * (step * k[j][i]);
+      for (std::size_t half : {0U, 1U}) e[half] += c[j][half] * k[j][i];
     for (std::size_t half : {0U, 1U}) squares[half] += (e[half] * weight[i]) * (e[half] * weight[i]);
     difference[i] = e[1][1];
   }

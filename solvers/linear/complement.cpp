@@ -30,11 +30,10 @@ ComplementPattern::Plan ComplementPattern::plan(const System& system, std::span<
   for (std::size_t r = 0; r < rows.size(); ++r) {
     for (const std::size_t k : system.row(rows[r])) {
       const std::size_t column = system.w_columns()[k];
-      by_coordinate[column].push_back({r, k, plan.w.size()});
-      plan.w.push_back(k);
-      plan.column.push_back(column);
+      by_coordinate[column].push_back({r, k, plan.entries.size()});
+      plan.entries.push_back({k, column});
     }
-    plan.row_end.push_back(plan.w.size());
+    plan.row_end.push_back(plan.entries.size());
   }
   struct Pair {
     std::size_t row, column, w, v;
@@ -77,9 +76,8 @@ ComplementPattern::ComplementPattern(const System& system, std::span<const std::
     : ComplementPattern(system, plan(system, rows)) {}
 
 ComplementPattern::ComplementPattern(const System& system, Plan plan)
-    : row_end_(std::move(plan.row_end)),
-      w_(std::move(plan.w)),
-      column_(std::move(plan.column)),
+    : entries_(std::move(plan.entries)),
+      row_end_(std::move(plan.row_end)),
       products_(std::move(plan.products)),
       compliant_(std::move(plan.compliant)),
       ldl_(row_end_.size(), plan.places) {
@@ -92,11 +90,12 @@ ComplementPattern::ComplementPattern(const System& system, Plan plan)
 }
 
 SchurComplement::SchurComplement(const ComplementPattern& pattern)
-    : pattern_(&pattern), v_(pattern.w_.size()), ldl_(pattern.ldl_) {}
+    : pattern_(&pattern), v_(pattern.entries_.size()), ldl_(pattern.ldl_) {}
 
 bool SchurComplement::factorise(const SaddleValues& values) {
   const ComplementPattern& p = *pattern_;
-  for (std::size_t k = 0; k < v_.size(); ++k) v_[k] = values.w[p.w_[k]] * p.inverse_mass_[p.column_[k]];
+  for (std::size_t k = 0; k < v_.size(); ++k)
+    v_[k] = values.w[p.entries_[k].w] * p.inverse_mass_[p.entries_[k].column];
   const auto S = ldl_.values();
   for (const auto& product : p.products_) {
     double sum = 0.0;
@@ -116,14 +115,14 @@ void SchurComplement::solve(std::span<double> x) {
   std::size_t k = 0;
   for (std::size_t r = 0; r < p.row_end_.size(); ++r) {
     double sum = 0.0;
-    for (; k < p.row_end_[r]; ++k) sum += v_[k] * x[p.column_[k]];
+    for (; k < p.row_end_[r]; ++k) sum += v_[k] * x[p.entries_[k].column];
     y[r] -= sum;
   }
   ldl_.solve(y);
   for (std::size_t i = 0; i < n; ++i) x[i] *= p.inverse_mass_[i];
   k = 0;
   for (std::size_t r = 0; r < p.row_end_.size(); ++r)
-    for (; k < p.row_end_[r]; ++k) x[p.column_[k]] += v_[k] * y[r];
+    for (; k < p.row_end_[r]; ++k) x[p.entries_[k].column] += v_[k] * y[r];
 }
 
 }  // namespace dalembert

@@ -20,6 +20,10 @@ class ComplementPattern {
 
  private:
   friend class SchurComplement;
+  /// An entry of V, with the number of that of the system's W.
+  struct Entry {
+    std::size_t w, column;
+  };
   /// A sum of products of consecutive entries of the system's W and of V. The first one of a place sets it,
   /// the others add.
   struct Product {
@@ -31,8 +35,8 @@ class ComplementPattern {
     std::size_t row, place;
   };
   struct Plan {
-    std::vector<std::size_t> row_end;
-    std::vector<std::size_t> w, column;
+    std::vector<Entry> entries;
+    std::vector<std::size_t> row_end;       // among the entries
     std::vector<Diagonal> compliant;        // `place` is the number of a product
     std::vector<LdlPattern::Entry> places;  // one per product
     std::vector<Product> products;
@@ -41,8 +45,8 @@ class ComplementPattern {
   ComplementPattern(const System& system, Plan plan);
 
   std::vector<double> inverse_mass_;
-  // Of the entries of V: where each row ends, and of each its number in the system's W and its coordinate.
-  std::vector<std::size_t> row_end_, w_, column_;
+  std::vector<Entry> entries_;
+  std::vector<std::size_t> row_end_;
   std::vector<Product> products_;
   std::vector<Diagonal> compliant_;
   LdlPattern ldl_;

@@ -90,6 +90,27 @@ double disagreement_of(const Interpolant& p, const std::vector<double>& at_check
   return most;
 }
 
+/// Whether a function with a kink between two nodes, which are on this side of 0, may reach 0 there: it falls
+/// on the line through the two nodes before, and rises on that through the two behind; by curved legs it
+/// falls at most twice as far. Where there is but one node it falls or rises at once.
+bool may_reach_zero(const Interpolant& p, double side) {
+  const auto& t = p.nodes;
+  const auto height = [&](std::size_t j) { return side * p.values[j]; };
+  const auto slope = [&](std::size_t j) { return (height(j + 1) - height(j)) / (t[j + 1] - t[j]); };
+  for (std::size_t j = 0; j + 1 < t.size(); ++j) {
+    const bool first = j == 0, last = j + 2 == t.size();
+    const double falls = first ? -1.0 : slope(j - 1), rises = last ? 1.0 : slope(j + 1),
+                 gap = t[j + 1] - t[j];
+    if (!(falls < 0.0 && rises > 0.0)) continue;
+    const double meet = first  ? 0.0
+                        : last ? gap
+                               : (height(j) - height(j + 1) + rises * gap) / (rises - falls);
+    const double there = first ? height(j + 1) - rises * gap : height(j) + falls * meet;
+    if (meet >= 0.0 && meet <= gap && there <= 0.5 * std::min(height(j), height(j + 1))) return true;
+  }
+  return false;
+}
+
 /// Whether an error of so much matters to where an interpolant, or one of some more values, is 0.
 bool is_small(double error, const Interpolant& p, const std::vector<double>& more, double round_off) {
   double low = p.values[0], high = p.values[0], least = std::abs(p.values[0]);
@@ -101,7 +122,8 @@ bool is_small(double error, const Interpolant& p, const std::vector<double>& mor
     }
   }
   if (error <= std::max(constants.unresolved_by_interpolant * (high - low), round_off)) return true;
-  return low * high > 0.0 && constants.beside_a_kink * error < least;
+  return low * high > 0.0 && constants.beside_a_kink * error < least &&
+         !may_reach_zero(p, low > 0.0 ? 1.0 : -1.0);
 }
 
 bool agrees(const Interpolant& p, const std::vector<double>& at_checks, double round_off) {

@@ -113,6 +113,27 @@ TEST_P(FastEvents, FunctionsWithJumpsOrCornersAreFollowed) {
   EXPECT_NEAR(run.events()[2].time, 1.301, 1e-12);
 }
 
+/// Functions that turn at a kink behind 0, between all times at which a step looks at them.
+TEST_P(FastEvents, KinksBehindZeroAreSeenWhereverTheyFall) {
+  const Fall fall;
+  for (const double depth : {3e-4, 1e-5}) {
+    for (int k = 0; k < 40; ++k) {
+      const double kink = 0.1 + 0.045 * k;
+      const auto run = simulate(fall.scene, options(2.0),
+                                {{.name = "steeper",
+                                  .function =
+                                      [=](const auto& now) {
+                                        const double t = now.time() - kink;
+                                        return std::max(-0.3 * t, 2.0 * t) - depth;
+                                      }},
+                                 {.name = "curved", .function = [=](const auto& now) {
+                                    return depth - std::abs(now.time() - kink) * (1.0 + std::sin(now.time()));
+                                  }}});
+      EXPECT_EQ(run.events().size(), 4U) << kink << ' ' << depth;
+    }
+  }
+}
+
 TEST_P(FastEvents, EventAtTheEndOfARunIsListedAndCarriedOut) {
   Fall fall;
   const auto changed = std::make_shared<int>(0);
