@@ -30,7 +30,7 @@ class Places {
   template <class T>
   [[nodiscard]] std::span<T> in(std::span<T> array) const {
     assert(last_ <= array.size());
-    return {array.data() + first_, size()};  // without the cases that subspan tells apart
+    return {array.data() + first_, size()};  // subspan would ask for dynamic_extent
   }
 
  private:

@@ -10,8 +10,8 @@
 
 namespace dalembert {
 
-/// Thrown by a batch when one of its elements threw or gave a number that is not finite; System
-/// turns the element's index into its name.
+/// Thrown by a batch when one of its elements threw or gave a number that is not finite. Who evaluates the
+/// batch turns the element's index into its name.
 struct ElementFault {
   std::size_t element;
   std::string what;

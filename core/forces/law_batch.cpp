@@ -54,7 +54,7 @@ struct LawBatch::Work {
                     .first = 0,
                     .out = f};
 
-  /// What simply reads coordinates does so; of other elements the inputs are gathered.
+  /// Direct elements read q and v in place; the inputs of others are gathered.
   void go_to(std::size_t i, std::span<const double> lambda) {
     pass.i = i;
     pass.lambda = lambda.data();
@@ -153,6 +153,7 @@ void LawBatch::power(const Instant& at, const Multipliers& lambda, std::span<dou
   Work work(*this, at);
   for (std::size_t i = 0; i < size(); ++i) {
     work.evaluate(i, work.read(lambda, i));
+    work.require_finite();
     out[i] = 0.0;
     for (std::size_t k = 0; k < work.n; ++k) out[i] += work.f[k] * work.pass.v[work.pass.at[k]];
   }
@@ -163,7 +164,7 @@ void LawBatch::force(std::size_t element, const Instant& at, std::span<const dou
   Work work(*this, at);
   work.evaluate(element, lambda);
   work.require_finite();
-  std::copy_n(work.on_coordinates(), out.size(), out.begin());
+  std::copy_n(work.on_coordinates(), width(), out.begin());
 }
 
 void LawBatch::slope(const Instant& at, const Multipliers& lambda, std::span<double> out) const {

@@ -70,7 +70,7 @@ bool ForceBatches::timed() const {
 }
 
 template <class F>
-void ForceBatches::named(std::size_t b, double t, const F& f) const {
+void ForceBatches::with_label(std::size_t b, double t, const F& f) const {
   try {
     f();
   } catch (const ElementFault& fault) {
@@ -82,7 +82,7 @@ template <class F>
 void ForceBatches::on(std::size_t from, std::size_t end, const Instant& at, std::span<const double> lambda,
                       const F& f) const {
   for (std::size_t b = from; b < end; ++b) {
-    named(b, at.t, [&] {
+    with_label(b, at.t, [&] {
       Branches::enter_batch(first_batch_ + b);
       f(batch(b), Multipliers{lambda, places_[b].first_row}, places_[b]);
     });
@@ -140,7 +140,7 @@ void ForceBatches::for_each_power(const Instant& at, std::span<const double> lam
                                   const std::function<void(std::string, double)>& f) const {
   for (std::size_t b = 0; b < parts_.batches.size(); ++b) {
     std::vector<double> power(batch(b).size());
-    named(b, at.t, [&] { batch(b).power(at, {lambda, places_[b].first_row}, power); });
+    with_label(b, at.t, [&] { batch(b).power(at, {lambda, places_[b].first_row}, power); });
     for (std::size_t i = 0; i < power.size(); ++i) f(label(b, i), power[i]);
   }
 }

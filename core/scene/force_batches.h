@@ -96,7 +96,7 @@ class ForceBatches {
   void place(std::vector<MatrixEntry>& stiffness);
   /// Calls f, which evaluates a batch; what it throws gets the label of the force.
   template <class F>
-  void named(std::size_t batch, double t, const F& f) const;
+  void with_label(std::size_t batch, double t, const F& f) const;
   /// On the batches from one to before another.
   template <class F>
   void on(std::size_t from, std::size_t end, const Instant& at, std::span<const double> lambda,

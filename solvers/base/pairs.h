@@ -8,7 +8,7 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// One number, or a Pair of neighbours, from memory that no alignment is known of.
+/// One number, or a Pair of neighbours, from memory of any alignment.
 template <class T>
 [[nodiscard]] DALEMBERT_INLINE T load(const double* from) {
   T value;
@@ -16,8 +16,9 @@ template <class T>
   return value;
 }
 
-/// out[i] = f(i, 0) for numbers that are loaded at i. Two at a time, written out: a compiler would check at
-/// run time that `out` overlaps nothing that is read, which takes longer where there are few.
+/// out[i] = f(i, 0) for numbers that are loaded at i; `out` may be one of those arrays. Two at a time,
+/// written out: a compiler would check at run time that `out` overlaps none of them, which takes longer where
+/// they are short.
 template <class F>
 DALEMBERT_INLINE void write_by_pairs(double* out, std::size_t size, const F& f) {
   const auto write = [&](std::size_t i, auto zero) DALEMBERT_INLINE_LAMBDA {

@@ -26,8 +26,9 @@ class ErkStepper::FrictionSwitches {
 
   /// Whether friction may turn, or what slides come to rest.
   [[nodiscard]] bool any() const { return switches_.any() || switches_.any_slides(); }
-  /// An attempt starts; its stage i, which is checked if there are `any`, is at t.
+  /// An attempt starts.
   void start_attempt() { passed_switch_ = passed_several_ = passed_rest_ = false; }
+  /// Of its stage i, at t; if there are `any`.
   void check_switch(std::size_t i, double t);
   /// The most that a switch between two nodes, crossed in one step, may contribute to its error, over the
   /// tolerance.

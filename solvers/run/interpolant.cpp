@@ -4,6 +4,7 @@
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/run/chebyshev.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -90,44 +91,51 @@ double disagreement_of(const Interpolant& p, const std::vector<double>& at_check
   return most;
 }
 
-/// Whether a function with a kink between two nodes, which are on this side of 0, may reach 0 there: it falls
-/// on the line through the two nodes before, and rises on that through the two behind; by curved legs it
-/// falls at most twice as far. Where there is but one node it falls or rises at once.
-bool may_reach_zero(const Interpolant& p, double side) {
-  const auto& t = p.nodes;
+/// What an interpolant and further values span, and the least of their sizes.
+struct Range {
+  double low, high, least;
+
+  Range(const Interpolant& p, const std::vector<double>& more)
+      : low(p.values[0]), high(low), least(std::abs(low)) {
+    for (const auto* part : {&p.values, &more}) {
+      for (const double value : *part) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+        least = std::min(least, std::abs(value));
+      }
+    }
+  }
+  /// Whether an error of so much does not matter to where they turn.
+  [[nodiscard]] bool shows_all(double error, double round_off) const {
+    return error <= std::max(constants.unresolved_by_interpolant * (high - low), round_off);
+  }
+  /// Whether they lie on one side of 0, further from it than an error of so much reaches.
+  [[nodiscard]] bool out_of_reach(double error) const {
+    return low * high > 0.0 && constants.beside_a_kink * error < least;
+  }
+};
+
+/// Of an interpolant whose nodes are on one side of 0: whether its function has a kink between two of them
+/// and may reach 0 there. The checks may lie where a kink does not show, so each gap towards which the
+/// function falls from both sides is looked into.
+bool has_kink_towards_zero(const FunctionOfTime& f, const Interpolant& p, const Range& range) {
+  const double side = range.low > 0.0 ? 1.0 : -1.0;
   const auto height = [&](std::size_t j) { return side * p.values[j]; };
-  const auto slope = [&](std::size_t j) { return (height(j + 1) - height(j)) / (t[j + 1] - t[j]); };
-  for (std::size_t j = 0; j + 1 < t.size(); ++j) {
-    const bool first = j == 0, last = j + 2 == t.size();
-    const double falls = first ? -1.0 : slope(j - 1), rises = last ? 1.0 : slope(j + 1),
-                 gap = t[j + 1] - t[j];
-    if (!(falls < 0.0 && rises > 0.0)) continue;
-    const double meet = first  ? 0.0
-                        : last ? gap
-                               : (height(j) - height(j + 1) + rises * gap) / (rises - falls);
-    const double there = first ? height(j + 1) - rises * gap : height(j) + falls * meet;
-    if (meet >= 0.0 && meet <= gap && there <= 0.5 * std::min(height(j), height(j + 1))) return true;
+  for (std::size_t j = 0; j + 1 < p.nodes.size(); ++j) {
+    const bool falls = j == 0 || height(j) < height(j - 1),
+               rises = j + 2 == p.nodes.size() || height(j + 2) > height(j + 1);
+    const double middle = 0.5 * (p.nodes[j] + p.nodes[j + 1]);
+    if (falls && rises && !range.out_of_reach(std::abs(p(middle) - f(middle)))) return true;
   }
   return false;
 }
 
-/// Whether an error of so much matters to where an interpolant, or one of some more values, is 0.
-bool is_small(double error, const Interpolant& p, const std::vector<double>& more, double round_off) {
-  double low = p.values[0], high = p.values[0], least = std::abs(p.values[0]);
-  for (const auto* part : {&p.values, &more}) {
-    for (const double value : *part) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-      least = std::min(least, std::abs(value));
-    }
-  }
-  if (error <= std::max(constants.unresolved_by_interpolant * (high - low), round_off)) return true;
-  return low * high > 0.0 && constants.beside_a_kink * error < least &&
-         !may_reach_zero(p, low > 0.0 ? 1.0 : -1.0);
-}
-
-bool agrees(const Interpolant& p, const std::vector<double>& at_checks, double round_off) {
-  return is_small(disagreement_of(p, at_checks), p, at_checks, round_off);
+bool agrees(const FunctionOfTime& f, const Interpolant& p, const std::vector<double>& at_checks,
+            double round_off) {
+  const Range range(p, at_checks);
+  const double error = disagreement_of(p, at_checks);
+  return range.shows_all(error, round_off) ||
+         (range.out_of_reach(error) && !has_kink_towards_zero(f, p, range));
 }
 
 }  // namespace
@@ -142,7 +150,8 @@ bool agrees_in_slope(const Interpolant& p, const std::vector<double>& rates, dou
                  behind = j + 1 < rates.size() ? p.nodes[j + 1] - p.nodes[j] : 0.0;
     error = std::max(error, 4.0 / 27.0 * std::max(before, behind) * std::abs(p.slope(j) - rates[j]));
   }
-  return is_small(error, p, {}, round_off);
+  const Range range(p, {});
+  return range.shows_all(error, round_off) || range.out_of_reach(error);
 }
 
 namespace {
@@ -180,7 +189,7 @@ class Parts {
       std::vector<double> checks;
       for (const double t : check_times(a, b, degree_)) checks.push_back(f_(t));
       const bool shortest = b - a <= std::max(shortest_, 64.0 * epsilon * std::abs(b));
-      if (shortest || agrees(p, checks, round_off_)) return p;
+      if (shortest || agrees(f_, p, checks, round_off_)) return p;
       halve(p);
     }
   }
@@ -202,7 +211,7 @@ class Parts {
 
 bool resolve(const FunctionOfTime& f, const Interpolant& first, const std::vector<double>& at_checks,
              double round_off, std::size_t most_parts, const ShowPart& show) {
-  if (agrees(first, at_checks, round_off) || is_noise(f, first, at_checks)) {
+  if (agrees(f, first, at_checks, round_off) || is_noise(f, first, at_checks)) {
     (void)show(first);
     return true;
   }

@@ -42,9 +42,10 @@ using FunctionOfTime = std::function<double(double)>;
 using ShowPart = std::function<bool(const Interpolant& part)>;
 
 /// Looks where a function itself varies: shows interpolants of a function over parts of an interval, in their
-/// order, each of which agrees with it at the times of the check, or lies further from 0 than it disagrees.
-/// `first` is that of the whole and `at_checks` the function's values there; differences below `round_off`
-/// are none. At a kink or a jump parts end where they are as short as the flat top of a smooth function.
+/// order, each of which agrees with it at the times of the check, or lies further from 0 than it disagrees
+/// there and beside kinks. `first` is that of the whole and `at_checks` the function's values there;
+/// differences below `round_off` are none. At a kink or a jump parts end where they are as short as the flat
+/// top of a smooth function.
 ///
 /// False if the function varies faster than `most_parts` parts resolve. (What differs as much between times
 /// next to each other is round-off, and remains as it is.)

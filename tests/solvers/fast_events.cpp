@@ -119,17 +119,23 @@ TEST_P(FastEvents, KinksBehindZeroAreSeenWhereverTheyFall) {
   for (const double depth : {3e-4, 1e-5}) {
     for (int k = 0; k < 40; ++k) {
       const double kink = 0.1 + 0.045 * k;
-      const auto run = simulate(fall.scene, options(2.0),
-                                {{.name = "steeper",
-                                  .function =
-                                      [=](const auto& now) {
-                                        const double t = now.time() - kink;
-                                        return std::max(-0.3 * t, 2.0 * t) - depth;
-                                      }},
-                                 {.name = "curved", .function = [=](const auto& now) {
-                                    return depth - std::abs(now.time() - kink) * (1.0 + std::sin(now.time()));
-                                  }}});
-      EXPECT_EQ(run.events().size(), 4U) << kink << ' ' << depth;
+      const auto run =
+          simulate(fall.scene, options(2.0),
+                   {{.name = "steeper",
+                     .function =
+                         [=](const auto& now) {
+                           const double t = now.time() - kink;
+                           return std::max(-0.3 * t, 2.0 * t) - depth;
+                         }},
+                    {.name = "curved",
+                     .function =
+                         [=](const auto& now) {
+                           return depth - std::abs(now.time() - kink) * (1.0 + std::sin(now.time()));
+                         }},
+                    {.name = "steepening", .function = [=](const auto& now) {
+                       return std::tanh(8.0 * std::abs(now.time() - kink)) - depth;
+                     }}});
+      EXPECT_EQ(run.events().size(), 6U) << kink << ' ' << depth;
     }
   }
 }
