@@ -174,9 +174,9 @@ TEST(FrictionPower, OfAForceThatThrowsIsAnErrorByName) {
                            return (-0.25 * lambda * v.normalized()).eval();
                          }),
             "rough");
-  const auto sample = Simulation<2>(scene, {.t_end = 0.1}).sample();
+  const Simulation<2> run(scene, {.t_end = 0.1});
   broken = true;
-  EXPECT_THAT([&] { (void)virtual_work(scene, sample); },
+  EXPECT_THAT([&] { (void)virtual_work(scene, run.sample()); },
               ThrowsMessage<EquationFault>(
                   AllOf(HasSubstr("FrictionLaw \"rough\" threw \"no more\""), HasSubstr("(t = 0)"))));
 }
