@@ -82,7 +82,7 @@ struct Constants {
 
   // Events and switches.
   /// A polynomial that disagrees with its function, where that is checked, by no more than this part of what
-  /// it varies shows where it turns. Elsewhere it may disagree by so many times that.
+  /// it varies shows where it turns. Where it is not checked it may disagree so many times as much.
   double unresolved_by_interpolant = 1e-6, beside_a_kink = 30.0;
 
   // Linear algebra.
