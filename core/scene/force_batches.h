@@ -19,8 +19,8 @@ namespace dalembert {
 /// What the forces of a scene are made of; Scene::system() fills it in.
 struct ForceParts {
   std::vector<double> constant{};  ///< one per coordinate
-  // Shared by all systems of a run, whatever is in force, and with its results, which evaluate forces where
-  // they are read.
+  /// Shared by all systems of a run, whatever is in force, and with its results, which evaluate forces where
+  /// they are read.
   std::vector<std::shared_ptr<const ForceBatch>> batches{};
   std::vector<std::vector<int>> numbers{};  ///< per batch: the scene's number of each element
   std::vector<std::pair<int, std::array<double, 3>>> gravities{};  ///< the scene's number, acceleration
@@ -42,11 +42,13 @@ class ForceBatches {
 
   /// Whether any depends on time explicitly.
   [[nodiscard]] bool timed() const;
+  /// Whether the force of a constraint that slides is among them.
   [[nodiscard]] bool any_slides() const { return !slides_.empty(); }
   /// Places of the entries of d(F + F_f)/dv; places may repeat, their entries add.
   [[nodiscard]] std::span<const MatrixEntry> damping_pattern() const { return damping_pattern_; }
   /// Places of dF_f/dlambda: a coordinate and a row. Empty if no force reads a multiplier.
   [[nodiscard]] std::span<const MatrixEntry> friction_pattern() const { return friction_pattern_; }
+  /// Whether any reads multipliers.
   [[nodiscard]] bool has_friction() const { return !friction_pattern_.empty(); }
   /// The number of them that are of forces that the scene states; the rest is of what slides.
   [[nodiscard]] std::size_t stated_friction_entries() const { return stated_friction_entries_; }
@@ -64,23 +66,27 @@ class ForceBatches {
   void exert_sliding(const Instant& at, std::span<double> lambda, std::span<double> slots) const;
   /// Energy of all that have one.
   [[nodiscard]] double energy(const Instant& at) const;
-  /// F . v of the constant forces together, and of every other one, by its label.
+  /// F . v of the constant forces together.
   [[nodiscard]] double constant_power(std::span<const double> v) const;
+  /// Calls f with the label and F . v of every other one.
   void for_each_power(const Instant& at, std::span<const double> lambda,
                       const std::function<void(std::string, double)>& f) const;
   /// What each force of the scene is, in the order of Layout::forces.
   [[nodiscard]] AppliedForces applied() const;
 
-  /// The label of the force that an entry belongs to: of the stiffness, beyond those of the constraints, or
-  /// of dF_f/dlambda.
+  /// The label of the force that an entry of the stiffness, beyond those of the constraints, belongs to.
   [[nodiscard]] std::string owner_of_stiffness(std::size_t entry) const;
+  /// The same of an entry of dF_f/dlambda.
   [[nodiscard]] std::string owner_of_friction(std::size_t entry) const;
   /// The number of batches that the scene states; those of what slides come behind.
   [[nodiscard]] std::size_t stated() const { return stated_; }
+  /// One of them all.
   [[nodiscard]] const ForceBatch& batch(std::size_t b) const { return *parts_.batches[b]; }
-  /// Those that read no multipliers, and those that do.
+  /// Those that read no multipliers.
   [[nodiscard]] auto plain() const { return std::span(parts_.batches).first(first_friction_); }
+  /// Those that do.
   [[nodiscard]] auto friction() const { return std::span(parts_.batches).subspan(first_friction_); }
+  /// That of an element of a batch.
   [[nodiscard]] std::string label(std::size_t batch, std::size_t element) const;
 
  private:

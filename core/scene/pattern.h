@@ -8,7 +8,7 @@ namespace dalembert {
 
 /// A place in a sparse matrix.
 struct MatrixEntry {
-  std::size_t row, column;
+  std::size_t row, column;  ///< from 0
 };
 
 namespace detail {
