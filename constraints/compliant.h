@@ -17,8 +17,8 @@ namespace dalembert {
 /// lambda is an unknown of the implicit stepper, the equations stay regular down to C = 0, and
 /// vibrations too small and fast to matter at the tolerance are stepped over.
 ///
-/// It is a spring at impacts and changes, too: it passes on no impulse, holds no contact closed, and where it
-/// is imposed its g may have any value.
+/// At impacts and changes it acts as a spring: it transmits no impulse and holds no contact closed, and where
+/// it is imposed its g may have any value.
 template <class Rigid>
 struct Compliant {
   static constexpr std::string_view kind = detail::kind_of<Rigid>("Holonomic");
@@ -42,8 +42,8 @@ struct Compliant {
 ///
 ///   auto spring = scene.add(compliant(Distance{pivot, bob, 1.0}, 1.0 / stiffness));
 ///
-/// Where the gradient of g has unit length, as in all of the library's own constraints, the
-/// stiffness is in newtons per metre.
+/// The stiffness is in newtons per metre where the gradient of g has unit length: that of the library's own
+/// constraints has, but for those that are stated by a function of yours.
 template <class C>
 [[nodiscard]] Compliant<C> compliant(C rigid, double compliance) {
   static_assert(HolonomicConstraint<C>,

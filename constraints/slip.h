@@ -32,8 +32,8 @@ template <class T>
 }  // namespace detail
 
 /// The velocity of a particle along a surface (in the plane a line or circle), which may itself move along
-/// with a constant velocity, as a belt does: one number in the plane, two in space. By itself it holds the
-/// particle where it touches; in `coulomb` as far as friction can.
+/// with a constant velocity, as a belt does: one number in the plane, two in space. Stated by itself
+/// it forbids slip; in `coulomb` it does so up to the limit of friction.
 ///
 ///   a = e_k . (v - belt),   e_k along the surface;  in the plane e is its normal turned right
 ///

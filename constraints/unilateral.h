@@ -18,8 +18,9 @@ namespace dalembert {
 /// accumulate end in rest, at their limit.
 ///
 /// A run lists openings, impacts and rests (Trajectory::events), with the states before and after and the
-/// impulses of all constraints. At the start contacts touch whose gap is below 1e-8 of the scene's length.
-/// Forces that read its multiplier, equilibria and small motions are not for one-sided constraints.
+/// impulses of all constraints. At the start a contact is closed if its gap is below 1e-8 of the scene's
+/// length. Forces that read a multiplier cannot read that of a one-sided constraint; scenes with one have no
+/// equilibria and no small motions here.
 ///
 /// Source: J. J. Moreau, Unilateral contact and dry friction in finite freedom dynamics (1988).
 template <class Bilateral>
@@ -45,7 +46,7 @@ struct Unilateral {
 
 /// Makes a constraint one-sided:
 ///
-///   auto floor = scene.add(unilateral(OnSurface{ball, Plane<2>{}}, {.restitution = 0.8}));
+///   auto floor = scene.add(unilateral(OnCurve{ball, Plane<2>{}}, {.restitution = 0.8}));
 ///   auto string = scene.add(unilateral(Distance{pivot, bob, 1.0}, {.allowed = Allowed::negative}));
 ///
 /// Scene::add throws InvalidScene unless the restitution is 0 to 1.

@@ -48,8 +48,9 @@ class UndeterminedForce : public Error {
   using Error::Error;
 };
 
-/// The integration could not go on. Nothing computed is lost: `trajectory<D>()` is the run up to
-/// the failure. Whatever would take such a run on throws it again; begin anew from a sample.
+/// The integration could not go on. Nothing computed is lost: `trajectory<D>()` has the samples of a run up
+/// to the failure, and a Simulation reads the last instant that steps reached. Whatever would take such a run
+/// on throws it again; begin anew from a sample.
 class IntegrationFailure : public Error {
  public:
   /// Thrown by runs only.

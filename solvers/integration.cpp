@@ -87,6 +87,7 @@ std::unique_ptr<Segment> Integration::make_segment(const Problem& problem, Start
 
 std::unique_ptr<Segment> Integration::make_segment(const Problem& problem, Start start, double t, Stepper by,
                                                    Comparisons comparisons) const {
+  if (!resolves_motion(start.scales, t)) throw StepFailure{coarse_time(start.scales, t), t};
   const Options options = options_from(t, by);
   std::unique_ptr<TimeStepper> stepper;
   {
@@ -334,9 +335,11 @@ Statistics Integration::statistics(double until) const {
   segment_->output.count(s);
   if (segment_->by != options_.stepper) s.advice.clear();
   if (s.steps > 0) {
-    s.accuracy =
-        std::max({options_.tolerance, error_.position() / s.length, error_.velocity() * s.time / s.length});
-    s.round_off = std::max(error_.position_noise() / s.length, error_.velocity_noise() * s.time / s.length);
+    const auto of_scene = [&](double position, double velocity) {
+      return std::max(position / s.length, velocity * s.time / s.length) + error_.shift() / s.time;
+    };
+    s.accuracy = std::max(options_.tolerance, of_scene(error_.position(), error_.velocity()));
+    s.round_off = of_scene(error_.position_noise(), error_.velocity_noise());
   }
   return s;
 }

@@ -78,9 +78,14 @@ struct DALEMBERT_HIDDEN Integrator::Run {
 
   void count_turn() {
     if (++steps <= options.max_steps) return;
-    throw StepFailure{"max_steps = " + std::to_string(options.max_steps) +
-                          " was reached; raise it, or ask for a looser tolerance",
-                      integration.time()};
+    const bool short_steps =
+        options.max_step > 0.0 &&
+        static_cast<double>(options.max_steps) * options.max_step < options.t_end - options.t_start;
+    throw StepFailure{
+        "max_steps = " + std::to_string(options.max_steps) +
+            (short_steps ? " was reached; raise it, or max_step, of which so many do not reach t_end"
+                         : " was reached; raise it, or ask for a looser tolerance"),
+        integration.time()};
   }
 
   /// If anything fails the current state stays as it is.
@@ -90,6 +95,13 @@ struct DALEMBERT_HIDDEN Integrator::Run {
     audit(next.flat());
     std::swap(now, next);
     read_from = integration.shared_system();
+  }
+
+  /// Where the steps came to before one failed, if that obeys the laws.
+  void visit_last() try {
+    if (stop.time > now.t) visit(stop.time);
+  } catch (...) {
+    return;  // the run is stopping: what stops it is known already
   }
 
   void audit(const FlatSample& sample) {
@@ -174,6 +186,7 @@ struct DALEMBERT_HIDDEN Integrator::Run {
 
   /// What also may be amiss is said where a step failed, not where an equation did.
   const IntegrationFailure& stopped_by(const std::string& why, double time, bool of_step = true) {
+    visit_last();
     const std::string suspect = integration.unbounded_multiplier();
     auto kept = std::make_shared<Record>(record);
     kept->statistics = statistics();
@@ -245,15 +258,21 @@ Integrator::Integrator(System system, std::span<const double> q, std::span<const
 Integrator::Integrator(Integrator&&) noexcept = default;
 Integrator::~Integrator() = default;
 
-FlatSample Integrator::sample() const { return run_->now.flat(); }
-const System& Integrator::system() const { return *run_->read_from; }
-std::span<const EventRecord> Integrator::events() const {
-  return run_->handler ? std::span(run_->handler->events().events()) : std::span<const EventRecord>();
+Integrator::Run& Integrator::its() const {
+  if (run_) return *run_;
+  throw InvalidArgument("this simulation was moved: use the one that it was moved into");
 }
-Statistics Integrator::statistics() const { return run_->statistics(); }
+
+FlatSample Integrator::sample() const { return its().now.flat(); }
+const System& Integrator::system() const { return *its().read_from; }
+std::span<const EventRecord> Integrator::events() const {
+  const auto& handler = its().handler;
+  return handler ? std::span(handler->events().events()) : std::span<const EventRecord>();
+}
+Statistics Integrator::statistics() const { return its().statistics(); }
 
 void Integrator::step() {
-  Run& s = *run_;
+  Run& s = its();
   if (s.now.t >= s.options.t_end) {
     std::ostringstream what;
     what << "step(): t_end = " << s.options.t_end << " is reached; choose a later one in the options";
@@ -269,7 +288,7 @@ void Integrator::step() {
 }
 
 void Integrator::advance_to(double t) {
-  Run& s = *run_;
+  Run& s = its();
   if (!(t >= s.now.t && t <= s.options.t_end)) {
     std::ostringstream what;
     what << "advance_to(" << t << "): must lie between the current time " << s.now.t
@@ -282,16 +301,17 @@ void Integrator::advance_to(double t) {
 }
 
 void Integrator::run(const std::function<void(const FlatSample&)>& observe) {
-  if (run_->options.dense)
+  Run& s = its();
+  if (s.options.dense)
     throw InvalidArgument("dense = true keeps all steps for Trajectory::at: not where no sample is kept");
-  run_->for_each_sample([&](const FlatSample& sample) {
-    const Stopwatch::While untimed(run_->stopwatch, false);  // it is the user's
+  s.for_each_sample([&](const FlatSample& sample) {
+    const Stopwatch::While untimed(s.stopwatch, false);  // it is the user's
     observe(sample);
   });
 }
 
 std::shared_ptr<const Record> Integrator::run() {
-  Run& s = *run_;
+  Run& s = its();
   s.record.clear();
   s.record.reserve(s.times.size(), s.now.flat());
   s.for_each_sample([&s](const FlatSample& sample) {

@@ -19,11 +19,12 @@ class Integrator {
   /// Checks the options and the start. Throws InvalidArgument, InconsistentStart.
   Integrator(System system, std::span<const double> q, std::span<const double> v, const Options& options,
              std::vector<FlatEvent> events = {});
-  /// Moved, not copied.
+  /// Moved, not copied. Of one that was moved all functions throw InvalidArgument.
   Integrator(Integrator&&) noexcept;
   ~Integrator();
 
-  /// The current instant: at first the start, later where `step` or `advance_to` went.
+  /// The current instant: at first the start, later where `step` or `advance_to` went; after a failure the
+  /// last one that the steps before it reached.
   [[nodiscard]] FlatSample sample() const;
   /// One step of the integrator's own choice. Throws InvalidArgument where t_end is reached,
   /// IntegrationFailure.
@@ -48,6 +49,8 @@ class Integrator {
 
  private:
   struct Run;
+  /// Throws InvalidArgument if it was moved.
+  [[nodiscard]] Run& its() const;
   std::unique_ptr<Run> run_;
 };
 

@@ -8,7 +8,7 @@
 namespace dalembert {
 
 /// A scene in motion, for step-wise control; the scene may be changed or destroyed meanwhile.
-/// After a failure the last good instant can still be read.
+/// After a failure the last instant that steps reached can still be read.
 ///
 /// Every function of Sample is one of a Simulation, of its current instant; see Readings.
 template <int D>
@@ -17,12 +17,12 @@ class Simulation : public Readings<D, Simulation<D>> {
   /// Throws InvalidScene, InvalidArgument, InconsistentStart.
   Simulation(const Scene<D>& scene, const Options& options);
   /// From a sample of a run of this scene, or of a copy of it with other parameters, at the time of the
-  /// sample; the option t_start is that, or left out. Throws InvalidArgument also if the sample belongs to
-  /// something else.
+  /// sample: leave the option t_start out, or set it to that. Throws InvalidArgument also if the sample
+  /// belongs to something else.
   Simulation(const Scene<D>& scene, const Sample<D>& start, const Options& options);
   /// With events; one that ends the run ends `step`, `advance_to` and `run`.
   Simulation(const Scene<D>& scene, const Options& options, const std::vector<Event<D>>& events);
-  /// Moved, not copied.
+  /// Moved, not copied. Of one that was moved all functions throw InvalidArgument.
   Simulation(Simulation&& other) noexcept;
   ~Simulation();
 
@@ -35,14 +35,14 @@ class Simulation : public Readings<D, Simulation<D>> {
   [[nodiscard]] Sample<D> sample() const { return {*integrator_.system().layout(), integrator_.sample()}; }
   /// Reached so far [time].
   [[nodiscard]] double time() const { return sample().time(); }
-  /// Of the run so far.
+  /// What the run has cost so far, and how exact it is.
   [[nodiscard]] Statistics statistics() const { return integrator_.statistics(); }
-  /// So far, in the order of time.
+  /// What has happened so far, in the order of time.
   [[nodiscard]] std::span<const EventRecord> events() const { return integrator_.events(); }
-  /// Of the run so far.
+  /// How well the run has obeyed the laws of mechanics so far.
   [[nodiscard]] Audit audit() const { return integrator_.statistics().audit; }
 
-  /// All samples that the options ask for.
+  /// All samples that the options ask for, from the current time on.
   [[nodiscard]] Trajectory<D> run() { return Trajectory<D>(integrator_.run()); }
   /// Hands each sample to `observe(const Sample<D>&)` instead of keeping it.
   template <class Observe>

@@ -45,10 +45,9 @@ Vec<2> arms_of(const BodyState<2>& s, const std::string& name) {
 
 Vec<3> arms_of(const BodyState<3>& s, const std::string& name) {
   const Vec<3> second_moments = Vec<3>::Constant(s.inertia.sum() / 2.0) - s.inertia;
-  require(
-      s.inertia.allFinite() && second_moments.minCoeff() > 0.0, name,
-      "each principal moment of inertia must be finite and less than the sum of the other two; a lamina is "
-      "three particles held by Distances, a thin rod two");
+  require(s.inertia.allFinite() && second_moments.minCoeff() > 0.0, name,
+          "each principal moment of inertia must be finite and less than the sum of the other two; use "
+          "add_lamina or add_thin_rod for what is thin");
   const Vec<3> squares = second_moments / s.mass;
   return {std::sqrt(squares.x()), std::sqrt(squares.y()), std::sqrt(squares.z())};
 }

@@ -14,8 +14,8 @@ struct CoordinateNames {
   bool angle = false;
 };
 
-std::vector<CoordinateNames> coordinate_names(const Layout& layout, std::size_t n) {
-  std::vector<CoordinateNames> names(n);
+std::vector<CoordinateNames> coordinate_names(const Layout& layout) {
+  std::vector<CoordinateNames> names(layout.coordinates());
   for (const auto& p : layout.particles) {
     for (int k = 0; k < layout.dimension; ++k) {
       const char axis = "xyz"[k];
@@ -50,7 +50,7 @@ std::vector<ForceSlots> force_slots(const Layout& layout, const Layout::Constrai
 class RunColumns {
  public:
   explicit RunColumns(const Record& record)
-      : record_(record), layout_(*record.layout), names_(coordinate_names(layout_, record.coordinates)) {}
+      : record_(record), layout_(*record.layout), names_(coordinate_names(layout_)) {}
 
   [[nodiscard]] std::vector<Column> all() {
     all_.push_back({"t", "time", [](const FlatSample& now) { return now.time; }});

@@ -22,8 +22,9 @@ enum class Crossing { either, rising, falling };
 ///   Event<2>{"leaves the sphere", [=](const auto& now) { return now.multiplier(wall); }, Crossing::falling}
 ///
 /// The function reads time, positions, velocities, multipliers, forces of the instant; it is called at times
-/// of the run's own choice. What it gives at the start is no crossing, even if it is 0 there. Where it jumps
-/// from one side of 0 to the other, as a velocity does at an impact, it crosses 0.
+/// of the run's own choice, and must give the same number for the same state. What it gives at the start is
+/// no crossing, even if it is 0 there. Where it jumps from one side of 0 to the other, as a velocity does at
+/// an impact, it crosses 0.
 template <int D>
 struct Event {
   std::string name;                                  ///< for errors

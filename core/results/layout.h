@@ -103,6 +103,8 @@ struct Layout {
     if (!has(handle)) refuse(handle.scene);
   }
 
+  /// n, once the slots have been indexed.
+  [[nodiscard]] std::size_t coordinates() const { return touching_start.size() - 1; }
   [[nodiscard]] std::span<const int> touching_slots(int coordinate) const {
     const auto i = static_cast<std::size_t>(coordinate);
     const auto first = static_cast<std::size_t>(touching_start[i]);

@@ -92,8 +92,8 @@ class Sample {
   [[nodiscard]] double angular_velocity(Rotor rotor) const;      ///< [rad / time]
   [[nodiscard]] double angular_acceleration(Rotor rotor) const;  ///< [rad / time^2]
 
-  /// lambda, the multiplier: a force where the constraint's gradient has unit length, as in all of
-  /// the library's own; see the constraint for its direction.
+  /// lambda, the multiplier: of the library's own constraints a force or a torque, of an equation of yours a
+  /// force where its gradient has unit length; see the constraint for its direction.
   template <int Rows>
   [[nodiscard]] Multiplier<Rows> multiplier(Constraint<Rows> constraint) const {
     const Layout::Constraint& its = info(constraint);

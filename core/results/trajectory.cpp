@@ -75,13 +75,9 @@ Trajectory<D>::Trajectory(std::shared_ptr<const Record> record) : record_(std::m
 template <int D>
 Trajectory<D>::~Trajectory() = default;
 template <int D>
-Trajectory<D>::Trajectory(const Trajectory&) = default;
-template <int D>
-Trajectory<D>::Trajectory(Trajectory&&) noexcept = default;
+Trajectory<D>::Trajectory(const Trajectory&) noexcept = default;
 template <int D>
 Trajectory<D>& Trajectory<D>::operator=(const Trajectory&) = default;
-template <int D>
-Trajectory<D>& Trajectory<D>::operator=(Trajectory&&) noexcept = default;
 
 template <int D>
 void Trajectory<D>::require_event(std::size_t k) const {

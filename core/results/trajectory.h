@@ -125,10 +125,8 @@ class Trajectory : public Readings<D, Trajectory<D>, std::size_t> {
   explicit Trajectory(std::shared_ptr<const Record> record);
   // These are compiled once, in the library.
   ~Trajectory();
-  Trajectory(const Trajectory& other);                 ///< shares its numbers
-  Trajectory(Trajectory&& other) noexcept;             ///< leaves nothing to read
-  Trajectory& operator=(const Trajectory& other);      ///< shares its numbers
-  Trajectory& operator=(Trajectory&& other) noexcept;  ///< leaves nothing to read
+  Trajectory(const Trajectory& other) noexcept;    ///< shares its numbers, also of one that is moved
+  Trajectory& operator=(const Trajectory& other);  ///< shares its numbers
 
   /// Of samples.
   [[nodiscard]] std::size_t size() const { return record_->times.size(); }

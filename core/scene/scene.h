@@ -53,9 +53,9 @@ class Scene {
   // These are compiled once, in the library.
   ~Scene();
   Scene(const Scene& other);                 ///< shares nothing with it
-  Scene(Scene&& other) noexcept;             ///< leaves it without parts
+  Scene(Scene&& other) noexcept;             ///< leaves the other empty
   Scene& operator=(const Scene& other);      ///< shares nothing with it
-  Scene& operator=(Scene&& other) noexcept;  ///< leaves it without parts
+  Scene& operator=(Scene&& other) noexcept;  ///< leaves the other empty
 
   /// Throws InvalidScene unless mass, position and velocity are finite and the mass is positive.
   Particle<D> add_particle(const ParticleState<D>& state, const std::string& name = {});
@@ -84,10 +84,10 @@ class Scene {
     return add_any(BatchOf<ForceBatch, E>::table(), &force, name);
   }
 
-  /// States a constraint or force anew: one of the same type with other parameters, or points; a lambda is of
-  /// the same type if it comes from the same line of a program, so let a function make it. Name and handle
-  /// stay. Throws as when it was added, and InvalidArgument for one of another type or a handle of another
-  /// scene; then nothing has changed.
+  /// Replaces a constraint or force by one of the same type with other parameters, or points. Every lambda
+  /// expression has a type of its own: make both by one function. Name and handle stay. Throws as when it was
+  /// added, and InvalidArgument for one of another type or a handle of another scene; then nothing has
+  /// changed.
   template <detail::AnyConstraint C>
   void replace(Constraint<rows_of_constraint<C>> handle, C constraint) {
     detail::require_equations<C>();
@@ -110,9 +110,9 @@ class Scene {
   /// Another inertia and another initial state.
   void replace(Rotor rotor, const RotorState& state);
 
-  /// Takes a constraint out of force, and puts it back: while released it exerts no force, and its equation
-  /// need not be satisfied. Throws InvalidArgument for a handle of another scene, and for those that do
-  /// not always hold (`unilateral`, `coulomb`).
+  /// `release` switches a constraint off until `impose` puts it back: it exerts no force meanwhile, and its
+  /// equation need not be satisfied. Throws InvalidArgument for a handle of another scene, and for those that
+  /// do not always hold (`unilateral`, `coulomb`).
   template <int Rows>
   void release(Constraint<Rows> constraint) {
     layout_.require(constraint);
@@ -128,7 +128,7 @@ class Scene {
   /// Takes the state of a sample as the initial one. Throws as `require_state`.
   void start_from(const Sample<D>& sample);
 
-  /// Handles by name. Throws InvalidArgument if nothing of the kind has it.
+  /// The handle of the particle of this name. Throws InvalidArgument if none has it; so do the next three.
   [[nodiscard]] Particle<D> particle(std::string_view name) const;
   /// Of a rotor.
   [[nodiscard]] Rotor rotor(std::string_view name) const;
@@ -151,11 +151,11 @@ class Scene {
                   "force law also with their velocities, and for any scalar type");
   }
 
-  /// Throws InvalidScene if something has this name: what adds several elements asks for all of their names
-  /// before it adds the first. `kind` is what the error calls it, "particle".
+  /// Throws InvalidScene if something has this name. A function that adds several elements calls this for
+  /// every name before it adds the first. `kind` is what the error calls it, "particle".
   void require_free(std::string_view kind, const std::string& name) const;
 
-  /// As it was given.
+  /// The name of the scene.
   [[nodiscard]] const std::string& name() const { return layout_.scene; }
   /// Initial coordinates and velocities, of particles and rotors in the order of adding.
   [[nodiscard]] std::span<const double> initial_positions() const { return q_; }

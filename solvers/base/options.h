@@ -17,7 +17,7 @@ enum class Stepper {
 enum class Audited {
   error,   ///< the run stops, and says which law, what breaks it, when, and by how much
   report,  ///< it goes on; Trajectory::audit tells
-  off      ///< nobody looks; not with a ledger
+  off      ///< no law is looked at; not together with a ledger
 };
 
 /// Below this, round-off in the velocities of BDF's divided differences decides the step size.
@@ -28,8 +28,8 @@ struct Options {
   double t_end = 0.0;    ///< where the run ends, > t_start [time]
   double t_start = 0.0;  ///< time of the initial state [time]
 
-  /// Number of samples, equally spaced, with one at either end; 2 to 1e8. Unless one of the next two is
-  /// given.
+  /// Number of samples, equally spaced, with one at either end; 2 to 1e8. Ignored where one of the next two
+  /// is given.
   int samples = 101;
   double sample_interval =
       0.0;  ///< or the time between samples, from t_start; at most the run's length [time]
@@ -50,8 +50,8 @@ struct Options {
   /// steppers; see Law for what they are and Audit for what is found.
   Audited audit = Audited::error;
   /// Keep a Ledger: energies, work and momenta at every sample. The work is integrated over every step, and
-  /// its balance audited: of scenes with drives, friction or forces without a potential the only way to know.
-  /// A run then takes several times as long.
+  /// its balance audited: for scenes with drives, friction or forces without a potential that is the only
+  /// check of energy. A run then takes several times as long.
   bool ledger = false;
   long max_steps = 10'000'000;  ///< give up after so many steps
   /// No step is longer; 0: as long as the tolerance allows. For events, drives and forces that vary much

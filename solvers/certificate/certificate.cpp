@@ -13,11 +13,7 @@ Certificate<D>::~Certificate() = default;
 template <int D>
 Certificate<D>::Certificate(const Certificate&) = default;
 template <int D>
-Certificate<D>::Certificate(Certificate&&) noexcept = default;
-template <int D>
 Certificate<D>& Certificate<D>::operator=(const Certificate&) = default;
-template <int D>
-Certificate<D>& Certificate<D>::operator=(Certificate&&) noexcept = default;
 
 template <int D>
 std::string Certificate<D>::statement() const {

@@ -36,10 +36,8 @@ class Certificate {
   explicit Certificate(TwoRuns runs);
   // These are compiled once, in the library.
   ~Certificate();
-  Certificate(const Certificate& other);                 ///< shares the numbers of its runs
-  Certificate(Certificate&& other) noexcept;             ///< leaves nothing to read
-  Certificate& operator=(const Certificate& other);      ///< shares the numbers of its runs
-  Certificate& operator=(Certificate&& other) noexcept;  ///< leaves nothing to read
+  Certificate(const Certificate& other);  ///< shares the numbers of its runs, also of one that is moved
+  Certificate& operator=(const Certificate& other);  ///< shares the numbers of its runs
 
   /// To the last bit the run of `simulate`.
   [[nodiscard]] const Trajectory<D>& run() const& { return run_; }

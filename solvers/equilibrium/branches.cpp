@@ -167,8 +167,16 @@ class Follower {
         if (one_branch) break;  // the others are this one, carried around
       }
     }
-    for (const VectorXd& direction : directions(axes)) switch_branch(found, direction);
+    bool emanates = false;
+    for (const VectorXd& direction : directions(axes)) emanates |= switch_branch(found, direction);
+    if (!emanates) why += why_none(found);
     if (axes.size() > 2) why += why_not_all(found, places.size());
+  }
+  [[nodiscard]] std::string why_none(const Node& found) const {
+    std::ostringstream text;
+    text << "at " << corrector_.parameter(found)
+         << " no point of a branch that emanates was found: " << corrector_.why() << "; ";
+    return text.str();
   }
   [[nodiscard]] std::string why_not_all(const Node& found, std::size_t count) const {
     std::ostringstream text;
@@ -210,7 +218,8 @@ class Follower {
     return all;
   }
 
-  void switch_branch(const Node& from, const VectorXd& direction) {
+  /// Whether a point of another branch was found.
+  bool switch_branch(const Node& from, const VectorXd& direction) {
     std::optional<Node> next;
     for (double step = step_; !next && step > constants.shortest_branch_step * step_; step *= 0.5) {
       Node guess = from;
@@ -218,14 +227,15 @@ class Follower {
       next = corrector_.correct(guess, direction);
       if (next && (next->x - from.x).norm() > 3.0 * step) next.reset();
     }
-    if (!next) return;
+    if (!next) return false;
     const VectorXd along = (next->x - from.x).normalized();
     const std::size_t origin = found_.bifurcations.size() - 1;
     const bool again = std::ranges::any_of(starts_, [&](const Start& s) {
       return s.origin == origin && s.along.dot(along) > constants.same_branch;
     });
-    if (again || fraction_of(*next) < 0.0 || fraction_of(*next) > 1.0) return;
-    starts_.push_back({*next, along, origin});
+    if (!again && fraction_of(*next) >= 0.0 && fraction_of(*next) <= 1.0)
+      starts_.push_back({*next, along, origin});
+    return true;
   }
   [[nodiscard]] static double fraction_of(const Node& node) { return node.x[node.x.size() - 1]; }
 

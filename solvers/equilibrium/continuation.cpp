@@ -302,20 +302,24 @@ std::optional<Node> EquilibriumCorrector::correct(const Node& guess, const Eigen
   constexpr int most_corrections = 20;
   constexpr double rounding = epsilon;
   Node node = guess;
-  double before = std::numeric_limits<double>::infinity();
+  double before = std::numeric_limits<double>::infinity(), change_before = before;
+  // To round-off, be that of the equations themselves.
+  const auto settled = [](double size, double last) {
+    return size <= rounding || (size <= residual_tolerance && size >= 0.5 * last);
+  };
   try {
     for (int i = 0; i < most_corrections; ++i) {
       const Here here = at(parameter(node), node.x);
       const EquilibriumSolver::State s = state(here, node);
       const double off = normal.dot(node.x - guess.x), size = s.relative_residual + std::abs(off);
-      if (size <= rounding || (size <= residual_tolerance && size >= 0.5 * before)) {
+      if (settled(size, std::exchange(before, size))) {
         finish(here, s, node);
         return node;
       }
-      before = size;
       const ActiveRows rows = here.balance.rows_at(s);
       const Linear all = linear(here, s, node, rows);
-      if (std::max(unbalanced(s, rows, all), std::abs(off)) <= rounding) {
+      const double change = std::max(unbalanced(s, rows, all), std::abs(off));
+      if (settled(change, std::exchange(change_before, change))) {
         finish(here, s, node);
         return node;
       }

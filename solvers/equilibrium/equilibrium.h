@@ -38,6 +38,8 @@ class Equilibrium {
   /// One along a symmetry, see `steady`.
   Equilibrium(std::shared_ptr<const Record> state, std::shared_ptr<const UniformMotion> motion)
       : state_(std::move(state)), motion_(std::move(motion)) {}
+  Equilibrium(const Equilibrium&) = default;             ///< shares its numbers, also of one that is moved
+  Equilibrium& operator=(const Equilibrium&) = default;  ///< shares its numbers
 
   /// Positions, velocities, multipliers and forces of constraint, by handle; see Sample. A view, valid as
   /// long as a copy of the Equilibrium is.

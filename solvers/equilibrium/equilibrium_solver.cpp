@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <sstream>
@@ -32,11 +33,16 @@ RotatingFrame frame_of(double time, const UniformRotation<3>& turning, const Lay
 }
 
 void require_frictionless(const System& system) {
-  if (!system.forces().has_friction()) return;
-  throw NoEquilibrium(system.forces().owner_of_friction(0) +
-                      " reads a multiplier: at rest friction takes any value up to its limit, and equilibria "
-                      "fill a region; leave it out to find the one without friction, or let a run come to "
-                      "rest");
+  const auto refuse = [](const std::string& label, const char* why) {
+    throw NoEquilibrium(
+        label + why +
+        "at rest friction takes any value up to its limit, and equilibria fill a region; leave "
+        "it out to find the one without friction, or let a run come to rest");
+  };
+  const Layout& layout = *system.layout();
+  if (system.forces().has_friction()) refuse(system.forces().owner_of_friction(0), " reads a multiplier: ");
+  if (const auto rough = layout.frictional_constraints(); !rough.empty())
+    refuse(layout.constraints[rough.front()].label(), ": ");
 }
 
 void require_bilateral(const System& system) {
@@ -209,8 +215,21 @@ bool EquilibriumSolver::solve(State& s) const {
   bool better = here.is_equilibrium(closer, residual_tolerance);
   evaluate(closer);
   better = better || (!s.round_off && is_equilibrium(closer, residual_tolerance));
+  const bool balanced = better || s.round_off;
   if (better) s = std::move(closer);
-  return better || s.round_off;
+  return balanced && measured_at(s).stays(s);
+}
+
+/// Whether the iteration stays where the forces have become round-off beside those elsewhere: a repulsion
+/// that dies away with distance is balanced nowhere, and drives it on.
+bool EquilibriumSolver::stays(const State& s) const {
+  State on = s;
+  evaluate(on);
+  if (is_equilibrium(on, residual_tolerance)) return true;
+  newton(on, least_shift());
+  std::vector<double> x(s.q.size());
+  std::ranges::transform(on.q, s.q, x.begin(), std::minus{});
+  return lengths_of(x) <= short_step;
 }
 
 /// The largest part of Newton's correction, in units of the coordinates; infinite where it is the shift and
@@ -256,6 +275,7 @@ void EquilibriumSolver::descend(State& s) const {
   const double longest = constants.longest_descent * scales().length;
   double part = 1e6 * constants.no_stiffness;  // of the stiffest, as the shift
   std::vector<double> x, shift(s.q.size());
+  std::string fault;
   for (int i = 0; i < most_descents; ++i, part *= 4.0) {
     std::ranges::transform(stiffest(), shift.begin(), [part](double k) { return part * k; });
     if (!step(s, shift, x)) continue;
@@ -267,7 +287,8 @@ void EquilibriumSolver::descend(State& s) const {
     for (std::size_t k = 0; k < s.q.size(); ++k) next.q[k] += x[k];
     try {
       if (!project(next)) continue;
-    } catch (const EquationFault&) {
+    } catch (const EquationFault& beyond) {
+      fault = beyond.what();
       continue;
     }
     s = std::move(next);
@@ -278,7 +299,7 @@ void EquilibriumSolver::descend(State& s) const {
     }
     part = std::max(part / 32.0, constants.no_stiffness);
   }
-  refuse(s, "no equilibrium was found from this guess");
+  refuse(s, "no equilibrium was found from this guess" + (fault.empty() ? "" : ", and beyond " + fault));
 }
 
 void EquilibriumSolver::refuse(const State& s, const std::string& why) const {

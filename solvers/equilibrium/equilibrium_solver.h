@@ -46,6 +46,7 @@ class EquilibriumSolver : public BalanceEquations {
   /// The same search at another time.
   [[nodiscard]] EquilibriumSolver at_time(double t) const;
   [[nodiscard]] bool step(const State& s, std::span<const double> shift, std::vector<double>& x) const;
+  [[nodiscard]] bool stays(const State& s) const;
   [[nodiscard]] double lengths_of(const std::vector<double>& x) const;
   [[nodiscard]] static double power(const State& s, const std::vector<double>& x);
   [[nodiscard]] State moved(const State& s, const std::vector<double>& x, double part) const;

@@ -135,7 +135,10 @@ void ErkStepper::step(double wanted) {
   }
   // Round-off in the sum must not leave the last part of the way short of its goal.
   const double goal = std::min(wanted, s.t_end);
-  if (std::abs(s.next.t - goal) <= converged_to * std::max(std::abs(goal), s.scales.time)) s.next.t = goal;
+  if (std::abs(s.next.t - goal) <= converged_to * std::max(std::abs(goal), s.scales.time)) {
+    s.estimated.late += goal - s.next.t;
+    s.next.t = goal;
+  }
   s.accept(false);
 
   s.switching.go_on_behind_switch();

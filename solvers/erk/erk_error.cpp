@@ -149,7 +149,9 @@ double ErkStepper::RungeKutta::error(double step, double doubt) {
 /// velocities are rounded, their accelerations at least so. The step, of order 8, errs by less, by its eighth
 /// root if the error constants are 1 in the scene's units, but by no less than `of_order_8` times that.
 void ErkStepper::RungeKutta::estimate(double step, double of_order_8) {
-  estimated = {.position_noise = noise_of_positions, .velocity_noise = noise_of_velocities};
+  estimated = {.position_noise = noise_of_positions,
+               .velocity_noise = noise_of_velocities,
+               .late = (next.t - to.t) - step};
   for (std::size_t i = 0; i < n; ++i) {
     const double length = lengths[i];
     estimated.position = std::max(estimated.position, std::abs(difference[i]) * length);

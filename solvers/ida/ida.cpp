@@ -121,11 +121,14 @@ bool IdaStepper::Solver::asks_for_too_much() const {
          scales.rounding(instant(t, y.get()).q);
 }
 
-/// Of the last step: in IDA's notation the local error of BDF is c E with c = 1/(k + 1) in equal steps, where
-/// E is the sum of Newton's corrections to the predictor. What the iteration left has no sign, as round-off,
-/// nor has what the gradients of constraints, known to the rounding of positions, do to velocities.
-void IdaStepper::Solver::find_error() {
+/// Of the last step, by which the time advanced so much: in IDA's notation the local error of BDF is c E with
+/// c = 1/(k + 1) in equal steps, where E is the sum of Newton's corrections to the predictor. What the
+/// iteration left has no sign, as round-off, nor has what the gradients of constraints, known to the rounding
+/// of positions, do to velocities.
+void IdaStepper::Solver::find_error(double advanced) {
   int order = 1;
+  double h = 0.0;
+  check(IDAGetLastStep(ida.get(), &h), "IDAGetLastStep");
   check(IDAGetLastOrder(ida.get(), &order), "IDAGetLastOrder");
   check(IDAGetEstLocalErrors(ida.get(), dense.get()), "IDAGetEstLocalErrors");
   const auto correction = entries(dense.get()), state = entries(y.get());
@@ -142,7 +145,8 @@ void IdaStepper::Solver::find_error() {
   reached = {.position = c * of_q,
              .velocity = c * of_v,
              .position_noise = rounding + left * scales.length,
-             .velocity_noise = left * (scales.speed() + fastest) + turned * fastest};
+             .velocity_noise = left * (scales.speed() + fastest) + turned * fastest,
+             .late = advanced - h};
 }
 
 /// Whether a step advances the time by hardly more than its rounding, or the scene by less than a rounding of
@@ -206,7 +210,7 @@ void IdaStepper::step(double /*wanted*/) {
   if (code < 0) throw StepFailure{s.explain(code), s.t};
   ++s.steps;
   s.watch_convergence();
-  s.find_error();
+  s.find_error(s.t - before);
   // In front of a fault IDA would halve and double such steps for ever.
   if (code == IDA_SUCCESS && s.too_short(s.t - before)) {
     throw StepFailure{s.fault_or("the step has become too short to advance time: " + s.cause()), s.t};

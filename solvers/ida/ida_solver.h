@@ -84,7 +84,7 @@ struct IdaStepper::Solver {
   void make_newton();
   [[nodiscard]] int test_convergence(int iteration, N_Vector correction, N_Vector weight,
                                      double newton_tolerance);
-  void find_error();
+  void find_error(double advanced);
   [[nodiscard]] bool too_short(double step) const;
   void watch_order();
   void change_order();

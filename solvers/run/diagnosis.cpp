@@ -20,6 +20,8 @@ namespace {
 constexpr double unexplained = 1e4;
 /// Times known only to this fraction of the scene's own are worth a warning.
 constexpr double too_coarse = 1e-10;
+/// Roundings of time in a step, at the least, of which the scene's own time is one.
+constexpr double least_resolved = 16.0;
 
 }  // namespace
 
@@ -157,6 +159,10 @@ std::string singular_here(const System& system, const Scales& scales, const Inst
   return force.empty() ? turning_gradient(system, scales, at) : force;
 } catch (...) {
   return {};  // the run is stopping: what stops it is known already
+}
+
+bool resolves_motion(const Scales& scales, double time) {
+  return least_resolved * epsilon * std::abs(time) <= scales.time;
 }
 
 std::string coarse_time(const Scales& scales, double time) {

@@ -23,5 +23,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 
 /// That times so far from 0 are too coarse for the scene.
 [[nodiscard]] std::string coarse_time(const Scales& scales, double time);
+/// Whether times there tell the scene's own time from 0.
+[[nodiscard]] bool resolves_motion(const Scales& scales, double time);
 
 }  // namespace dalembert

@@ -156,7 +156,9 @@ int EventWatch::first_side(std::size_t event, double value) const {
 
 double EventWatch::value(std::size_t event, const FlatSample& at) {
   const auto fail = [&](const std::string& what) {
-    throw StepFailure{"Event \"" + events_[event].name + "\" " + what, at.time};
+    const std::string& name = events_[event].name;
+    throw StepFailure{"Event " + (name.empty() ? std::to_string(event) : '"' + name + '"') + ' ' + what,
+                      at.time};
   };
   double value = 0.0;
   try {
@@ -166,7 +168,7 @@ double EventWatch::value(std::size_t event, const FlatSample& at) {
   } catch (...) {
     fail("threw something that is no std::exception");
   }
-  if (!std::isfinite(value)) fail("gives no finite number");
+  if (!std::isfinite(value)) fail("gives no finite number; it must be one in all states of the run");
   largest_[event] = std::max(largest_[event], std::abs(value));
   seen_[event].push_back({at.time, std::abs(value)});
   return value;

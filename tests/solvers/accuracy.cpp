@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -135,6 +136,48 @@ TEST_P(Accuracy, IsThatOfRoundingFarFromTheOrigin) {
       EXPECT_EQ(GetParam(), Stepper::ida);
       EXPECT_LT(tolerance, 1e-7);
       EXPECT_NE(std::string(failure.what()).find("more than double precision"), std::string::npos)
+          << failure.what();
+    }
+  }
+}
+
+/// Times near 1e8 s are known to 1e-8 s: equal steps are all rounded to the same side, and the motion is
+/// shifted in time. The speed is at most sqrt(2 g (1 - cos 1.5)) = 4.3, 1.5 times the scene's length over its
+/// time, and a run from t = 0 is exact beside that.
+TEST_P(Accuracy, CountsTheRoundingOfLateTimes) {
+  const Watched pendulum = rods({1.0}, 1.5, 5.0);
+  const std::vector<Vec<2>> exact = pendulum.positions(pendulum.run(1e-13, Stepper::erk));
+  for (const double start : {1e5, 1e6, 1e7, 1e8}) {
+    for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
+      try {
+        const auto run = simulate(pendulum.scene, {.t_end = start + pendulum.t_end,
+                                                   .t_start = start,
+                                                   .samples = 21,
+                                                   .tolerance = tolerance,
+                                                   .stepper = GetParam()});
+        const auto positions = pendulum.positions(run);
+        double error = 0.0;
+        for (std::size_t i = 0; i < exact.size(); ++i)
+          error = std::max(error, (positions[i] - exact[i]).norm());
+        EXPECT_LE(error / run.statistics().length, 10.0 * run.statistics().accuracy)
+            << start << ' ' << tolerance;
+      } catch (const IntegrationFailure& failure) {
+        EXPECT_NE(std::string(failure.what()).find("resolves times here only to"), std::string::npos)
+            << failure.what();
+      }
+    }
+  }
+}
+
+/// Beside 1e16 s no step of a pendulum is resolved.
+TEST_P(Accuracy, IsRefusedWhereNoStepIsResolved) {
+  for (const double start : {1e14, 5e15, 1e16, 1e18}) {
+    try {
+      (void)simulate(rods({1.0}, 1.5, 5.0).scene,
+                     {.t_end = start * (1.0 + 1e-14), .t_start = start, .stepper = GetParam()});
+      ADD_FAILURE() << start;
+    } catch (const Error& failure) {
+      EXPECT_NE(std::string(failure.what()).find("resolves times here only to"), std::string::npos)
           << failure.what();
     }
   }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace dalembert::branches_test {
 namespace {
@@ -198,6 +199,35 @@ TEST(Branches, AskForNoSceneOutsideOfTheirRange) {
   EXPECT_NEAR(diagram.branches[0].points.back().parameter, 2.0, located);
   EXPECT_EQ(least, 1.0);
   EXPECT_EQ(most, 2.0);
+}
+
+/// V = (P0 + 1/2 - P) x^2/2 + x^4/4 forks at P0 + 1/2 into x = 0 and x^2 = P - P0 - 1/2. In its stiffness
+/// P0 cancels: what is left of it has the roundings of P0.
+TEST(Branches, ForkWhereverTheRangeOfTheParameterLies) {
+  for (const double first : {0.0, 3.0, 30.0, -100.0, 1e4}) {
+    Rotor rotor;
+    const auto diagram = follow_branches<2>(
+        [&](double P) {
+          Scene<2> scene("quartic");
+          rotor = scene.add_rotor({.inertia = 1.0});
+          const double k = first + 0.5 - P;
+          scene.add(potential(points(rotor), [k](auto x) {
+            const auto square = x[0] * x[0];
+            return 0.5 * k * square + 0.25 * square * square;
+          }));
+          return Posed<2>{std::move(scene)};
+        },
+        {.from = first, .to = first + 1.0});
+    ASSERT_EQ(diagram.branches.size(), 3U) << first;
+    const double known = 1e-10 + 10.0 * std::abs(first) * std::numeric_limits<double>::epsilon();
+    for (std::size_t b = 1; b < 3; ++b) {
+      for (const auto& point : diagram.branches[b].points) {
+        const double x = point.state.sample().angle(rotor);
+        EXPECT_NEAR(x * x, point.parameter - first - 0.5, known) << first;
+      }
+      EXPECT_EQ(diagram.branches[b].end, BranchEnd::range);
+    }
+  }
 }
 
 TEST(Branches, RefuseOptionsAndScenesThatMakeNoSense) {

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace dalembert::equilibrium_test {
 namespace {
@@ -193,6 +194,49 @@ TEST(Equilibrium, FallingBodyHasNone) {
   scene.add_particle({.mass = 2.0, .position = {0.0, 1.0}}, "stone");
   EXPECT_THAT(refusal(scene), ThrowsMessage<NoEquilibrium>(
                                   AllOf(HasSubstr("\"drop\""), HasSubstr("\"stone\""), HasSubstr("9.81"))));
+}
+
+/// A repulsion that dies away is balanced nowhere, however small it has become.
+TEST(Equilibrium, RepulsionThatDiesAwayHasNone) {
+  const auto repelled = [](auto V) {
+    Scene<2> scene("repelled");
+    const auto rotor = scene.add_rotor({.inertia = 1.0, .angle = 1.0}, "charge");
+    scene.add(potential(points(rotor), [V](auto x) { return V(x[0]); }));
+    return scene;
+  };
+  const auto none = ThrowsMessage<NoEquilibrium>(HasSubstr("\"charge\""));
+  EXPECT_THAT(refusal(repelled([](auto x) { return 1.0 / x; })), none);
+  EXPECT_THAT(refusal(repelled([](auto x) { return 1.0 / (1.0 + x * x); })), none);
+  EXPECT_THAT(refusal(repelled([](auto x) { return exp(-x); })), none);
+  Scene<3> pair("pair");
+  const auto a = pair.add_particle({.mass = 1.0}, "a"),
+             b = pair.add_particle({.mass = 1e-3, .position = {1.0, 0.5, 0.0}}, "b");
+  pair.add(potential(points(a, b), [](auto p, auto q) { return 1.0 / (p - q).norm(); }));
+  EXPECT_THAT(refusal(pair), ThrowsMessage<NoEquilibrium>(HasSubstr("\"b\"")));
+}
+
+TEST(Equilibrium, NamesTheForceBeyondWhoseRangeItLies) {
+  Scene<2> scene("range");
+  scene.add(UniformGravity<2>{{0.0, -9.81}});
+  const auto bob = scene.add_particle({.mass = 1.0}, "bob");
+  scene.add(force_law(points(bob),
+                      [](auto r, auto) {
+                        if (r.y() < -0.2) throw std::runtime_error("beyond the table");
+                        return (-1.0 * r).eval();
+                      }),
+            "table");
+  EXPECT_THAT(refusal(scene),
+              ThrowsMessage<NoEquilibrium>(AllOf(HasSubstr("\"table\""), HasSubstr("beyond the table"))));
+}
+
+TEST(Equilibrium, IsNotThatOfFriction) {
+  Scene<2> scene("rough");
+  scene.add(UniformGravity<2>{{0.0, -9.81}});
+  const auto block = scene.add_particle({.mass = 1.0}, "block");
+  const auto floor = scene.add(OnCurve{block, Plane<2>{}}, "floor");
+  scene.add(coulomb(floor, Slip{block, Plane<2>{}, {0.0, 0.0}}, 0.3), "rough floor");
+  EXPECT_THAT(refusal(scene), ThrowsMessage<NoEquilibrium>(
+                                  AllOf(HasSubstr("\"rough floor\""), HasSubstr("up to its limit"))));
 }
 
 TEST(Equilibrium, EndlessSlopeHasNone) {

@@ -285,5 +285,42 @@ TEST(Simulation, WhatAnObserverThrowsIsItsOwn) {
                EquationFault);
 }
 
+TEST(Simulation, ThatWasMovedSaysSo) {
+  const Pendulum pendulum;
+  Simulation<2> first(pendulum.scene, {.t_end = 1.0});
+  first.step();
+  const double time = first.time();
+  Simulation<2> second(std::move(first));
+  EXPECT_EQ(second.time(), time);
+  const auto moved = ThrowsMessage<InvalidArgument>(HasSubstr("moved"));
+  EXPECT_THAT([&] { (void)first.time(); }, moved);  // NOLINT(bugprone-use-after-move)
+  EXPECT_THAT([&] { first.step(); }, moved);
+  EXPECT_THAT([&] { first.advance_to(1.0); }, moved);
+  EXPECT_THAT([&] { (void)first.run(); }, moved);
+  EXPECT_THAT([&] { (void)first.events(); }, moved);
+  EXPECT_THAT([&] { (void)first.statistics(); }, moved);
+}
+
+/// Results share their numbers: what was moved can be read as before.
+TEST(Simulation, ResultsThatWereMovedCanBeRead) {
+  const Pendulum pendulum;
+  auto run = simulate(pendulum.scene, {.t_end = 1.0, .samples = 11});
+  const auto taken = std::move(run);
+  EXPECT_EQ(run.size(), 11U);  // NOLINT(bugprone-use-after-move)
+  EXPECT_EQ(run.position(pendulum.bob, 10), taken.position(pendulum.bob, 10));
+}
+
+TEST(Simulation, NamesTheOptionThatKeepsStepsShort) {
+  const Pendulum pendulum;
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    EXPECT_THAT(
+        [&] {
+          (void)simulate(pendulum.scene,
+                         {.t_end = 1.0, .stepper = stepper, .max_steps = 50, .max_step = 1e-3});
+        },
+        ThrowsMessage<IntegrationFailure>(HasSubstr("raise it, or max_step")));
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::simulation_test

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 
 namespace dalembert::stopped_test {
@@ -140,6 +141,47 @@ TEST(StoppedRun, IsNotGoneOnWithAfterALackOfMemory) {
       if (!lack.came()) break;
       EXPECT_EQ(failure_of([&] { (void)run.run(); }).has_value(), failed) << allowed;
     }
+  }
+}
+
+/// Where the first sample lies behind the failure, the run so far has none: its table has a head only.
+TEST(StoppedRun, WithoutASampleIsATableWithoutRows) {
+  Pendulum pendulum;
+  pendulum.scene.add(force_law(points(pendulum.bob), [](auto t, auto /*r*/, auto v) {
+    if (t > 0.3) throw std::runtime_error("no more");
+    return (-0.1 * v).eval();
+  }));
+  for (const Stepper stepper : both) {
+    const auto failure = failure_of([&] {
+      (void)simulate(pendulum.scene, {.t_end = 1.0, .times = {0.5, 1.0}, .stepper = stepper});
+    });
+    ASSERT_TRUE(failure);
+    const auto kept = failure->trajectory<2>();
+    EXPECT_EQ(kept.size(), 0U);
+    std::ostringstream table;
+    kept.write_csv(table);
+    std::istringstream lines(table.str());
+    std::string last;
+    for (std::string line; std::getline(lines, line);) last = line;
+    EXPECT_EQ(last.substr(0, 2), "t,");
+  }
+}
+
+/// What steps reached before the fault at t = 0.3 can be read: its energy is that of the start but for the
+/// tolerance.
+TEST(StoppedRun, StandsWhereItsStepsCameTo) {
+  Pendulum pendulum;
+  pendulum.scene.add(force_law(points(pendulum.bob), [](auto t, auto /*r*/, auto v) {
+    if (t > 0.3) throw std::runtime_error("no more");
+    return (0.0 * v).eval();
+  }));
+  for (const Stepper stepper : both) {
+    Simulation<2> run(pendulum.scene, {.t_end = 1.0, .tolerance = 1e-8, .stepper = stepper});
+    const double energy = run.energy();
+    ASSERT_TRUE(failure_of([&] { run.advance_to(1.0); }));
+    EXPECT_GT(run.time(), 0.2);
+    EXPECT_LE(run.time(), 0.3);
+    EXPECT_NEAR(run.energy(), energy, 1e-4);
   }
 }
 
