@@ -88,7 +88,33 @@ std::vector<std::size_t> Contacts::touching(const Instant& at,
     const ContactState& c = contacts_[i];
     if (touches[i] || (c.closed && islands.contains(c.island))) touching.push_back(i);
   }
+  join_within_error(at, touching);
   return touching;
+}
+
+/// Beside an impact adds what closes from within the error e of its gap, where that impact acts on it: when
+/// it closes is known to e/|rate| only, however slow it is, and so is which of those that meet a surface
+/// together is the first. One by one the feet of what falls flat would turn it: gaps that differ by round-off
+/// do so on all hops, and the times at which they close move apart as hops become lower. What is struck so is
+/// above its surface by no more than a step errs; what counts as still there would rest above it, and does
+/// not join.
+void Contacts::join_within_error(const Instant& at, std::vector<std::size_t>& touching) const {
+  const std::size_t own = touching.size();
+  const auto touches = marks(touching, contacts_.size());
+  std::set<std::size_t> islands;
+  for (const std::size_t i : touching) {
+    const ContactState& c = contacts_[i];
+    if (!c.closed && gaps_.rate(c) < -known_.no_rate(c)) islands.insert(c.island);
+  }
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const ContactState& c = contacts_[i];
+    const bool closes = gaps_.rate(c) < -known_.still(c) && gaps_.gap(c) <= known_.error_of_gap(c);
+    if (!touches[i] && !c.closed && closes && islands.contains(c.island)) touching.push_back(i);
+  }
+  if (touching.size() == own) return;
+  keep_reached(*coupling_of(*stated_, contacts_, touching, at), own, known_.scales, gaps_.rounding(),
+               touching);
+  std::ranges::sort(touching);
 }
 
 std::optional<std::size_t> Contacts::approaching() const {

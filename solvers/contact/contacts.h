@@ -97,6 +97,7 @@ class Contacts {
   [[nodiscard]] double no_pull(const ContactState& contact, const FlatSample& now) const;
   [[nodiscard]] std::vector<std::size_t> touching(const Instant& at,
                                                   const std::vector<std::size_t>& triggered) const;
+  void join_within_error(const Instant& at, std::vector<std::size_t>& touching) const;
   void rebuild_system();
 
   std::shared_ptr<const System> stated_, system_;
