@@ -83,5 +83,29 @@ TEST_P(FlatDrops, FeetOfDifferentHeightHitOneByOne) {
   EXPECT_NEAR(angular_velocity(run.sample_after(0), body), a * P / I, bound * u);
 }
 
+/// A ball is thrown up from a table that goes up and down, A sin(w t), bounces down to rest on it, and leaves
+/// again where the table's acceleration is -a: sin(w t) = a/(A w^2). Its last hops are so short that its gap
+/// is hardly above round-off.
+TEST(HopsOnATable, EndInRestUntilTheTableFallsAway) {
+  constexpr double A = 0.1, w = 12.0, a = 10.0, t_end = 0.6;
+  const double leaves = (2.0 * std::numbers::pi + std::asin(a / (A * w * w))) / w, flies = t_end - leaves;
+  const double y = A * std::sin(w * leaves) + (A * w * std::cos(w * leaves) - 0.5 * a * flies) * flies;
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk})
+    for (const double tolerance : {1e-10, 3e-12, 1e-12, 3e-13, 1e-13})
+      for (const double e : {0.5, 0.55, 0.6}) {
+        Scene<2> scene;
+        scene.add(UniformGravity<2>{{0.0, -a}});
+        const auto ball = scene.add_particle({.mass = 2.0, .velocity = {0.0, A * w}});
+        const Translating table{Plane<2>{}, [](auto t) { return vec(0.0 * t, A * sin(w * t)); }};
+        scene.add(unilateral(OnCurve{ball, table}, {.restitution = e}));
+        const auto run =
+            simulate(scene, {.t_end = t_end, .samples = 3, .tolerance = tolerance, .stepper = stepper});
+        const EventRecord& last = run.events().back();
+        EXPECT_EQ(last.kind, EventKind::opened) << tolerance << ' ' << e;
+        EXPECT_NEAR(last.time, leaves, 100.0 * tolerance) << tolerance << ' ' << e;
+        EXPECT_NEAR(run.position(ball, 2).y(), y, 100.0 * tolerance) << tolerance << ' ' << e;
+      }
+}
+
 }  // namespace
 }  // namespace dalembert::flat_drops_test
