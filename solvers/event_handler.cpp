@@ -33,7 +33,7 @@ std::vector<FlatEvent> with_switching(std::vector<FlatEvent> events,
 EventWatch::OfContacts of_contacts(std::size_t asked_for, const ConditionalConstraints* conditional) {
   if (conditional == nullptr) return {};
   return {[=](std::size_t event, const FlatSample& at) { return conditional->rate(event - asked_for, at); },
-          [=](std::size_t event) { return conditional->unit(event - asked_for); },
+          [=](std::size_t event, double from) { return conditional->unit(event - asked_for, from); },
           [=](std::size_t event) { return conditional->margin(event - asked_for); }};
 }
 

@@ -27,8 +27,9 @@ double ConditionalConstraints::rate(std::size_t function, const FlatSample& now)
                                      : std::numeric_limits<double>::quiet_NaN();
 }
 
-double ConditionalConstraints::unit(std::size_t function) const {
-  return function < contacts_.size() ? contacts_.unit(function) : friction_.unit(function - contacts_.size());
+double ConditionalConstraints::unit(std::size_t function, double from) const {
+  return function < contacts_.size() ? contacts_.unit(function, from)
+                                     : friction_.unit(function - contacts_.size());
 }
 
 double ConditionalConstraints::margin(std::size_t function) const {

@@ -31,8 +31,9 @@ class ConditionalConstraints {
   [[nodiscard]] double switching(std::size_t function, const FlatSample& now) const;
   /// Its derivative by time; NaN where it is not known.
   [[nodiscard]] double rate(std::size_t function, const FlatSample& now) const;
-  /// The unit of its values as things are now; 0 if that is the size of the values themselves.
-  [[nodiscard]] double unit(std::size_t function) const;
+  /// The unit of its values from a time on, as things are now; 0 if that is the size of the values
+  /// themselves.
+  [[nodiscard]] double unit(std::size_t function, double from) const;
   /// What its values are larger by than what is 0 where it changes, so that round-off changes nothing.
   [[nodiscard]] double margin(std::size_t function) const;
   /// See Contacts.

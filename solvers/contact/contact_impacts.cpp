@@ -8,12 +8,27 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <utility>
 
 namespace dalembert {
 
 using Eigen::Index;
 using Eigen::VectorXd;
+
+namespace {
+
+/// Where contacts share an impact of which some have no part, adds to the impulses what the rates of all of
+/// them still miss, in units of S, if that is round-off. The rates of those without a part are right to the
+/// rounding of pivots only: a turn that is left of what falls flat adds up over its hops.
+void refine(const Eigen::MatrixXd& S, const Coupling::Places& struck, const VectorXd& missed, double largest,
+            VectorXd& P) {
+  if (struck.empty() || P(struck).minCoeff() > 0.0) return;
+  const VectorXd unit = units(S)(struck);
+  const Eigen::MatrixXd scaled = unit.asDiagonal() * S(struck, struck) * unit.asDiagonal();
+  const VectorXd more = dense::least_squares(scaled, -unit.cwiseProduct(missed(struck)), rank_threshold);
+  if (more.cwiseAbs().maxCoeff() <= round_off() * largest) P(struck) += unit.cwiseProduct(more);
+}
+
+}  // namespace
 
 void ContactImpacts::solve(const Coupling& coupling, const std::vector<std::size_t>& touching, VectorXd& U,
                            Change& change) const {
@@ -28,22 +43,25 @@ void ContactImpacts::solve(const Coupling& coupling, const std::vector<std::size
     VectorXd q = before;
     for (Index i = 0; i < q.size(); ++i) q[i] *= 1.0 + contact(i).restitution;
     const Eigen::MatrixXd S = coupled(coupling, island, known_->scales, rounding_);
-    const auto p = complementary_solution(S, q);
+    auto p = complementary_solution(S, q);
     if (!p)
       refuse(*stated_, *contacts_, its, at_.t,
              "no impulses end their approach; the constraints drive them against each other");
     VectorXd after = before + S * *p;
-    const VectorXd unit = units(S);
+    const VectorXd unit = units(S), missed = q + S * *p;
     const double largest = before.cwiseProduct(unit).cwiseAbs().maxCoeff();
     clear_round_off(after, unit, largest);
+    Coupling::Places struck;
     for (Index i = 0; i < after.size(); ++i) {
       // Of contacts that share an impact each is struck that leaves with -e U-, whatever its share is.
       const double rebound = before[i] - q[i];
       const bool shares = before[i] < 0.0 && std::abs(after[i] - rebound) * unit[i] <= round_off() * largest;
       if (!((*p)[i] > 0.0) && !shares) continue;
       after[i] = rebound;
+      struck.push_back(i);
       change.events.push_back({contact(i).number, at_.t, EventKind::struck});
     }
+    refine(S, struck, missed, largest, *p);
     U(island) = after;
     P(island) = *p;
   }
@@ -90,24 +108,6 @@ std::vector<std::size_t> ContactImpacts::struck(const std::vector<Limit>& limits
     if (limit != limits.end() && c.impacts.last() >= limit->since) all.push_back(i);
   }
   return all;
-}
-
-void ContactImpacts::keep_reached(const Coupling& coupling, std::size_t own,
-                                  std::vector<std::size_t>& contacts) const {
-  Coupling::Places all;
-  for (std::size_t k = 0; k < contacts.size(); ++k) all.push_back(static_cast<Index>(k));
-  const Eigen::MatrixXd S = coupled(coupling, all, known_->scales, rounding_);
-  std::vector<char> reached(contacts.size(), 0);
-  std::fill_n(reached.begin(), own, char{1});
-  for (bool more = true; std::exchange(more, false);)
-    for (const Index k : all)
-      for (const Index j : all)
-        if (reached[static_cast<std::size_t>(j)] && !reached[static_cast<std::size_t>(k)] && S(k, j) != 0.0)
-          reached[static_cast<std::size_t>(k)] = more = true;
-  std::vector<std::size_t> kept;
-  for (std::size_t k = 0; k < contacts.size(); ++k)
-    if (reached[k]) kept.push_back(contacts[k]);
-  contacts = std::move(kept);
 }
 
 void ContactImpacts::rest(const Coupling& coupling, const std::vector<std::size_t>& touching,

@@ -40,9 +40,6 @@ class ContactImpacts {
   [[nodiscard]] std::vector<Limit> note(const Change& change, const Gaps& gaps);
   /// All that was struck in the impacts of these limits.
   [[nodiscard]] std::vector<std::size_t> struck(const std::vector<Limit>& limits) const;
-  /// Of contacts keeps the first `own` ones and those that an impulse at these reaches, through others or
-  /// not: beside a floor on which hops end, a wall across it goes on being struck.
-  void keep_reached(const Coupling& coupling, std::size_t own, std::vector<std::size_t>& contacts) const;
   /// Brings all rates in these islands to 0, after the impacts there.
   void rest(const Coupling& coupling, const std::vector<std::size_t>& touching,
             const std::vector<Limit>& limits, Eigen::VectorXd& U, Change& change) const;

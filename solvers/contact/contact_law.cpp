@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dalembert {
 
@@ -51,6 +52,26 @@ std::unique_ptr<Coupling> coupling_of(const System& stated, std::span<const Cont
   for (std::size_t i = 0; i < contacts.size(); ++i)
     if (!among_them[i]) others.push_back(contacts[i].number);
   return std::make_unique<Coupling>(std::make_shared<const System>(stated.without(others)), numbers, at);
+}
+
+void keep_reached(const Coupling& coupling, std::size_t own, const Scales& scales, double rounding,
+                  std::vector<std::size_t>& contacts) {
+  std::vector<char> reached(contacts.size(), 0);
+  std::fill_n(reached.begin(), own, char{1});
+  for (const Coupling::Places& island : coupling.islands()) {
+    const Eigen::MatrixXd S = coupled(coupling, island, scales, rounding);
+    const auto is_reached = [&](Index k) -> char& {
+      return reached[static_cast<std::size_t>(island[static_cast<std::size_t>(k)])];
+    };
+    for (bool more = true; std::exchange(more, false);)
+      for (Index k = 0; k < S.rows(); ++k)
+        for (Index j = 0; j < S.cols(); ++j)
+          if (is_reached(j) && !is_reached(k) && S(k, j) != 0.0) is_reached(k) = more = true;
+  }
+  std::vector<std::size_t> kept;
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    if (reached[k]) kept.push_back(contacts[k]);
+  contacts = std::move(kept);
 }
 
 void refuse(const System& stated, std::span<const ContactState> contacts,

@@ -38,6 +38,11 @@ void clear_round_off(Eigen::VectorXd& x, const Eigen::VectorXd& unit, double lar
                                                     std::span<const ContactState> contacts,
                                                     const std::vector<std::size_t>& which, const Instant& at);
 
+/// Of these contacts, coupled so, keeps the first `own` ones and those that an impulse at these reaches,
+/// through others or not: beside a floor on which hops end, a wall across it goes on being struck.
+void keep_reached(const Coupling& coupling, std::size_t own, const Scales& scales, double rounding,
+                  std::vector<std::size_t>& contacts);
+
 /// Throws StepFailure, naming these contacts.
 [[noreturn]] void refuse(const System& stated, std::span<const ContactState> contacts,
                          const std::vector<std::size_t>& which, double t, const std::string& what);

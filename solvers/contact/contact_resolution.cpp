@@ -93,7 +93,7 @@ void ContactResolution::strike() {
     if (!touches[i]) touching_.push_back(i);
   couple(after());
   if (touching_.size() > own) {
-    impacts.keep_reached(*coupling_, own, touching_);
+    keep_reached(*coupling_, own, known_->scales, known_->scales.rounding(at_.q), touching_);
     couple(after());
   }
   U_.conservativeResize(static_cast<Index>(touching_.size()));

@@ -37,18 +37,21 @@ double Contacts::no_pull(const ContactState& contact, const FlatSample& now) con
   return forces_.no_pull(*system_, contact, now, known_, 2.0 * contact.accepted + round_off_of_scene);
 }
 
+/// See `switching`. What has parted since is below its surface by round-off at most.
+bool Contacts::counts_by_rate(const ContactState& c) const {
+  const double gap = gaps_.gap(c), none = known_.no_gap(c, gaps_.rounding()),
+               error = c.parted ? none : std::max(none, known_.error_of_gap(c));
+  return gaps_.rate(c) > known_.no_rate(c) && gap <= error && gap >= c.gap_at_opening - error;
+}
+
 double Contacts::switching(std::size_t contact, const FlatSample& now) const {
   const ContactState& c = contacts_[contact];
   if (c.closed) return c.sign * now.lambda[c.row] + no_pull(c, now);
   if (now.time == c.opened_at) return c.rate_at_opening;
   if (!gaps_.found_at(now.time)) find_gaps({now.time, now.q, now.v});
-  const double gap = gaps_.gap(c), rate = gaps_.rate(c);
-  const double none = known_.no_gap(c, gaps_.rounding()),
-               below = c.parted ? none : std::max(none, known_.error_of_gap(c));
-  const bool leaves = rate > known_.no_rate(c);
-  if (leaves && gap <= none && gap >= c.gap_at_opening - below) return rate;
-  const double since = c.opened_at ? now.time - *c.opened_at : 1.0;
-  return std::abs(gap) <= none ? 0.0 : gap / since;
+  if (counts_by_rate(c)) return gaps_.rate(c);
+  const double gap = gaps_.gap(c), since = c.opened_at ? now.time - *c.opened_at : 1.0;
+  return std::abs(gap) <= known_.no_gap(c, gaps_.rounding()) ? 0.0 : gap / since;
 }
 
 double Contacts::rate(std::size_t contact, const FlatSample& now) const {
@@ -56,15 +59,19 @@ double Contacts::rate(std::size_t contact, const FlatSample& now) const {
   if (c.closed || now.time == c.opened_at) return std::numeric_limits<double>::quiet_NaN();
   if (!gaps_.found_at(now.time)) find_gaps({now.time, now.q, now.v});
   const double gap = gaps_.gap(c), rate = gaps_.rate(c);
-  if (gap <= known_.no_gap(c, gaps_.rounding())) return std::numeric_limits<double>::quiet_NaN();
+  if (gap <= known_.no_gap(c, gaps_.rounding()) || counts_by_rate(c))
+    return std::numeric_limits<double>::quiet_NaN();
   if (!c.opened_at) return rate;
   const double since = now.time - *c.opened_at;
   return (rate - gap / since) / since;
 }
 
-double Contacts::unit(std::size_t contact) const {
+double Contacts::unit(std::size_t contact, double from) const {
   const ContactState& c = contacts_[contact];
-  return c.closed || c.parted ? 0.0 : known_.scales.speed() * c.gradient;
+  if (c.closed) return 0.0;
+  if (!c.parted) return known_.scales.speed() * c.gradient;
+  if (!c.opened_at || *c.opened_at >= from) return 0.0;
+  return known_.no_gap(c, gaps_.rounding()) / (from - *c.opened_at) / known_.accuracy.of_forces();
 }
 
 /// Contacts that have fallen, that have no gap, that have just reached 0, and those that will within the
@@ -88,7 +95,33 @@ std::vector<std::size_t> Contacts::touching(const Instant& at,
     const ContactState& c = contacts_[i];
     if (touches[i] || (c.closed && islands.contains(c.island))) touching.push_back(i);
   }
+  join_within_error(at, touching);
   return touching;
+}
+
+/// Beside an impact adds what closes from within the error e of its gap, where that impact acts on it: when
+/// it closes is known to e/|rate| only, however slow it is, and so is which of those that meet a surface
+/// together is the first. One by one the feet of what falls flat would turn it: gaps that differ by round-off
+/// do so on all hops, and the times at which they close move apart as hops become lower. What is struck so is
+/// above its surface by no more than a step errs; what counts as still there would rest above it, and does
+/// not join.
+void Contacts::join_within_error(const Instant& at, std::vector<std::size_t>& touching) const {
+  const std::size_t own = touching.size();
+  const auto touches = marks(touching, contacts_.size());
+  std::set<std::size_t> islands;
+  for (const std::size_t i : touching) {
+    const ContactState& c = contacts_[i];
+    if (!c.closed && gaps_.rate(c) < -known_.no_rate(c)) islands.insert(c.island);
+  }
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const ContactState& c = contacts_[i];
+    const bool closes = gaps_.rate(c) < -known_.still(c) && gaps_.gap(c) <= known_.error_of_gap(c);
+    if (!touches[i] && !c.closed && closes && islands.contains(c.island)) touching.push_back(i);
+  }
+  if (touching.size() == own) return;
+  keep_reached(*coupling_of(*stated_, contacts_, touching, at), own, known_.scales, gaps_.rounding(),
+               touching);
+  std::ranges::sort(touching);
 }
 
 std::optional<std::size_t> Contacts::approaching() const {

@@ -55,15 +55,17 @@ class Contacts {
 
   /// A switching function for each, which falls through 0 where the contact opens or closes: the force of a
   /// closed one; the gap of an open one over the time since it opened, which has no root there. (One that has
-  /// just opened and is not above the surface yet, within the error of a step, but separates counts by its
-  /// rate.) A force that is 0 to the tolerance, relative to the others, has not fallen.
+  /// opened and is not above the surface yet, within the error of a step, but separates counts by its rate:
+  /// at first the gap is round-off, over a time that is as short.) A force that is 0 to the tolerance,
+  /// relative to the others, has not fallen.
   [[nodiscard]] double switching(std::size_t contact, const FlatSample& now) const;
   /// Its derivative by time while the contact is open; NaN where it is not known.
   [[nodiscard]] double rate(std::size_t contact, const FlatSample& now) const;
-  /// The unit of its values: of one that has opened, but not left its surface yet by more than a step errs, a
-  /// speed. (That error over the time in which forces hardly change is what is known of it, see Accuracy.) 0
-  /// of others: their own size.
-  [[nodiscard]] double unit(std::size_t contact) const;
+  /// The unit of its values from a time on: of one that has opened, but not left its surface yet by more than
+  /// a step errs, a speed. (That error over the time in which forces hardly change is what is known of it,
+  /// see Accuracy.) Of one that has left it a size of which the round-off of its gap, over the time since it
+  /// opened, is the part to which forces are known. 0 of others: their own size.
+  [[nodiscard]] double unit(std::size_t contact, double from) const;
   /// Notes which open contacts have separated where a step ends, or a change, and which closed ones are
   /// pressed. Throws StepFailure, naming it, if one has been penetrated unnoticed.
   void require_open(const FlatSample& now);
@@ -95,8 +97,10 @@ class Contacts {
  private:
   void find_gaps(const Instant& at) const { gaps_.find(*stated_, known_.scales, at); }
   [[nodiscard]] double no_pull(const ContactState& contact, const FlatSample& now) const;
+  [[nodiscard]] bool counts_by_rate(const ContactState& contact) const;
   [[nodiscard]] std::vector<std::size_t> touching(const Instant& at,
                                                   const std::vector<std::size_t>& triggered) const;
+  void join_within_error(const Instant& at, std::vector<std::size_t>& touching) const;
   void rebuild_system();
 
   std::shared_ptr<const System> stated_, system_;

@@ -67,7 +67,7 @@ std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
       }
     } else {
       largest_[e] = 0.0;
-      units_[e] = of_contacts_.unit(e);
+      units_[e] = of_contacts_.unit(e, beginning.start.time);
     }
     at_from_.push_back(value(e, beginning.start));
     rate_at_from_.push_back(e < asked_for_ ? unknown : of_contacts_.rate(e, beginning.start));
@@ -322,7 +322,7 @@ std::vector<Interpolant> EventWatch::resolved(std::size_t event, const Step& ste
 
 std::vector<EventWatch::Found> EventWatch::locate(const Step& step) {
   largest_before_ = largest_;
-  for (std::size_t e = asked_for_; e < events_.size(); ++e) units_[e] = of_contacts_.unit(e);
+  for (std::size_t e = asked_for_; e < events_.size(); ++e) units_[e] = of_contacts_.unit(e, from_);
   for (auto& values : seen_) values.clear();
   const int degree = resolved_ > 0 ? std::max(step.degree, least_degree) : step.degree;
   std::vector<Values> all(events_.size());

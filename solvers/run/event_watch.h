@@ -48,8 +48,9 @@ class EventWatch {
   struct OfContacts {
     /// The derivative by time; NaN if it is not known.
     std::function<double(std::size_t event, const FlatSample& at)> rate;
-    /// The unit of the values, which changes with what is closed and sticks; 0 if that is their own size.
-    std::function<double(std::size_t event)> unit;
+    /// The unit of the values from a time on, which changes with what is closed and sticks; 0 if that is
+    /// their own size.
+    std::function<double(std::size_t event, double from)> unit;
     /// What the values are larger by, so that round-off changes nothing, than what is 0 at the change.
     std::function<double(std::size_t event)> margin;
   };
