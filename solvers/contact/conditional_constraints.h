@@ -37,7 +37,10 @@ class ConditionalConstraints {
   [[nodiscard]] double margin(std::size_t function) const;
   /// See Contacts.
   void require_open(const FlatSample& now) { contacts_.require_open(now); }
-  void require_separation(const FlatSample& now) const { contacts_.require_separation(now); }
+  void require_separation(const FlatSample& now) const {
+    contacts_.require_separation(now);
+    friction_.require_own_shares(now.time);
+  }
 
   /// What happens at the start. Throws as Contacts::resolve and DryFriction::find_modes.
   [[nodiscard]] Change resolve_start(const Instant& at);

@@ -37,7 +37,7 @@ void DryFriction::set_mode_by_slip(RoughState& rough, const std::vector<std::siz
   const bool slid = rough.mode == Mode::slides, slow = slid && rough.pace != Pace::fast;
   const bool due = own(rough, triggered, mode),
              just = slid && rough.let_go && t - *rough.let_go <= same_time(t);
-  rough.at_rest = rough.reached = false;
+  rough.at_rest = rough.reached = rough.loses_share = false;
   const bool exerts_nothing =
       rough.mu_static == 0.0 || std::ranges::find(open, rough.pressed_by) != open.end();
   if (exerts_nothing) {
@@ -133,6 +133,8 @@ std::vector<EventRecord> DryFriction::changes(const std::vector<RoughState>& bef
   }
   return events;
 }
+
+void DryFriction::require_own_shares(double t) const { FrictionModes::require_own_shares(stated(), all_, t); }
 
 std::vector<EventRecord> DryFriction::find_modes(const std::vector<std::size_t>& open, const Instant& at,
                                                  Triggered triggered) {
