@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 namespace dalembert {
@@ -126,7 +127,34 @@ void FrictionModes::start_sliding(const std::vector<RoughState*>& at_rest, const
   }
 }
 
-/// Releases, of what sticks and would exceed its bound, what exceeds it most; whether there is any.
+/// What lets go with one that does: of what shares with it all that is at its bound, as what carries nothing
+/// is, too.
+std::vector<RoughState*> FrictionModes::going_with(RoughState& most, const Motion& motion) const {
+  if (!most.shared) return {&most};
+  std::vector<std::size_t> every(all_.size());
+  std::iota(every.begin(), every.end(), std::size_t{0});
+  const auto its = &most - all_.data();
+  const auto parts = parts_of(every);
+  const auto own = std::ranges::find_if(
+      parts, [&](const Part& part) { return std::ranges::find(part.places, its) != part.places.end(); });
+  const auto normal = [&](const RoughState& r) { return std::abs(motion.lambda[r.pressing_row]); };
+  double largest = 0.0;
+  std::vector<RoughState*> sharing;
+  for (const Index k : own->places) {
+    RoughState& r = all_[static_cast<std::size_t>(k)];
+    if (!r.shared) continue;
+    sharing.push_back(&r);
+    largest = std::max(largest, normal(r));
+  }
+  const double same = std::sqrt(round_off());
+  std::erase_if(sharing, [&](const RoughState* r) {
+    return r != &most && excess(*r, motion) <= -same && normal(*r) > same * largest;
+  });
+  return sharing;
+}
+
+/// Releases, of what sticks and would exceed its bound, what exceeds it most; whether there is any. Friction
+/// that is 0 has no direction: it gets one, and `amend` turns it if it must.
 bool FrictionModes::release_most_exceeded(const Motion& motion) {
   RoughState* most = nullptr;
   double by = 0.0;
@@ -138,14 +166,12 @@ bool FrictionModes::release_most_exceeded(const Motion& motion) {
   }
   if (most == nullptr) return false;
   mark_shared(motion);
-  const bool together = most->shared;
-  for (RoughState& r : all_) {
-    const bool too = together && r.shared && excess(r, motion) > -std::sqrt(round_off());
-    if (&r != most && !too) continue;
-    let_go(r);
-    if (!r.one_sided) r.sign = motion.lambda[r.pressing_row] < 0.0 ? -1.0 : 1.0;
-    r.start_sliding(-r.part(motion.lambda).normalized());
-    if (r.reached) r.let_go = at_.t;
+  for (RoughState* const r : going_with(*most, motion)) {
+    let_go(*r);
+    if (!r->one_sided) r->sign = motion.lambda[r->pressing_row] < 0.0 ? -1.0 : 1.0;
+    const VectorXd sigma = r->part(motion.lambda);
+    r->start_sliding(sigma.isZero(0.0) ? VectorXd(VectorXd::Unit(sigma.size(), 0)) : -sigma.normalized());
+    if (r->reached) r->let_go = at_.t;
   }
   return true;
 }

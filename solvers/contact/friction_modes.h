@@ -40,6 +40,7 @@ class FrictionModes {
   void mark_shared(const Motion& motion);
   [[nodiscard]] double excess(const RoughState& rough, const Motion& motion) const;
   void search();
+  [[nodiscard]] std::vector<RoughState*> going_with(RoughState& most, const Motion& motion) const;
   [[nodiscard]] bool amend(const Motion& motion);
   [[nodiscard]] bool release_most_exceeded(const Motion& motion);
   [[nodiscard]] bool turn(RoughState& rough, const Motion& motion) const;

@@ -282,6 +282,34 @@ TEST_P(BesideAContact, LetsGoOnATautString) {
           {.allowed = Allowed::negative});
 }
 
+TEST_P(CoulombFriction, SlidesUpTheRoughWallOfARoughGroove) {
+  // Both walls, at an angle a, are rough. F = 20 t pushes a block of weight 10 at the right one until the
+  // left one carries nothing, at F (cos a - mu_static sin a) = 10 (sin a + mu_static cos a). On the right one
+  // alone v' = F (cos a - mu sin a) - 10 (sin a + mu cos a).
+  constexpr double a = 0.7, mu = 0.3;
+  const double S = std::sin(a), C = std::cos(a);
+  for (const double mu_static : {0.3, 0.4}) {
+    Scene<2> scene("groove");
+    scene.add(UniformGravity<2>{{0.0, -10.0}});
+    const auto block = scene.add_particle({.mass = 1.0}, "block");
+    const Plane<2> left_wall{.normal = {S, C}}, right_wall{.normal = {-S, C}};
+    const auto left = scene.add(unilateral(OnCurve{block, left_wall}), "left"),
+               right = scene.add(unilateral(OnCurve{block, right_wall}), "right");
+    scene.add(coulomb(left, Slip{block, left_wall}, mu, mu_static), "rough left");
+    scene.add(coulomb(right, Slip{block, right_wall}, mu, mu_static), "rough right");
+    scene.add(force_law(points(block),
+                        [](auto t, auto r, auto) { return vec(20.0 * t + 0.0 * r.x(), 0.0 * r.y()); }));
+    const double goes = (S + mu_static * C) / (C - mu_static * S) / 2.0, t = goes + 0.5;
+    const auto run = simulate(scene, options(t));
+    const double v = 10.0 * (C - mu * S) * (t * t - goes * goes) - 10.0 * (S + mu * C) * 0.5;
+    // Where the left wall's force falls to 0 it opens as late as forces are known, a part of those of 20.
+    EXPECT_NEAR(run.velocity(block, 10).norm(), v, 20.0 * bound);
+    EXPECT_NEAR(run.multiplier(right, 10), 20.0 * t * S + 10.0 * C, 20.0 * bound);
+    EXPECT_EQ(run.multiplier(left, 10), 0.0);
+    EXPECT_NEAR(run.events().front().time, goes, bound);
+  }
+}
+
 TEST_P(CoulombFriction, FrictionThatLetsGoMayOpenAContact) {
   // A rod leans on a smooth wall at 45 degrees, its foot pulled away by F = k t. The foot holds F + m g of
   // what 1.5 (2 m g) it could; then, without friction, the rod would have to pull its top onto the wall by
