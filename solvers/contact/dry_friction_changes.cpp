@@ -56,9 +56,11 @@ void DryFriction::set_mode_by_slip(RoughState& rough, const std::vector<std::siz
     rough.at_rest = true;
     rough.reached = slid ? just : due;
     rough.mode = Mode::sticks;
+    rough.begins = true;
     return;
   }
   rough.shared = false;
+  rough.begins = rough.begins || !slid || u.dot(rough.direction) <= 0.0;
   if (own(rough, triggered, speed) && rough.is_fast_in_space()) return rough.end_straight(u.normalized());
   if (rough.pace == Pace::straight && slid && !own(rough, triggered, speed) && u.dot(rough.direction) > 0.0)
     return;
@@ -89,6 +91,7 @@ void DryFriction::rest_with_others(const std::vector<std::size_t>& open, const I
       r.at_rest = more = true;
       r.reached = r.shared = false;
       r.mode = Mode::sticks;
+      r.begins = true;
     }
   }
 }
@@ -134,7 +137,11 @@ std::vector<EventRecord> DryFriction::changes(const std::vector<RoughState>& bef
   return events;
 }
 
-void DryFriction::require_own_shares(double t) const { FrictionModes::require_own_shares(stated(), all_, t); }
+void DryFriction::settle(const std::vector<std::size_t>& open, const Instant& at) {
+  FrictionModes::require_own_shares(stated(), all_, at.t);
+  FrictionModes(equations_, all_, open, at).require_one_motion();
+  for (RoughState& r : all_) r.begins = false;
+}
 
 std::vector<EventRecord> DryFriction::find_modes(const std::vector<std::size_t>& open, const Instant& at,
                                                  Triggered triggered) {

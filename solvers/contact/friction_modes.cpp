@@ -6,11 +6,13 @@
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/contact/onset.h>
 #include <dalembert/solvers/contact/round_off.h>
+#include <dalembert/solvers/contact/second_motion.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <sstream>
 
 namespace dalembert {
 
@@ -224,6 +226,25 @@ void FrictionModes::refuse() const {
                         ": no motion satisfies Coulomb's law here, neither sticking nor sliding (Painleve's "
                         "paradox); make mu smaller, or end the run before",
                     at_.t};
+}
+
+void FrictionModes::require_one_motion() const {
+  if (std::ranges::none_of(all_, SecondMotion::tries)) return;
+  std::vector<std::size_t> which;
+  for (std::size_t i = 0; i < all_.size(); ++i)
+    if (all_[i].mode == RoughState::Mode::slides) which.push_back(i);
+  const SlipCoupling coupling = equations_->released(all_, which, *open_, at_);
+  for (const Part& part : parts_of(which)) {
+    std::vector<const RoughState*> sliding;
+    for (const Index k : part.places) sliding.push_back(&all_[which[static_cast<std::size_t>(k)]]);
+    const auto second = SecondMotion::find(coupling.part(part.places, part.rows), sliding);
+    if (!second) continue;
+    std::ostringstream what;
+    what << label(*second->rough)
+         << ": more than one motion satisfies Coulomb's law here, with normal forces of " << second->N
+         << " and " << second->other << " (Painleve's paradox); make mu smaller, or begin where there is one";
+    throw StepFailure{what.str(), at_.t};
+  }
 }
 
 void FrictionModes::find() try { search(); } catch (const StepFailure&) {

@@ -20,6 +20,9 @@ class FrictionModes {
       : equations_(&equations), all_(all), open_(&open), at_(at) {}
   /// Throws StepFailure, naming the constraints, where nothing satisfies the law; EquationFault.
   void find();
+  /// Throws StepFailure where what begins to slide may as well have a normal force of the other sign. What
+  /// slides on keeps the motion that it has.
+  void require_one_motion() const;
   /// Throws StepFailure, naming it, if one of these `loses_share`. Of redundant ones that would decide which
   /// slides; but among the others may be contacts that then pull, and open.
   static void require_own_shares(const System& stated, std::span<const RoughState> all, double t);
