@@ -19,11 +19,13 @@ namespace dalembert {
 /// cone. A multiplier of this constraint is sigma in both cases, and its force W^T sigma, W = du/dv. Which
 /// case holds the run finds, and lists when it changes (EventKind::sticks, EventKind::slides).
 ///
-/// Where no motion satisfies the law (Painleve) the run stops and says so; so it does at an impact, whose
-/// frictional impulse the law does not determine. Of several that stick on the same slip the motion does not
-/// determine the shares (`is_unique`): they are those whose largest part of its bound is least, and together
-/// they slide; with mu_static > mu, where the shares would decide which does, the run stops. A slip that
-/// other constraints prescribe slides. Equilibria and small motions are not for it.
+/// Where no motion satisfies the law (Painleve) the run stops and says so, and where two do as something
+/// begins to slide, with normal forces of either sign. What slides on keeps its motion where a second one
+/// comes up beside it: lambda changes as time goes on, it does not jump. The run also stops at an impact,
+/// whose frictional impulse the law does not determine. Of several that stick on the same slip the motion
+/// does not determine the shares (`is_unique`): they are those whose largest part of its bound is least, and
+/// together they slide; with mu_static > mu, where the shares would decide which does, the run stops. A slip
+/// that other constraints prescribe slides. Equilibria and small motions are not for it.
 template <class Slip>
 struct Coulomb {
   static constexpr std::string_view kind = "Coulomb";

@@ -237,7 +237,7 @@ void EventHandler::open_pulling(Change& change, double t, Integration& integrati
     integration.restart_with_constraints(t, change.system, q, v);
     now = read(integration, t);
   }
-  conditional_->require_separation(now);
+  conditional_->settle(now);
 }
 
 void EventHandler::audit(const Change& change, const FlatSample& after, Integration& integration) {

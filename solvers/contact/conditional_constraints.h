@@ -38,7 +38,12 @@ class ConditionalConstraints {
   [[nodiscard]] double margin(std::size_t function) const;
   /// See Contacts.
   void require_open(const FlatSample& now) { contacts_.require_open(now); }
-  void require_separation(const FlatSample& now) const { contacts_.require_separation(now); }
+  /// After a change, once no contact is left that would pull. Throws as Contacts::require_separation and
+  /// DryFriction::settle.
+  void settle(const FlatSample& now) {
+    contacts_.require_separation(now);
+    friction_.settle(contacts_.open(), {now.time, now.q, now.v});
+  }
 
   /// What happens at the start. Throws as Contacts::resolve and DryFriction::find_modes.
   [[nodiscard]] Change resolve_start(const Instant& at);

@@ -64,6 +64,9 @@ class DryFriction {
                                       std::optional<std::size_t> triggered = {});
   /// Brings to rest at a start what sticks there though it slips, by less than velocities are known.
   void take_away_slip(const std::vector<std::size_t>& open, const Instant& at, Change& change) const;
+  /// Once no contact is left that would pull: throws StepFailure if what starts to slide there has had a
+  /// share of a friction that the motion does not determine, or if more than one motion satisfies (1).
+  void settle(const std::vector<std::size_t>& open, const Instant& at);
   /// Throws StepFailure if an impact has loaded any of them.
   void require_no_impulse(std::span<const double> impulses, const Instant& at) const;
   /// The system with what sticks and what slides.

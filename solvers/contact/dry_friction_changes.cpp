@@ -37,7 +37,7 @@ void DryFriction::set_mode_by_slip(RoughState& rough, const std::vector<std::siz
   const bool slid = rough.mode == Mode::slides, slow = slid && rough.pace != Pace::fast;
   const bool due = own(rough, triggered, mode),
              just = slid && rough.let_go && t - *rough.let_go <= same_time(t);
-  rough.at_rest = rough.reached = false;
+  rough.at_rest = rough.reached = rough.loses_share = false;
   const bool exerts_nothing =
       rough.mu_static == 0.0 || std::ranges::find(open, rough.pressed_by) != open.end();
   if (exerts_nothing) {
@@ -56,9 +56,11 @@ void DryFriction::set_mode_by_slip(RoughState& rough, const std::vector<std::siz
     rough.at_rest = true;
     rough.reached = slid ? just : due;
     rough.mode = Mode::sticks;
+    rough.begins = true;
     return;
   }
   rough.shared = false;
+  rough.begins = rough.begins || !slid || u.dot(rough.direction) <= 0.0;
   if (own(rough, triggered, speed) && rough.is_fast_in_space()) return rough.end_straight(u.normalized());
   if (rough.pace == Pace::straight && slid && !own(rough, triggered, speed) && u.dot(rough.direction) > 0.0)
     return;
@@ -89,6 +91,7 @@ void DryFriction::rest_with_others(const std::vector<std::size_t>& open, const I
       r.at_rest = more = true;
       r.reached = r.shared = false;
       r.mode = Mode::sticks;
+      r.begins = true;
     }
   }
 }
@@ -132,6 +135,12 @@ std::vector<EventRecord> DryFriction::changes(const std::vector<RoughState>& bef
                       is.mode == Mode::sticks ? EventKind::sticks : EventKind::slides});
   }
   return events;
+}
+
+void DryFriction::settle(const std::vector<std::size_t>& open, const Instant& at) {
+  FrictionModes::require_own_shares(stated(), all_, at.t);
+  FrictionModes(equations_, all_, open, at).require_one_motion();
+  for (RoughState& r : all_) r.begins = false;
 }
 
 std::vector<EventRecord> DryFriction::find_modes(const std::vector<std::size_t>& open, const Instant& at,

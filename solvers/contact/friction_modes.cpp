@@ -2,13 +2,17 @@
 
 #include <dalembert/core/analysis/disjoint_sets.h>
 #include <dalembert/core/analysis/islands.h>
+#include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/contact/onset.h>
 #include <dalembert/solvers/contact/round_off.h>
+#include <dalembert/solvers/contact/second_motion.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
+#include <sstream>
 
 namespace dalembert {
 
@@ -30,25 +34,30 @@ bool shared(const RoughState& rough, std::span<const char> unique) {
   return std::ranges::find(rows, char{0}) != rows.end();
 }
 
+/// Notes that it starts to slide.
+void let_go(RoughState& rough) { rough.loses_share |= rough.shared && rough.mu_static != rough.mu; }
+
 }  // namespace
 
-/// What starts to slide has less friction than it stuck with: of redundant ones that decides which slides.
-void FrictionModes::require_own_share(const RoughState& rough) const {
-  if (!rough.shared || rough.mu_static == rough.mu) return;
-  throw StepFailure{label(rough) + shares, at_.t};
+void FrictionModes::require_own_shares(const System& stated, std::span<const RoughState> all, double t) {
+  const auto loses = std::ranges::find_if(
+      all, [](const RoughState& r) { return r.loses_share && r.mode == RoughState::Mode::slides; });
+  if (loses != all.end()) throw StepFailure{stated.row_label(loses->row) + shares, t};
 }
 
 void FrictionModes::mark_shared(const Motion& motion) {
   for (RoughState& r : all_) r.shared = r.mode == RoughState::Mode::sticks && shared(r, motion.unique);
 }
 
-/// By how much the friction of what sticks exceeds its bound, as a part of that; -1 if there is none.
+/// By how much the friction of what sticks exceeds its bound, as a part of that; -1 if there is none. What
+/// has reached it exceeds it an instant later, as in Onset.
 double FrictionModes::excess(const RoughState& rough, const Motion& motion) const {
   const double sigma = rough.part(motion.lambda).norm();
   if (rough.mode != RoughState::Mode::sticks ||
       sigma <= equations_->round_off_of(all_, rough, motion.a, motion.lambda))
     return -1.0;
-  return sigma / (rough.mu_static * std::abs(motion.lambda[rough.pressing_row])) - 1.0 - round_off();
+  const double known = rough.reached ? std::sqrt(round_off()) : -round_off();
+  return sigma / (rough.mu_static * std::abs(motion.lambda[rough.pressing_row])) - 1.0 + known;
 }
 
 /// Whether all that is at rest can stay there: what others prescribe may move it.
@@ -84,7 +93,7 @@ void FrictionModes::decide() {
   const bool group = std::ranges::any_of(all_, [](const RoughState& r) { return r.reached && r.shared; });
   for (RoughState& r : all_) {  // what holds together reaches its bounds together
     if (r.at_rest && r.shared && group) r.reached = true;
-    if (r.reached) require_own_share(r);
+    if (r.reached) let_go(r);
   }
   const Motion held = solve();
   mark_shared(held);
@@ -113,14 +122,41 @@ void FrictionModes::start_sliding(const std::vector<RoughState*>& at_rest, const
     if (!onset->parts[k].slides) continue;
     RoughState& r = *at_rest[k];
     const bool prescribed = coupling.S_0(first, first) == 0.0;
-    if (!prescribed) require_own_share(r);
+    if (!prescribed) let_go(r);
     if (!r.one_sided) r.sign = held.lambda[r.pressing_row] < 0.0 ? -1.0 : 1.0;
     r.start_sliding(onset->parts[k].direction);
     if (r.reached) r.let_go = at_.t;
   }
 }
 
-/// Releases, of what sticks and would exceed its bound, what exceeds it most; whether there is any.
+/// What lets go with one that does: of what shares with it all that is at its bound, as what carries nothing
+/// is, too.
+std::vector<RoughState*> FrictionModes::going_with(RoughState& most, const Motion& motion) const {
+  if (!most.shared) return {&most};
+  std::vector<std::size_t> every(all_.size());
+  std::iota(every.begin(), every.end(), std::size_t{0});
+  const auto its = &most - all_.data();
+  const auto parts = parts_of(every);
+  const auto own = std::ranges::find_if(
+      parts, [&](const Part& part) { return std::ranges::find(part.places, its) != part.places.end(); });
+  const auto normal = [&](const RoughState& r) { return std::abs(motion.lambda[r.pressing_row]); };
+  double largest = 0.0;
+  std::vector<RoughState*> sharing;
+  for (const Index k : own->places) {
+    RoughState& r = all_[static_cast<std::size_t>(k)];
+    if (!r.shared) continue;
+    sharing.push_back(&r);
+    largest = std::max(largest, normal(r));
+  }
+  const double same = std::sqrt(round_off());
+  std::erase_if(sharing, [&](const RoughState* r) {
+    return r != &most && excess(*r, motion) <= -same && normal(*r) > same * largest;
+  });
+  return sharing;
+}
+
+/// Releases, of what sticks and would exceed its bound, what exceeds it most; whether there is any. Friction
+/// that is 0 has no direction: it gets one, and `amend` turns it if it must.
 bool FrictionModes::release_most_exceeded(const Motion& motion) {
   RoughState* most = nullptr;
   double by = 0.0;
@@ -132,13 +168,12 @@ bool FrictionModes::release_most_exceeded(const Motion& motion) {
   }
   if (most == nullptr) return false;
   mark_shared(motion);
-  const bool together = most->shared;
-  for (RoughState& r : all_) {
-    const bool too = together && r.shared && excess(r, motion) > -std::sqrt(round_off());
-    if (&r != most && !too) continue;
-    require_own_share(r);
-    if (!r.one_sided) r.sign = motion.lambda[r.pressing_row] < 0.0 ? -1.0 : 1.0;
-    r.start_sliding(-r.part(motion.lambda).normalized());
+  for (RoughState* const r : going_with(*most, motion)) {
+    let_go(*r);
+    if (!r->one_sided) r->sign = motion.lambda[r->pressing_row] < 0.0 ? -1.0 : 1.0;
+    const VectorXd sigma = r->part(motion.lambda);
+    r->start_sliding(sigma.isZero(0.0) ? VectorXd(VectorXd::Unit(sigma.size(), 0)) : -sigma.normalized());
+    if (r->reached) r->let_go = at_.t;
   }
   return true;
 }
@@ -193,7 +228,34 @@ void FrictionModes::refuse() const {
                     at_.t};
 }
 
-void FrictionModes::find() {
+void FrictionModes::require_one_motion() const {
+  if (std::ranges::none_of(all_, SecondMotion::tries)) return;
+  std::vector<std::size_t> which;
+  for (std::size_t i = 0; i < all_.size(); ++i)
+    if (all_[i].mode == RoughState::Mode::slides) which.push_back(i);
+  const SlipCoupling coupling = equations_->released(all_, which, *open_, at_);
+  for (const Part& part : parts_of(which)) {
+    std::vector<const RoughState*> sliding;
+    for (const Index k : part.places) sliding.push_back(&all_[which[static_cast<std::size_t>(k)]]);
+    const auto second = SecondMotion::find(coupling.part(part.places, part.rows), sliding);
+    if (!second) continue;
+    std::ostringstream what;
+    what << label(*second->rough)
+         << ": more than one motion satisfies Coulomb's law here, with normal forces of " << second->N
+         << " and " << second->other << " (Painleve's paradox); make mu smaller, or begin where there is one";
+    throw StepFailure{what.str(), at_.t};
+  }
+}
+
+void FrictionModes::find() try { search(); } catch (const StepFailure&) {
+  require_own_shares(*equations_->stated(), all_, at_.t);
+  throw;
+} catch (const Error&) {
+  require_own_shares(*equations_->stated(), all_, at_.t);
+  throw;
+}
+
+void FrictionModes::search() {
   if (std::ranges::any_of(all_, &RoughState::at_rest)) decide();
   std::set<std::vector<double>> tried;
   Motion found = solve();

@@ -20,6 +20,12 @@ class FrictionModes {
       : equations_(&equations), all_(all), open_(&open), at_(at) {}
   /// Throws StepFailure, naming the constraints, where nothing satisfies the law; EquationFault.
   void find();
+  /// Throws StepFailure where what begins to slide may as well have a normal force of the other sign. What
+  /// slides on keeps the motion that it has.
+  void require_one_motion() const;
+  /// Throws StepFailure, naming it, if one of these `loses_share`. Of redundant ones that would decide which
+  /// slides; but among the others may be contacts that then pull, and open.
+  static void require_own_shares(const System& stated, std::span<const RoughState> all, double t);
 
  private:
   using Motion = FrictionEquations::Motion;
@@ -36,7 +42,8 @@ class FrictionModes {
   [[nodiscard]] bool sticks(const Motion& motion) const;
   void mark_shared(const Motion& motion);
   [[nodiscard]] double excess(const RoughState& rough, const Motion& motion) const;
-  void require_own_share(const RoughState& rough) const;
+  void search();
+  [[nodiscard]] std::vector<RoughState*> going_with(RoughState& most, const Motion& motion) const;
   [[nodiscard]] bool amend(const Motion& motion);
   [[nodiscard]] bool release_most_exceeded(const Motion& motion);
   [[nodiscard]] bool turn(RoughState& rough, const Motion& motion) const;

@@ -32,6 +32,10 @@ struct RoughState {
   double speed = 0.0, still = 0.0, slow = 0.0;
   Mode mode = Mode::absent;
   bool shared = false;  ///< sticks, but others constrain the same slip
+  /// It begins to slide with less friction than it stuck with, though others constrain the same slip.
+  bool loses_share = false;
+  /// It slides since an onset or a start that has not been settled yet, see DryFriction::settle.
+  bool begins = false;
   Eigen::VectorXd direction{};
   Pace pace = Pace::fast;
   double blur = 0.0;                      ///< the slowness of `Sliding`

@@ -88,6 +88,9 @@ void SlipCoupling::find_responses(const Equations& its, bool with_sliding, Eigen
   if (!matrix.factorise(values)) throw linearly_dependent(its.t);
   const std::size_t n = its.a.size();
   std::vector<double> x(matrix.size());
+  std::vector<std::ptrdiff_t> pressing;  // their places among the active rows
+  for (const SlipRows& one : its.of)
+    pressing.push_back(std::ranges::find(its.active.rows, one.pressing_row) - its.active.rows.begin());
   for (std::size_t k = 0; k < its.rows.size(); ++k) {
     std::ranges::fill(x, 0.0);
     add_row(its.stated, its.e.w, its.rows[k], 1.0, x);
@@ -96,9 +99,8 @@ void SlipCoupling::find_responses(const Equations& its, bool with_sliding, Eigen
       responses(static_cast<Index>(l), static_cast<Index>(k)) =
           row_times(its.stated, its.e.w, its.rows[l], x);
     for (std::size_t i = 0; i < its.of.size(); ++i) {
-      const auto own = std::ranges::find(its.active.rows, its.of[i].pressing_row);
-      if (own == its.active.rows.end()) continue;
-      const auto place = static_cast<std::size_t>(own - its.active.rows.begin());
+      const auto place = static_cast<std::size_t>(pressing[i]);
+      if (place == its.active.rows.size()) continue;
       B(static_cast<Index>(i), static_cast<Index>(k)) = x[n + place];
     }
   }

@@ -239,6 +239,77 @@ TEST_P(CoulombFriction, FeetWhoseSharesDecideAreRefused) {
               ThrowsMessage<IntegrationFailure>(AllOf(HasSubstr("\"left\""), HasSubstr("not determined"))));
 }
 
+/// A block of mass 1 and weight 10 on a rough floor, with mu = 0.2 and mu_static = 0.3, beside a one-sided
+/// constraint that keeps it from going to the right. A force to the right, F = F0 - 20 t, draws it away: it
+/// holds up to F = -3, and slides with v' = F + 2.
+class BesideAContact : public CoulombFriction {
+ protected:
+  template <class Stop>
+  void lets_go(double F0, Stop stop, Contact contact) {
+    Scene<2> scene("block");
+    scene.add(UniformGravity<2>{{0.0, -10.0}});
+    const auto block = scene.add_particle({.mass = 1.0}, "block");
+    const auto floor = scene.add(OnCurve{block, Plane<2>{}}, "floor");
+    const auto beside = scene.add(unilateral(stop(block), contact), "beside");
+    const auto rough = scene.add(coulomb(floor, Slip{block, Plane<2>{}}, 0.2, 0.3), "rough");
+    scene.add(force_law(
+        points(block), [F0](auto t, auto r, auto) { return vec(F0 - 20.0 * t + 0.0 * r.x(), 0.0 * r.y()); }));
+    const double goes = (F0 + 3.0) / 20.0, t = goes + 0.5;
+    const auto run = simulate(scene, options(t));
+    ASSERT_EQ(run.events().size(), 2U);
+    for (const EventRecord& it : run.events()) EXPECT_NEAR(it.time, goes, bound);
+    EXPECT_EQ(run.events()[0].kind, EventKind::slides);
+    EXPECT_EQ(run.events()[0].source, static_cast<std::size_t>(rough.index));
+    EXPECT_EQ(run.events()[1].kind, EventKind::opened);
+    EXPECT_EQ(run.events()[1].source, static_cast<std::size_t>(beside.index));
+    EXPECT_NEAR(run.velocity(block, 10).x(), (F0 + 2.0) * 0.5 - 10.0 * (t * t - goes * goes), 10.0 * bound);
+    EXPECT_NEAR(run.multiplier(rough, 10), 2.0, 10.0 * bound);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Runs, BesideAContact, at_tolerances, tolerance_name);
+
+TEST_P(BesideAContact, LetsGoOfAWallThatCarriesNothing) {
+  // With F0 > 0 the block first presses against the wall.
+  for (const double F0 : {-0.5, 10.0})
+    lets_go(F0, [](auto block) { return OnCurve{block, Plane<2>{.normal = {-1.0, 0.0}}}; }, {});
+}
+
+TEST_P(BesideAContact, LetsGoOnATautString) {
+  lets_go(10.0,
+          [](auto block) {
+            return Distance{Fixed<2>{{-1.0, 0.0}}, block, 1.0};
+          },
+          {.allowed = Allowed::negative});
+}
+
+TEST_P(CoulombFriction, SlidesUpTheRoughWallOfARoughGroove) {
+  // Both walls, at an angle a, are rough. F = 20 t pushes a block of weight 10 at the right one until the
+  // left one carries nothing, at F (cos a - mu_static sin a) = 10 (sin a + mu_static cos a). On the right one
+  // alone v' = F (cos a - mu sin a) - 10 (sin a + mu cos a).
+  constexpr double a = 0.7, mu = 0.3;
+  const double S = std::sin(a), C = std::cos(a);
+  for (const double mu_static : {0.3, 0.4}) {
+    Scene<2> scene("groove");
+    scene.add(UniformGravity<2>{{0.0, -10.0}});
+    const auto block = scene.add_particle({.mass = 1.0}, "block");
+    const Plane<2> left_wall{.normal = {S, C}}, right_wall{.normal = {-S, C}};
+    const auto left = scene.add(unilateral(OnCurve{block, left_wall}), "left"),
+               right = scene.add(unilateral(OnCurve{block, right_wall}), "right");
+    scene.add(coulomb(left, Slip{block, left_wall}, mu, mu_static), "rough left");
+    scene.add(coulomb(right, Slip{block, right_wall}, mu, mu_static), "rough right");
+    scene.add(force_law(points(block),
+                        [](auto t, auto r, auto) { return vec(20.0 * t + 0.0 * r.x(), 0.0 * r.y()); }));
+    const double goes = (S + mu_static * C) / (C - mu_static * S) / 2.0, t = goes + 0.5;
+    const auto run = simulate(scene, options(t));
+    const double v = 10.0 * (C - mu * S) * (t * t - goes * goes) - 10.0 * (S + mu * C) * 0.5;
+    // Where the left wall's force falls to 0 it opens as late as forces are known, a part of those of 20.
+    EXPECT_NEAR(run.velocity(block, 10).norm(), v, 20.0 * bound);
+    EXPECT_NEAR(run.multiplier(right, 10), 20.0 * t * S + 10.0 * C, 20.0 * bound);
+    EXPECT_EQ(run.multiplier(left, 10), 0.0);
+    EXPECT_NEAR(run.events().front().time, goes, bound);
+  }
+}
+
 TEST_P(CoulombFriction, FrictionThatLetsGoMayOpenAContact) {
   // A rod leans on a smooth wall at 45 degrees, its foot pulled away by F = k t. The foot holds F + m g of
   // what 1.5 (2 m g) it could; then, without friction, the rod would have to pull its top onto the wall by

@@ -1,6 +1,7 @@
 #include "../both_steppers.h"
 #include <dalembert/dalembert.h>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +9,10 @@
 
 namespace dalembert::painleve_test {
 namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 class Painleve : public testing::TestWithParam<Stepper> {};
 INSTANTIATE_TEST_SUITE_P(Steppers, Painleve, both_steppers, stepper_name);
@@ -48,6 +53,75 @@ TEST_P(Painleve, ARodThatSlidesToTheSingularityOfItsNormalForceStopsThereByName)
     const double phi = dalembert::angle(until.sample(until.size() - 1), rod);
     EXPECT_GT(1.0 + 3.0 * std::cos(phi) * (std::cos(phi) - mu * std::sin(phi)), 0.0);
   }
+}
+
+/// A rod of length 2 l and mass 1 on a wire, which holds its foot both ways and is rough. At an angle phi,
+/// with the rate w, it presses by N, for which with s the sign of the slip
+///
+///   A N = b,   A = 1 + 3 cos phi (cos phi + s mu sin phi sign N),   b = g - l w^2 sin phi
+struct RodOnAWire {
+  static constexpr double l = 0.5, g = 9.81;
+  double mu;
+  Scene<2> scene{"rod"};
+  RigidBody<2> rod;
+  BodyPoint<2> foot;
+  Constraint<1> wire;
+
+  RodOnAWire(double friction, double angle, double rate, double slip) : mu(friction) {
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    rod = add_body(scene,
+                   BodyState<2>{.mass = 1.0,
+                                .inertia = l * l / 3.0,
+                                .centre = {l * std::cos(angle), l * std::sin(angle)},
+                                .angle = angle,
+                                .velocity = {slip - rate * l * std::sin(angle), rate * l * std::cos(angle)},
+                                .angular_velocity = rate},
+                   "rod");
+    foot = rod.point({-l, 0.0});
+    wire = scene.add(OnCurve{foot, Plane<2>{}}, "wire");
+    scene.add(coulomb(wire, Slip{foot, Plane<2>{}}, mu), "rub");
+  }
+  [[nodiscard]] double A(const Sample<2>& at, double sign_of_N) const {
+    const double phi = angle(at, rod), s = at.velocity(foot).x() < 0.0 ? -1.0 : 1.0;
+    return 1.0 + 3.0 * std::cos(phi) * (std::cos(phi) + s * mu * std::sin(phi) * sign_of_N);
+  }
+  [[nodiscard]] double b(const Sample<2>& at) const {
+    return g - l * std::pow(angular_velocity(at, rod), 2) * std::sin(angle(at, rod));
+  }
+};
+
+TEST_P(Painleve, ARodWhoseLawHasTwoMotionsAtItsStartIsRefusedByName) {
+  // phi = 1, w = 0, mu = 2.5, s = 1: b = 9.81, A = 5.28567 for N > 0, -1.53410 for N < 0.
+  const RodOnAWire scene(2.5, 1.0, 0.0, 3.0);
+  EXPECT_THAT([&] { (void)simulate(scene.scene, {.t_end = 0.01, .stepper = GetParam()}); },
+              ThrowsMessage<Error>(AllOf(HasSubstr("\"rub\": more than one motion"), HasSubstr("1.8559"),
+                                         HasSubstr("-6.3946"))));
+}
+
+TEST_P(Painleve, ARodThatSlidesIntoARegionOfTwoMotionsKeepsItsOwn) {
+  // At t = 0.091 N falls through 0 with b, where A > 0 for both signs, and soon A < 0 for N > 0. Of the two
+  // solutions from there on the run keeps N < 0, whatever is listed on the way. One that begins there is
+  // refused.
+  constexpr double tolerance = 1e-8;
+  const RodOnAWire scene(1.5, 0.5, 4.0, -8.0);
+  const Event<2> listed{.name = "listed", .function = [](const Sample<2>& at) { return at.time() - 0.13; }};
+  const auto run = simulate(
+      scene.scene, {.t_end = 0.15, .samples = 16, .tolerance = tolerance, .stepper = GetParam()}, {listed});
+  EXPECT_EQ(run.size(), 16U);
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const auto at = run.sample(i);
+    const double N = run.multiplier(scene.wire, i), sign = i <= 9 ? 1.0 : -1.0;
+    EXPECT_GT(sign * N, 0.0);
+    // Of the run's own state, as exactly as velocities satisfy the wire.
+    EXPECT_NEAR(scene.A(at, sign) * N, scene.b(at), 100.0 * tolerance * scene.g) << i;
+  }
+  const auto there = run.sample(12);
+  EXPECT_LT(scene.A(there, 1.0), 0.0);
+  EXPECT_LT(scene.b(there), 0.0);
+  const RodOnAWire again(1.5, angle(there, scene.rod), angular_velocity(there, scene.rod),
+                         there.velocity(scene.foot).x());
+  EXPECT_THAT([&] { (void)simulate(again.scene, {.t_end = 0.01, .stepper = GetParam()}); },
+              ThrowsMessage<Error>(HasSubstr("\"rub\"")));
 }
 
 }  // namespace
