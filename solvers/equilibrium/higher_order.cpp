@@ -6,6 +6,7 @@
 #include <dalembert/solvers/equilibrium/nearby_states.h>
 #include <dalembert/solvers/equilibrium/quadratic_modes.h>
 #include <dalembert/solvers/equilibrium/tangent.h>
+#include <dalembert/solvers/equilibrium/undecayed_motions.h>
 #include <dalembert/solvers/equilibrium/work_of_laws.h>
 #include <dalembert/solvers/linear/rows.h>
 #include <dalembert/solvers/manifold/manifold.h>
@@ -34,18 +35,21 @@ Vector vector_of(std::span<const double> x) {
 /// Displacements, as parts of the largest, which is as far as other equilibria are sought.
 constexpr std::array<double, 3> ways{0.01, 0.1, 1.0};
 
-/// A displacement and a velocity relative to the frame, in each part of the scene of size 1.
-struct Disturbance {
-  Vector shift, rate;
-};
-
 /// What is asked of a part of the scene.
 struct Part {
   bool acted_on = false;   ///< by a force without a potential
-  bool vibrates = true;    ///< no mode of eigenvalue 0
   int freedoms = 0;        ///< coordinates less independent holonomic constraints
+  int velocities = 0;      ///< these less nonholonomic ones
+  int at_rest = 0;         ///< modes of eigenvalue 0
+  int moving = 0;          ///< other eigenvalues
   bool conserves = false;  ///< (2) must be 0
   std::string violation{};
+
+  /// (2) is asked only of what is odd in u.
+  [[nodiscard]] bool only_odd() const { return freedoms == 1 && at_rest == 0; }
+  /// No motion goes along the modes of eigenvalue 0 for ever: what is near rests there, as far as the others
+  /// decay.
+  [[nodiscard]] bool rests() const { return freedoms + velocities == at_rest + moving; }
 };
 
 bool has_laws(const System& system) {
@@ -59,36 +63,31 @@ class Search {
         system_(&near.problem.system()),
         islands_(&near.problem.islands()),
         parts_(islands_->count),
-        marginal_(islands_->count),
-        unit_(units(near.balance.scales())),
-        generic_(generic_vector(unit_.size(), 1)),
+        motions_(*system_, *islands_, near.balance.scales()),
+        generic_(generic_vector(motions_.units().size(), 1).cwiseProduct(motions_.units())),
         manifold_(near.problem, rows(), near.balance.scales().lengths()),
-        laws_(*system_, *islands_, near.balance.frame(), units(near.balance.scales())) {
+        laws_(*system_, *islands_, near.balance.frame(), motions_.units()) {
     const std::vector<char> acted_on = laws_.parts();
     for (std::size_t k = 0; k < parts_.size(); ++k) parts_[k].acted_on = acted_on[k] != 0;
     count_freedoms();
+    for (const Mode& mode : modes) count(mode);
     for (const Mode& mode : modes) sort(mode);
-    for (const Part& part : parts_) only_odd_.push_back(part.freedoms == 1 && part.vibrates);
+    for (const Part& part : parts_) only_odd_.push_back(part.only_odd());
   }
 
   /// The modes that do not decay: one of each part at a time, and all.
   void along_modes() {
     constexpr double quarter = 0.5 * std::numbers::pi;
-    std::size_t most = 0;
-    for (const auto& own : marginal_) most = std::max(most, own.size());
-    for (std::size_t k = 0; k < most; ++k)
+    for (std::size_t k = 0; k < motions_.most(); ++k)
       for (const double phase : {quarter, -quarter, 0.7, 0.7 + 2.0 * quarter, 2.2, 2.2 + 2.0 * quarter})
-        look(alone(k, phase));
-    for (int number = 1; number <= 6 && most > 1; ++number) look(together(number));
+        look(motions_.alone(k, phase));
+    for (int number = 1; number <= 6 && motions_.most() > 1; ++number) look(motions_.together(number));
   }
 
   /// Shapes of no special kind that nothing damps, in some of which each coordinate is among the largest.
   void along_undamped() {
     for (unsigned number = 1; number <= 16; ++number) {
-      Disturbance d{undamped(2 * number), undamped(2 * number + 1)};
-      normalise(d.shift);
-      normalise(d.rate);
-      d.rate /= scales().time;
+      Disturbance d = motions_.undamped(near_->terms, rows(), number);
       look(d);
       d.shift.setZero();
       look(d);
@@ -106,28 +105,40 @@ class Search {
   [[nodiscard]] double known() const { return round_off_of_a_sum * near_->terms.roundings; }
   [[nodiscard]] ActiveRows rows() const { return independent_rows(*system_, near_->terms.w); }
 
-  [[nodiscard]] static Vector units(const Scales& scales) {
-    Vector unit(static_cast<Index>(scales.is_angle.size()));
-    for (Index i = 0; i < unit.size(); ++i) unit[i] = scales.unit(static_cast<std::size_t>(i));
-    return unit;
+  void count_freedoms() {
+    for (const std::size_t k : islands_->of_coordinate) {
+      ++parts_[k].freedoms;
+      ++parts_[k].velocities;
+    }
+    const ActiveRows active = rows();
+    for (std::size_t a = 0; a < active.size(); ++a) {
+      if (system_->law(active.rows[a]).compliant()) continue;
+      Part& part = parts_[islands_->of_row(*system_, active.rows[a])];
+      --part.velocities;
+      if (a < active.holonomic) --part.freedoms;
+    }
   }
 
-  void count_freedoms() {
-    for (const std::size_t k : islands_->of_coordinate) ++parts_[k].freedoms;
-    const ActiveRows active = rows();
-    for (std::size_t a = 0; a < active.holonomic; ++a)
-      if (!system_->law(active.rows[a]).compliant())
-        --parts_[islands_->of_row(*system_, active.rows[a])].freedoms;
+  [[nodiscard]] std::size_t part_of(const Mode& mode) const {
+    const auto size = [](const std::complex<double>& x) { return std::abs(x); };
+    const auto most = std::ranges::max_element(mode.shape, {}, size);
+    return islands_->of_coordinate[static_cast<std::size_t>(most - mode.shape.begin())];
+  }
+
+  void count(const Mode& mode) {
+    Part& part = parts_[part_of(mode)];
+    if (mode.eigenvalue == 0.0) {
+      ++part.at_rest;
+    } else {
+      part.moving += mode.eigenvalue.imag() != 0.0 ? 2 : 1;
+    }
   }
 
   void sort(const Mode& mode) {
-    const auto size = [](const std::complex<double>& x) { return std::abs(x); };
-    const auto most = std::ranges::max_element(mode.shape, {}, size);
-    const std::size_t k = islands_->of_coordinate[static_cast<std::size_t>(most - mode.shape.begin())];
+    const std::size_t k = part_of(mode);
     Part& part = parts_[k];
-    if (mode.eigenvalue == 0.0) part.vibrates = false;
-    if (mode.decays || !part.acted_on) return;
-    marginal_[k].push_back(&mode);
+    if (mode.decays || !part.acted_on || (mode.eigenvalue == 0.0 && part.rests())) return;
+    motions_.add(k, mode);
     if (mode.eigenvalue != 0.0 && !has_energy(mode)) part.conserves = true;
   }
 
@@ -154,86 +165,6 @@ class Search {
     return kinetic + stiffness_along(re) + stiffness_along(im) > rank_threshold * kinetic;
   }
 
-  /// The motion of a mode with size 1 at a phase. What does not vibrate moves by that in the scene's time.
-  void add(const Mode& mode, double phase, double part, Disturbance& to) const {
-    const double Omega =
-        mode.eigenvalue.imag() != 0.0 ? std::abs(mode.eigenvalue.imag()) : 1.0 / scales().time;
-    double size = 0.0;
-    for (Index i = 0; i < unit_.size(); ++i)
-      size = std::max(size, std::abs(mode.shape[static_cast<std::size_t>(i)]) / unit_[i]);
-    for (Index i = 0; i < unit_.size(); ++i) {
-      const auto x = part / size * mode.shape[static_cast<std::size_t>(i)] * std::polar(1.0, phase);
-      to.shift[i] += x.real();
-      to.rate[i] -= Omega * x.imag();
-    }
-  }
-
-  [[nodiscard]] Disturbance nothing() const {
-    return {Vector::Zero(unit_.size()), Vector::Zero(unit_.size())};
-  }
-  [[nodiscard]] Disturbance alone(std::size_t k, double phase) const {
-    Disturbance d = nothing();
-    for (const auto& own : marginal_)
-      if (k < own.size()) add(*own[k], phase, 1.0, d);
-    return d;
-  }
-  [[nodiscard]] Disturbance together(int number) const {
-    Disturbance d = nothing();
-    for (const auto& own : marginal_)
-      for (std::size_t k = 0; k < own.size(); ++k)
-        add(*own[k], number * std::sqrt(2.0 + static_cast<double>(k)), 1.0 / static_cast<double>(own.size()),
-            d);
-    return d;
-  }
-
-  /// The largest number of each part, in units of its coordinates.
-  [[nodiscard]] std::vector<double> sizes(const Vector& x) const {
-    std::vector<double> most(parts_.size(), 0.0);
-    for (Index i = 0; i < x.size(); ++i) {
-      double& own = most[islands_->of_coordinate[static_cast<std::size_t>(i)]];
-      own = std::max(own, std::abs(x[i]) / unit_[i]);
-    }
-    return most;
-  }
-  void normalise(Vector& x) const {
-    const auto most = sizes(x);
-    for (Index i = 0; i < x.size(); ++i) {
-      const double own = most[islands_->of_coordinate[static_cast<std::size_t>(i)]];
-      x[i] = own > 0.0 ? x[i] / own : 0.0;
-    }
-  }
-
-  /// (M + rho D) x = M r + W^T y, W x = 0 leaves of r what D, the damping, does not resist: after three times
-  /// to round-off where D exceeds a millionth of its largest.
-  [[nodiscard]] Vector undamped(unsigned number) const {
-    constexpr double spread = 10.0;  // of the logarithm of the sizes of coordinates
-    const Index n = unit_.size();
-    const auto active = rows();
-    LinearTerms damping{{}, {}, near_->terms.w, {}};
-    double most = 0.0;
-    const auto ratio = [&](const auto& d) {
-      return std::abs(d.value()) / std::sqrt(system_->masses()[d.row()] * system_->masses()[d.col()]);
-    };
-    for (const auto& d : near_->terms.damping) most = std::max(most, ratio(d));
-    const double rho = most > 0.0 ? 0.5e12 / most : 0.0;
-    for (const auto& d : near_->terms.damping)
-      for (const auto& [i, j] : {std::pair(d.row(), d.col()), std::pair(d.col(), d.row())})
-        damping.stiffness.emplace_back(static_cast<int>(i), static_cast<int>(j), rho * d.value());
-    TangentMatrix matrix(*system_, active, damping, 1.0);
-    Vector x = generic_vector(n, number).cwiseProduct(
-        Vector((spread * generic_vector(n, 1000 + number).array()).exp()).cwiseProduct(unit_));
-    if (!matrix.regular()) return Vector::Zero(n);
-    std::vector<double> y(system_->coordinates() + active.size());
-    for (int times = 0; times < 3; ++times) {
-      std::ranges::fill(y, 0.0);
-      for (Index i = 0; i < n; ++i)
-        y[static_cast<std::size_t>(i)] = system_->masses()[static_cast<std::size_t>(i)] * x[i];
-      matrix.solve(y);
-      x = Eigen::Map<const Vector>(y.data(), n);
-    }
-    return x;
-  }
-
   /// u on the constraints at q, where X obeys them.
   [[nodiscard]] bool allow(const Vector& q, const Vector& carried, Vector& u) {
     Vector v = carried + u;
@@ -247,11 +178,11 @@ class Search {
   /// square, of the velocity.
   [[nodiscard]] std::optional<RelativeState> disturbed(const Disturbance& d, double way) {
     const double little = 1e-3 * way * way, length = scales().length, t = near_->at.time;
-    const auto rates = sizes(d.rate);
-    Vector all_else(unit_.size());
-    for (Index i = 0; i < unit_.size(); ++i)
-      all_else[i] = rates[islands_->of_coordinate[static_cast<std::size_t>(i)]] * unit_[i] * generic_[i];
-    RelativeState s{vector_of(near_->at.q) + way * d.shift, Vector(unit_.size()),
+    const auto rates = motions_.sizes(d.rate);
+    Vector all_else = generic_;
+    for (Index i = 0; i < all_else.size(); ++i)
+      all_else[i] *= rates[islands_->of_coordinate[static_cast<std::size_t>(i)]];
+    RelativeState s{vector_of(near_->at.q) + way * d.shift, Vector(all_else.size()),
                     way * (d.rate + little * all_else), way * all_else};
     near_->balance.frame().velocity(flat(s.q), flat(s.frame));
     const double close = 1e-13 * length + scales().rounding(flat(s.q));
@@ -300,8 +231,8 @@ class Search {
   const System* system_;
   const Islands* islands_;
   std::vector<Part> parts_;
-  std::vector<std::vector<const Mode*>> marginal_;
-  Vector unit_, generic_;
+  UndecayedMotions motions_;
+  Vector generic_;  // of size 1
   Manifold manifold_;
   WorkOfLaws laws_;
   std::vector<char> only_odd_{};

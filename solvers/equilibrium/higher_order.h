@@ -28,7 +28,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// else: elsewhere linear damping would hide what grows here. The smallest displacement that shows more than
 /// round-off decides, so that it is the term of lowest order. A vibration of one degree of freedom asks for
 /// (2) only of what is odd in u: without that it is its own run backwards, and so periodic. Where a momentum
-/// makes the energy > 0, (2) must be 0: damping as well as driving makes something grow.
+/// makes the energy > 0, (2) must be 0: damping as well as driving makes something grow. Modes of eigenvalue
+/// 0 ask for nothing where their velocities decay: they are places of rest.
 ///
 /// Looked at in some states, (2) is not proved, but a violation is one. Forces that read multipliers are not
 /// looked at.

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 /// Scenes whose linear terms have an energy > 0 that nothing changes: what changes it at higher order
 /// decides. Averaged over a vibration of frequency 1, x = a cos t, with a force f beside the spring,
@@ -125,6 +126,23 @@ TEST(HigherOrder, StrongDampingOfAnotherCoordinateHidesNoDriving) {
                 return vec(-r.x() - cube(v.x()), -2.0 * r.y() - damping * v.y());
               }),
               Stability::stable);
+  }
+}
+
+TEST(HigherOrder, FreeMotionBesideDecayAsksForNoEnergy) {
+  // x'' = -x' + y/2, y'' = -y - y': K is not symmetric, but all but x decays, and x rests wherever it is.
+  Scene<2> scene;
+  const auto x = scene.add_rotor({.inertia = 1.0}), y = scene.add_rotor({.inertia = 1.0});
+  scene.add(force_law(points(x, y), [](auto, auto b, auto v, auto w) {
+    return std::make_tuple(vec(-v[0] + 0.5 * b[0]), vec(-b[0] - w[0]));
+  }));
+  expect(Stability::stable, modes_of(scene));
+  // Without drag it moves on, and v^3 drives that.
+  for (const double c : {1.0, -1.0}) {
+    Scene<2> free;
+    const auto rotor = free.add_rotor({.inertia = 1.0});
+    free.add(force_law(points(rotor), [c](auto, auto v) { return vec(c * cube(v[0])); }));
+    expect(c > 0.0 ? Stability::undecided : Stability::stable, modes_of(free));
   }
 }
 
