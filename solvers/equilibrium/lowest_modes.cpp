@@ -347,8 +347,10 @@ Modes damped_modes(const System& system, const LinearTerms& terms, double s, dou
     std::size_t zeros = 0;
     for (const QuadraticPair& pair : all) {
       if (std::abs(pair.s) <= counts_as_zero) ++zeros;
-      if (std::abs(pair.s) > counts_as_zero && pair.s.imag() >= 0.0 && found.modes.size() < wanted)
+      if (std::abs(pair.s) > counts_as_zero && pair.s.imag() >= 0.0 && found.modes.size() < wanted) {
         found.modes.push_back(scaled_mode(pair.s, pair.u));
+        found.modes.back().decays = pair.s.real() < -std::sqrt(epsilon) * std::abs(pair.s);
+      }
       const double sure = pair.s.real() - pair.error;
       if (std::abs(pair.s) > counts_as_zero && pair.s.real() > 0.0 && pair.s.imag() >= 0.0 &&
           (!fastest || sure > fastest->s.real() - fastest->error))

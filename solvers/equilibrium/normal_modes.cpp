@@ -4,6 +4,7 @@
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/equilibrium_solver.h>
+#include <dalembert/solvers/equilibrium/higher_order.h>
 #include <dalembert/solvers/equilibrium/linear_terms.h>
 #include <dalembert/solvers/equilibrium/lowest_modes.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
@@ -124,10 +125,22 @@ void drop_unknown(const EquilibriumSolver& balance, const FlatSample& at, Modes&
   found.reason = "every mode decays or vibrates with positive energy";
 }
 
-void leave_undecided(Modes& found, const char* why) {
+void leave_undecided(Modes& found, std::string why) {
   if (found.stability != Stability::stable) return;
   found.stability = Stability::undecided;
-  found.reason = why;
+  found.reason = std::move(why);
+}
+
+/// What an energy of linear terms proves holds only if no force adds to it near the equilibrium.
+void require_no_work(const NearEquilibrium& near, const std::function<bool(std::size_t)>& stable_otherwise,
+                     Modes& found) {
+  if (found.stability != Stability::stable) return;
+  const auto forces = near.problem.system().coordinates() > most_dense ? near.violations_of_many(found.modes)
+                                                                       : near.violations(found.modes);
+  for (std::size_t part = 0; part < forces.size(); ++part)
+    if (!forces[part].empty() && !stable_otherwise(part))
+      leave_undecided(found, "some modes do not decay, and beside the equilibrium " + forces[part] +
+                                 ", which has no potential, does work: terms of higher order decide");
 }
 
 /// The uncoupled part of a scene that a mode belongs to.
@@ -397,6 +410,7 @@ Modes find_modes(const System& system, const Record& state, const UniformRotatio
   if (are_of_stiffness(system, terms) && system.coordinates() <= most_dense) drop_unknown(balance, at, found);
   const auto own_part_reverses = [&](const Mode& mode) { return reverses(part_of(mode, problem.islands())); };
   name_zeros(balance, at, motion, own_part_reverses, found);  // all that were found: the verdict is of all
+  require_no_work({problem, balance, at, terms}, reverses, found);
   if (found.stability == Stability::stable && reversible && reversible->decided())
     found.reason =
         "every mode decays, vibrates with positive energy, or stays near since the motion is its own mirror "

@@ -10,7 +10,7 @@ namespace dalembert {
 
 /// Whether a slightly disturbed scene stays near its equilibrium; free motions apart.
 enum class Stability {
-  stable,    ///< every mode decays, or vibrates with positive energy
+  stable,    ///< every mode decays, or vibrates with positive energy to which no force adds
   unstable,  ///< some mode grows
   undecided  ///< the linear terms do not decide
 };
@@ -21,7 +21,8 @@ enum class Stability {
 struct Mode {
   std::complex<double> eigenvalue;          ///< [1 / time]; of a conjugate pair the one with Im > 0
   std::vector<std::complex<double>> shape;  ///< one number per coordinate, the largest is 1
-  bool free = false;  ///< eigenvalue 0, and all of a finite motion along the shape is in balance
+  bool free = false;    ///< eigenvalue 0, and all of a finite motion along the shape is in balance
+  bool decays = false;  ///< surely: the real part is negative by more than it is known to
 };
 
 struct Modes {
@@ -126,6 +127,11 @@ extern template class NormalModes<3>;
 /// which the state rests will do: of a top that sleeps, in one that turns about its axis. So will a mirror
 /// that, with time reversed, leaves it as it is, where it has but one vibration: a disk that rolls above its
 /// critical spin stays near its path up to where that lies ("How it works" has the proof).
+///
+/// An energy that linear terms conserve proves nothing where terms of higher order feed it: x'' = -x + v^3.
+/// Where some modes do not decay, forces without a potential must do no work of velocities and have no
+/// circulation along those modes at finite displacements, up to a hundredth of the scene's length; else the
+/// verdict is undecided. (In some states, so this is no proof; and not of forces that read multipliers.)
 ///
 /// Up to 600 coordinates by dense matrices: all modes. Beyond that the `lowest`, by shift and invert with
 /// memory in proportion to the size of the scene: Lanczos' method if (1) is symmetric and undamped, else

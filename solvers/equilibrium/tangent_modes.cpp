@@ -90,6 +90,7 @@ void of_any(Tangent t, Verdict& verdict) {
   const bool energy_tells = has_energy(t);
   for (const Solution& x : all.others) {
     verdict.found.modes.push_back(mode(x.s, x.z, t));
+    verdict.found.modes.back().decays = x.s.real() < -x.error;
     judge(verdict, x, energy_tells);
   }
 }
