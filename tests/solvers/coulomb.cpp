@@ -594,7 +594,7 @@ TEST(Coulomb, RefusesWhatItIsNotFor) {
   EXPECT_THAT([&] { add(0.3, 0.2); }, ThrowsMessage<InvalidScene>(HasSubstr("mu_static = 0.2")));
   EXPECT_THROW(scene.scene.add(coulomb(Constraint<1>{}, Slip{scene.block, Plane<2>{}}, 0.1)),
                InvalidArgument);
-  EXPECT_THAT([&] { (void)equilibrium(scene.scene); }, ThrowsMessage<InvalidScene>(HasSubstr("\"rough\"")));
+  EXPECT_THAT([&] { (void)equilibrium(scene.scene); }, ThrowsMessage<NoEquilibrium>(HasSubstr("\"rough\"")));
 }
 
 // Constant friction brakes in steps of any length without an error: what is left is the round-off of their

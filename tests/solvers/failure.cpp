@@ -88,16 +88,20 @@ TEST(Failure, AForceThatThrowsIsNamed) {
   EXPECT_LE(failure->time(), 0.5);
 }
 
+/// Where its steps came to: a run that is asked to go there only, by the same steps, does so.
 TEST(Failure, ASimulationCanStillBeReadAtItsLastGoodInstant) {
   const Faulty faulty = throwing_after(1.0);
   Simulation<2> simulation(faulty.scene, sampled(2.0));
   simulation.advance_to(0.5);
-  const Vec<2> position = simulation.position(faulty.bob);
-  const Vec<2> force = simulation.constraint_force(faulty.bob);
   EXPECT_THROW(simulation.advance_to(1.5), IntegrationFailure);
-  EXPECT_EQ(simulation.time(), 0.5);
-  EXPECT_EQ(simulation.position(faulty.bob), position);
-  EXPECT_EQ(simulation.constraint_force(faulty.bob), force);
+  EXPECT_GT(simulation.time(), 0.5);
+  EXPECT_LE(simulation.time(), 1.0);
+  Simulation<2> good(faulty.scene, sampled(2.0));
+  good.advance_to(simulation.time());
+  // Both read a node of the same steps, but for round-off of the projection.
+  EXPECT_LE((simulation.position(faulty.bob) - good.position(faulty.bob)).norm(), 1e-12);
+  const Vec<2> force = good.constraint_force(faulty.bob);
+  EXPECT_LE((simulation.constraint_force(faulty.bob) - force).norm(), 1e-10 * force.norm());
 }
 
 TEST(Failure, StatisticsAreCountedOnce) {
