@@ -149,22 +149,17 @@ TEST_P(Accuracy, CountsTheRoundingOfLateTimes) {
   const std::vector<Vec<2>> exact = pendulum.positions(pendulum.run(1e-13, Stepper::erk));
   for (const double start : {1e5, 1e6, 1e7, 1e8}) {
     for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
-      try {
-        const auto run = simulate(pendulum.scene, {.t_end = start + pendulum.t_end,
-                                                   .t_start = start,
-                                                   .samples = 21,
-                                                   .tolerance = tolerance,
-                                                   .stepper = GetParam()});
-        const auto positions = pendulum.positions(run);
-        double error = 0.0;
-        for (std::size_t i = 0; i < exact.size(); ++i)
-          error = std::max(error, (positions[i] - exact[i]).norm());
-        EXPECT_LE(error / run.statistics().length, 10.0 * run.statistics().accuracy)
-            << start << ' ' << tolerance;
-      } catch (const IntegrationFailure& failure) {
-        EXPECT_NE(std::string(failure.what()).find("resolves times here only to"), std::string::npos)
-            << failure.what();
-      }
+      const auto run = simulate(pendulum.scene, {.t_end = start + pendulum.t_end,
+                                                 .t_start = start,
+                                                 .samples = 21,
+                                                 .tolerance = tolerance,
+                                                 .stepper = GetParam()});
+      const auto positions = pendulum.positions(run);
+      double error = 0.0;
+      for (std::size_t i = 0; i < exact.size(); ++i)
+        error = std::max(error, (positions[i] - exact[i]).norm());
+      EXPECT_LE(error / run.statistics().length, 10.0 * run.statistics().accuracy)
+          << start << ' ' << tolerance;
     }
   }
 }

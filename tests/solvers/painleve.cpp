@@ -17,6 +17,18 @@ using testing::ThrowsMessage;
 class Painleve : public testing::TestWithParam<Stepper> {};
 INSTANTIATE_TEST_SUITE_P(Steppers, Painleve, both_steppers, stepper_name);
 
+/// A rod of mass 1 and length 2 l whose foot, at the origin, slips, while it turns about it.
+RigidBody<2> add_rod(Scene<2>& scene, double l, double angle, double rate, double slip) {
+  return add_body(scene,
+                  BodyState<2>{.mass = 1.0,
+                               .inertia = l * l / 3.0,
+                               .centre = {l * std::cos(angle), l * std::sin(angle)},
+                               .angle = angle,
+                               .velocity = {slip - rate * l * std::sin(angle), rate * l * std::cos(angle)},
+                               .angular_velocity = rate},
+                  "rod");
+}
+
 /// A rod of length 2 l slides on its foot, at an angle phi to the floor. With its moment of inertia
 /// m l^2/3 the normal force has the denominator 1 + 3 cos phi (cos phi - mu sin phi): where
 /// that vanishes, at mu = 1.5 from cos^2 + 1/3 = 1.5 sin cos on, the law has no solution beyond. On the way
@@ -25,15 +37,7 @@ TEST_P(Painleve, ARodThatSlidesToTheSingularityOfItsNormalForceStopsThereByName)
   const double l = 0.5, mu = 1.5, angle = 0.5, rate = 4.0, slip = -8.0;
   Scene<2> scene("rod");
   scene.add(UniformGravity<2>{{0.0, -9.81}});
-  const auto rod =
-      add_body(scene,
-               BodyState<2>{.mass = 1.0,
-                            .inertia = l * l / 3.0,
-                            .centre = {l * std::cos(angle), l * std::sin(angle)},
-                            .angle = angle,
-                            .velocity = {slip - rate * l * std::sin(angle), rate * l * std::cos(angle)},
-                            .angular_velocity = rate},
-               "rod");
+  const auto rod = add_rod(scene, l, angle, rate, slip);
   const auto foot = rod.point({-l, 0.0});
   const auto floor = scene.add(OnCurve{foot, Plane<2>{}}, "floor");
   scene.add(friction_law(floor, points(foot),
@@ -69,14 +73,7 @@ struct RodOnAWire {
 
   RodOnAWire(double friction, double angle, double rate, double slip) : mu(friction) {
     scene.add(UniformGravity<2>{{0.0, -g}});
-    rod = add_body(scene,
-                   BodyState<2>{.mass = 1.0,
-                                .inertia = l * l / 3.0,
-                                .centre = {l * std::cos(angle), l * std::sin(angle)},
-                                .angle = angle,
-                                .velocity = {slip - rate * l * std::sin(angle), rate * l * std::cos(angle)},
-                                .angular_velocity = rate},
-                   "rod");
+    rod = add_rod(scene, l, angle, rate, slip);
     foot = rod.point({-l, 0.0});
     wire = scene.add(OnCurve{foot, Plane<2>{}}, "wire");
     scene.add(coulomb(wire, Slip{foot, Plane<2>{}}, mu), "rub");
