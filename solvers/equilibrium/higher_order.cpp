@@ -26,8 +26,6 @@ namespace {
 using Eigen::Index;
 using Vector = Eigen::VectorXd;
 
-std::span<double> flat(Vector& x) { return {x.data(), static_cast<std::size_t>(x.size())}; }
-std::span<const double> flat(const Vector& x) { return {x.data(), static_cast<std::size_t>(x.size())}; }
 Vector vector_of(std::span<const double> x) {
   return Eigen::Map<const Vector>(x.data(), static_cast<Index>(x.size()));
 }

@@ -13,9 +13,6 @@ namespace {
 using Eigen::Index;
 using Vector = Eigen::VectorXd;
 
-std::span<const double> flat(const Vector& x) { return {x.data(), static_cast<std::size_t>(x.size())}; }
-std::span<double> flat(Vector& x) { return {x.data(), static_cast<std::size_t>(x.size())}; }
-
 /// A u.
 Vector turned(const RotatingFrame& frame, const Vector& u) {
   Vector out(u.size());

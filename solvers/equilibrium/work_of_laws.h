@@ -7,11 +7,18 @@
 
 #include <Eigen/Core>
 
-#include <string>
+#include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace DALEMBERT_HIDDEN dalembert {
+
+/// The numbers of a vector.
+inline std::span<double> flat(Eigen::VectorXd& x) { return {x.data(), static_cast<std::size_t>(x.size())}; }
+inline std::span<const double> flat(const Eigen::VectorXd& x) {
+  return {x.data(), static_cast<std::size_t>(x.size())};
+}
 
 /// A state on the constraints beside one that rests in a frame: the velocity X(q) of the frame, and two
 /// velocities relative to it that the constraints allow.
