@@ -33,6 +33,7 @@ set xrange [*:*] noextend
 set offsets graph 0.05, graph 0.05, 0, 0
 set xtics () # a model's run times span a decade or two: label 1, 2 and 5 of each
 set for [e = -3:6] for [digit in "1 2 5"] xtics add (sprintf("%g", digit * 10.0**e) digit * 10.0**e)
+set rmargin 3 # else gnuplot makes room for labels beyond the range as well
 set key maxcols 3
 
 set terminal svg size 560,500 dynamic enhanced font "sans-serif,13"
