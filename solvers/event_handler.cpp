@@ -108,9 +108,10 @@ void EventHandler::locate(Integration& integration, Stop& stop) {
   };
   std::ranges::copy_if(all, std::back_inserter(stop.not_reached),
                        [&](const auto& one) { return one.record.time > until && !is_here(one); });
-  if (conditional_ != nullptr)
-    conditional_->require_open(
-        read(integration, changes_there || stop.ends_run ? stop.time : integration.time()));
+  if (conditional_ == nullptr) return;
+  const double reached = changes_there || stop.ends_run ? stop.time : integration.time();
+  const FlatSample at = read(integration, reached);
+  integration.as_read(reached, [&] { conditional_->require_open(at); });
 }
 
 /// From where it began, if it has gone past a rest in space: then towards it.
@@ -214,6 +215,15 @@ Change EventHandler::change_scene(const EventRecord& due, const FlatSample& at,
       next.system->layout()->forces.size() != integration.system().layout()->forces.size())
     refuse("its change adds to the scene; add everything before the run, and release or impose it there");
   if (auditor_ != nullptr) auditor_->replace_system(at.time, next.system);
+  Change change = integration.as_read(at.time, [&] { return put_onto(next, at, integration); });
+  change.v_before = next.v;  // what the user gives is what the impulses change
+  change.events.insert(change.events.begin(), due);
+  return change;
+}
+
+/// What an event has changed, put onto the constraints by impulses.
+Change EventHandler::put_onto(const FlatEvent::Changed& next, const FlatSample& at,
+                              const Integration& integration) {
   const Problem always(next.system->without(next.system->layout()->conditional_constraints()));
   std::vector<double> v = next.v;
   const auto impulses = project_impulsively_onto(always, integration.scales(at.time), at.time, next.q, v,
@@ -222,9 +232,7 @@ Change EventHandler::change_scene(const EventRecord& due, const FlatSample& at,
       .v = v, .impulses = std::vector<double>(at.lambda.size()), .q = next.q, .system = next.system};
   if (conditional_ != nullptr)
     change = conditional_->replace_system(next.system, {at.time, next.q, v}, impulses);
-  change.v_before = next.v;  // what the user gives is what the impulses change
   for (std::size_t r = 0; r < impulses.size(); ++r) change.impulses[r] += impulses[r];
-  change.events.insert(change.events.begin(), due);
   return change;
 }
 
@@ -232,12 +240,12 @@ Change EventHandler::change_scene(const EventRecord& due, const FlatSample& at,
 void EventHandler::open_pulling(Change& change, double t, Integration& integration) {
   if (conditional_ == nullptr) return;
   FlatSample now = read(integration, t);
-  while (conditional_->open_pulling(now, change)) {
+  while (integration.as_read(t, [&] { return conditional_->open_pulling(now, change); })) {
     const std::vector<double> q(now.q.begin(), now.q.end()), v(now.v.begin(), now.v.end());
     integration.restart_with_constraints(t, change.system, q, v);
     now = read(integration, t);
   }
-  conditional_->settle(now);
+  integration.as_read(t, [&] { conditional_->settle(now); });
 }
 
 void EventHandler::audit(const Change& change, const FlatSample& after, Integration& integration) {

@@ -64,6 +64,8 @@ class EventHandler {
   void require_progress(const EventRecord& change, const Integration& integration);
   [[nodiscard]] Change change_scene(const EventRecord& due, const FlatSample& at,
                                     const Integration& integration);
+  [[nodiscard]] Change put_onto(const FlatEvent::Changed& next, const FlatSample& at,
+                                const Integration& integration);
   void open_pulling(Change& change, double t, Integration& integration);
   void audit(const Change& change, const FlatSample& after, Integration& integration);
 

@@ -23,13 +23,17 @@ std::unique_ptr<TimeStepper> make_stepper(const Problem& problem, const Start& s
 
 }  // namespace
 
-Integration::Integration(const Problem& problem, Start start, const Options& options) : options_(options) {
+Integration::Integration(const Problem& problem, Start start, const Branches::Sides& sides,
+                         const Options& options)
+    : options_(options) {
   lambda_at_start_ = start.lambda;
   state_ = {start.q, start.v};
   if (problem.system().compliant()) compliant_ = CompliantMultipliers(start.lambda.size());
-  segment_ = make_segment(problem, std::move(start), options.t_start, options.stepper);
-  const Comparisons& comparisons = segment_->comparisons;
-  if (comparisons.chosen()) behind_ = {options.t_start, options.t_start, *comparisons.held()};
+  const double t = options.t_start;
+  Comparisons comparisons(problem, start, t, tolerance_of_a_step(options.stepper, options.tolerance), sides);
+  segment_ = make_segment(problem, std::move(start), t, options.stepper, std::move(comparisons));
+  if (!sides.empty()) behind_ = {t, t, *segment_->comparisons.held()};
+  switch_ = segment_->comparisons.at_start();
   const auto number = [](std::size_t equations) { return static_cast<int>(equations); };
   const auto& rows = this->start().rows.rows;
   const std::size_t active = rows.size();
@@ -69,7 +73,7 @@ std::optional<Comparisons::Behind> Integration::behind_at(const System& system, 
   return behind;
 }
 
-/// From `start` at time t.
+/// From `start` at time t. Between two sides it waits for go_behind_switch().
 std::unique_ptr<Segment> Integration::make_segment(const Problem& problem, Start start, double t,
                                                    Stepper by) const {
   const double tolerance = tolerance_of_a_step(by, options_.tolerance);
@@ -78,10 +82,6 @@ std::unique_ptr<Segment> Integration::make_segment(const Problem& problem, Start
     return make_segment(problem, std::move(start), t, by, std::move(there));
   }
   Comparisons comparisons(problem, start, t, tolerance);
-  if (comparisons.chosen()) {
-    const Branches holding(nullptr, comparisons.held());
-    start = dalembert::restart_with_rows(problem, start, t, start.q, start.v);
-  }
   return make_segment(problem, std::move(start), t, by, std::move(comparisons));
 }
 
@@ -92,7 +92,8 @@ std::unique_ptr<Segment> Integration::make_segment(const Problem& problem, Start
   std::unique_ptr<TimeStepper> stepper;
   {
     const Branches holding(nullptr, comparisons.held());
-    if (start.scales.waits_for_path) measure_path(problem, start, options, comparisons.held());
+    if (start.scales.waits_for_path && !comparisons.at_start())
+      measure_path(problem, start, options, comparisons.held() ? *comparisons.held() : Branches::Sides{});
     stepper = make_stepper(problem, start, options);
   }
   OutputProjection output(problem, start, options_.tolerance);
@@ -113,8 +114,8 @@ void Integration::enter_segment(std::unique_ptr<Segment> next) {
   if (kept_) own_steps().add_segment(next->problem.shared_system(), next->start, t);
   past_ = std::move(past);
   angle_ = {t, 1.0};
-  switch_.reset();
   segment_ = std::move(next);
+  switch_ = segment_->comparisons.at_start();
   scales_at_step_ = start().scales;
   from_ = t;
 }
@@ -147,6 +148,7 @@ void Integration::step(double wanted) {
   if (switch_) go_behind_switch();
   exchange_rows();
   if (options_.stepper == Stepper::ida) watch_sine();
+  if (switch_) go_behind_switch();  // of a segment that was begun between two sides
   if (steps_++ == 0) watch_sliding();
   const double from = time();
   if (scales_at_step_.length_from_path) extend_path(scales_at_step_, from, state_);

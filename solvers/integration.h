@@ -17,8 +17,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// over, where an equation switches, and where constraints change. All that is read lies on the constraints.
 class Integration {
  public:
-  /// From a consistent start, see Opening. Throws StepFailure, EquationFault.
-  Integration(const Problem& problem, Start start, const Options& options);
+  /// From a consistent start, on the sides of an Opening. Throws StepFailure, EquationFault.
+  Integration(const Problem& problem, Start start, const Branches::Sides& sides, const Options& options);
 
   /// Where the last step ended, or where it came to a switch of the equations.
   [[nodiscard]] double time() const { return switch_ ? switch_->at.t : segment_->stepper->time(); }
@@ -36,8 +36,11 @@ class Integration {
   [[nodiscard]] double tolerance() const { return options_.tolerance; }
   /// Throws StepFailure, EquationFault.
   void step(double wanted);
-  /// Whether the last step ended at a switch of the equations. The next one goes on behind it.
+  /// Whether the last step ended at a switch of the equations, or the run begins at one. The next step goes
+  /// on behind it.
   [[nodiscard]] bool at_switch() const { return switch_.has_value(); }
+  /// The same at a time that is not told from its own.
+  [[nodiscard]] bool at_switch(double t) const { return switch_ && t >= switch_->at.t - switch_->ahead; }
   /// What is read at this time from here on is behind the switch. Returns whether the motion goes on there as
   /// it is: if not, a constraint that holds only at times has no velocity that satisfies it on both sides,
   /// and others must take over. Throws StepFailure where that is one that always holds; EquationFault.

@@ -23,7 +23,7 @@ struct DALEMBERT_HIDDEN Integrator::Run {
         times(sample_times(o)),
         system(std::make_shared<const System>(std::move(s))),
         opening(open_run(system, q0, v0, o)),
-        integration(opening.problem, std::move(opening.start), o),
+        integration(opening.problem, std::move(opening.start), opening.sides, o),
         stop{integration.time()},
         now(*system, integration.start(), EventHandler::any_changes_scene(asked_for)),
         next(now) {
@@ -32,7 +32,10 @@ struct DALEMBERT_HIDDEN Integrator::Run {
       handler.emplace(std::move(asked_for), opening.conditional.get(), auditor ? &*auditor : nullptr,
                       integration);
       if (opening.conditional) handler->list_at_start(std::move(opening.change), integration);
-      stop = handler->restart(stop, nullptr, integration);
+      if (integration.at_switch()) (void)resolve();
+      stop = handler->restart(Stop{integration.time()}, nullptr, integration);
+    } else if (integration.at_switch()) {
+      (void)integration.go_behind_switch();
     }
     visit(o.t_start);                     // contacts that would pull are open by now
   } catch (const StepFailure& failure) {  // before the first step it is a fault of the start
@@ -62,18 +65,29 @@ struct DALEMBERT_HIDDEN Integrator::Run {
     }
   }
 
-  /// Resolves the first change that is due, or what a switch of the equations changes, and goes on from it.
   void start_next_segment() {
+    if (const auto before = resolve()) {
+      const FlatSample at = before->flat();
+      stop = handler->restart(stop, &at, integration);
+    }
+  }
+
+  /// Resolves what a switch of the equations changes, or else the first change that is due, and goes on from
+  /// it. Returns the state before, if anything has changed.
+  std::optional<OutputState> resolve() {
+    const bool at_switch = integration.at_switch(stop.time);
+    if (at_switch) stop.time = integration.time();
     integration.read(stop.time, next);
-    const OutputState before = next;
+    OutputState before = next;
     const EventList::Side side{before.flat(), integration.system().layout()};
     audit(side.sample);
-    std::optional<Change> change = stop.changes.empty() ? handler->go_behind_switch(integration)
-                                                        : handler->resolve(stop, side.sample, integration);
-    if (!change) return;
+    std::optional<Change> change =
+        at_switch ? handler->go_behind_switch(integration) : handler->resolve(stop, side.sample, integration);
+    if (!change) return std::nullopt;
     integration.restart_with_constraints(stop.time, change->system, change->q, change->v);
+    if (at_switch) stop.changes.insert(stop.changes.begin(), change->events.front());
     handler->list(std::move(*change), side, integration);
-    stop = handler->restart(stop, &side.sample, integration);
+    return before;
   }
 
   void count_turn() {

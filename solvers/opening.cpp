@@ -1,6 +1,7 @@
 #include "dalembert/solvers/opening.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/contact/contacts_at_start.h>
 #include <dalembert/solvers/erk/erk.h>
@@ -74,11 +75,12 @@ double end_of_sliding(const Problem& problem, const Start& start, TimeStepper& s
 
 /// A scene without a length of its own gets that of the path of a first step.
 Start first_start(const Problem& problem, std::span<const double> q, std::span<const double> v,
-                  const Options& options, double nearest_contact, double lever = 0.0) {
+                  const Options& options, const Branches::Sides& sides, double nearest_contact,
+                  double lever = 0.0) {
   Start start = consistent_start(problem, q, v, options, nearest_contact);
   if (!std::exchange(start.scales.length_from_path, false)) return start;
   if (start.scales.lever == 0.0) start.scales.lever = lever;
-  const double round_off = measure_path(problem, start, options, nullptr);
+  const double round_off = measure_path(problem, start, options, sides);
   if (!start.scales.waits_for_path || start.scales.length > round_off) return start;
   Options still = options;
   still.length = std::max(1.0, round_off);
@@ -99,22 +101,47 @@ double lever_of_all(const System& stated, const Instant& at) {
   return least_lever(stated, e, {angles.begin(), angles.end()});
 }
 
-/// The sides on which comparisons with the time go on from the start. (Where something moves to depends on
-/// what holds it.)
-Branches::Sides sides_behind(const Problem& problem, const Start& start, const Options& options) {
-  if (!problem.system().rheonomic() && !problem.system().forces().timed()) return {};
-  const Comparisons comparisons(problem, start, options.t_start, options.tolerance);
-  if (!comparisons.chosen()) return {};
-  Branches::Sides sides = *comparisons.held();
-  for (std::size_t b = 0; b < sides.size(); ++b)
-    if (!problem.system().timed_batch(b)) sides[b].clear();
+/// What is compared; nothing where something is not defined.
+Branches::Sides compared(const System& stated, const Instant& at) {
+  auto e = stated.evaluation();
+  Branches::Sides recorded;
+  const Branches listening(&recorded, nullptr);
+  try {
+    stated.evaluate(at, e);
+  } catch (const EquationFault&) {
+    recorded.clear();
+  }
+  return recorded;
+}
+
+bool any_undecided(const std::vector<Branches::Comparison>& batch) {
+  return std::ranges::find(batch, 0, &Branches::Comparison::side) != batch.end();
+}
+
+/// A run that starts at a switch with the time starts behind it: there its state is to be consistent, and
+/// its contacts and friction are resolved. (Where something moves to depends on what holds it: see
+/// Comparisons::at_start.) Empty if there is none.
+Branches::Sides sides_behind(const System& stated, const Instant& at, double duration) {
+  if (!stated.rheonomic() && !stated.forces().timed()) return {};
+  const Branches::Sides here = compared(stated, at);
+  std::vector<std::size_t> tied;
+  for (std::size_t b = 0; b < here.size(); ++b)
+    if (stated.timed_batch(b) && any_undecided(here[b])) tied.push_back(b);
+  if (tied.empty()) return {};
+  const double instant = 16.0 * epsilon * std::max(std::abs(at.t), duration);
+  std::vector<double> q(at.q.begin(), at.q.end());
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] += instant * at.v[i];
+  const Branches::Sides behind = compared(stated, {at.t + instant, q, at.v});
+  if (behind.size() != here.size()) return {};
+  Branches::Sides sides(here.size());
+  for (const std::size_t b : tied) sides[b] = behind[b];
   return sides;
 }
 
 }  // namespace
 
 double measure_path(const Problem& problem, Start& start, const Options& options,
-                    const Branches::Sides* sides) {
+                    const Branches::Sides& sides) {
   Options looking = options;
   looking.tolerance = Options{}.tolerance;  // the scene's length is its own, whatever is asked of the run
   Start moving = start;
@@ -122,8 +149,8 @@ double measure_path(const Problem& problem, Start& start, const Options& options
   moving.scales.waits_for_path = false;
   try {
     const double t = options.t_start;
-    Comparisons comparisons = sides ? Comparisons(problem, moving, looking.tolerance, {t, t, *sides})
-                                    : Comparisons(problem, moving, t, looking.tolerance);
+    Comparisons comparisons(problem, moving, t, looking.tolerance, sides);
+    comparisons.go_behind_start();
     const Branches holding(nullptr, comparisons.held());
     ErkStepper first(problem, moving, looking);
     first.step(options.t_end);
@@ -147,28 +174,29 @@ double measure_path(const Problem& problem, Start& start, const Options& options
 
 Opening open_run(const std::shared_ptr<const System>& stated, std::span<const double> q,
                  std::span<const double> v, const Options& options) {
+  const Branches::Sides sides =
+      sides_behind(*stated, {options.t_start, q, v}, options.t_end - options.t_start);
+  const Branches holding(nullptr, &sides);
   const auto numbers = stated->layout()->conditional_constraints();
   if (numbers.empty()) {
     const Problem problem(stated);
-    Start start = first_start(problem, q, v, options, std::numeric_limits<double>::infinity());
+    Start start = first_start(problem, q, v, options, sides, std::numeric_limits<double>::infinity());
     const Scales scales = start.scales;
-    return {nullptr, {}, problem, std::move(start), scales};
+    return {nullptr, {}, problem, std::move(start), scales, sides};
   }
   require_no_force_reads(*stated);
   const double nearest = nearest_contact(*stated, {options.t_start, q, v}),
                lever = lever_of_all(*stated, {options.t_start, q, v});
   const Problem always(stated->without(numbers));
-  const Start free = first_start(always, q, v, options, nearest, lever);
+  const Start free = first_start(always, q, v, options, sides, nearest, lever);
   const Instant at{options.t_start, free.q, free.v};
-  const Branches::Sides sides = sides_behind(always, free, options);
-  const Branches holding(nullptr, &sides);
   const auto open_with = [&](const Scales& scales) {
     auto conditional = std::make_unique<ConditionalConstraints>(stated, scales, options.tolerance, at,
                                                                 options.t_end - options.t_start);
     Change change = conditional->resolve_start(at);
     const Problem problem(change.system);
-    Start start = first_start(problem, change.q, change.v, options, nearest, lever);
-    return Opening{std::move(conditional), std::move(change), problem, std::move(start), scales};
+    Start start = first_start(problem, change.q, change.v, options, sides, nearest, lever);
+    return Opening{std::move(conditional), std::move(change), problem, std::move(start), scales, sides};
   };
   Opening opening = open_with(free.scales);
   // What contacts and friction hold has another length than what is free, and so another speed that is slow.

@@ -21,13 +21,15 @@ struct Opening {
   Problem problem;                                      ///< of the constraints in force
   Start start;
   Scales given;  ///< in which it was told what touches, sticks and separates
+  /// Those behind, of batches in which a comparison with the time switches at the start.
+  Branches::Sides sides;
 };
 
 /// Gives the start of a scene without a length of its own that of the path of a first step, up to where it
-/// leaves the sides of comparisons, or those that it is on. Where nothing but round-off moves on it the start
+/// leaves the sides of comparisons, or those given. Where nothing but round-off moves on it the start
 /// waits for another; returns how long such a path is.
 double measure_path(const Problem& problem, Start& start, const Options& options,
-                    const Branches::Sides* sides);
+                    const Branches::Sides& sides);
 
 /// Of what a scene states, from a guess of its state. A scene without a characteristic length gets that of a
 /// first explicit step, whose error is within the tolerance of its own length. Throws InconsistentStart;

@@ -31,43 +31,62 @@ std::size_t undecided(const Branches::Sides& sides) {
 
 }  // namespace
 
-Comparisons::Comparisons(const Problem& problem, const Start& start, double t, double tolerance)
+Comparisons::Comparisons(const Problem& problem, const Start& start, double t, double tolerance,
+                         const Branches::Sides& known)
     : equations_(problem, start, tolerance),
       time_(start.scales.time),
       coordinates_(start.q.size()),
       from_(t) {
   if (!equations_.record({t, start.q, start.v}, nullptr, recorded_)) recorded_.clear();
+  // Of what is not in force, as a contact that has opened, nothing is recorded.
+  recorded_.resize(std::max(recorded_.size(), known.size()));
+  for (std::size_t b = 0; b < known.size(); ++b)
+    if (!known[b].empty()) recorded_[b] = known[b];
   any_ = std::ranges::any_of(recorded_, [](const auto& batch) { return !batch.empty(); });
   if (!any_) return;
   equations_.start_listening(problem, start);
   held_ = recorded_;
-  choose_sides(start);
   list_margins();
+  find_switch_at_start(start);
 }
 
 Comparisons::Comparisons(const Problem& problem, const Start& start, double tolerance, const Behind& behind)
-    : Comparisons(problem, start, behind.t, tolerance) {
-  equations_.start_listening(problem, start);  // though nothing that is in force may compare anything
-  any_ = true;
-  chosen_ = false;
-  held_.resize(std::max(held_.size(), behind.sides.size()));
-  std::ranges::copy(behind.sides, held_.begin());
+    : Comparisons(problem, start, behind.t, tolerance, behind.sides) {
+  at_start_.reset();
   from_ = behind.checked;
   list_margins();
 }
 
 /// Between two sides, at a corner of an equation, a motion goes to where the accelerations lead in an
 /// instant; what stays there is evaluated as it is.
-void Comparisons::choose_sides(const Start& start) {
+void Comparisons::find_switch_at_start(const Start& start) {
   std::size_t least = undecided(held_);
-  const Motion at{from_, start.q, start.v, start.a};
+  Switch one{};
+  one.at = {from_, start.q, start.v, start.a};
+  one.step = time_;
   for (double ahead = constants.instant_after * time_; least > 0 && ahead < 1e-3 * time_; ahead *= clearly) {
-    move(at, ahead, other_);
+    move(one.at, ahead, other_);
     if (!equations_.record(other_.instant(), nullptr, recorded_) || undecided(recorded_) >= least) continue;
     least = undecided(recorded_);
-    held_ = recorded_;
-    chosen_ = true;
+    one.behind = recorded_;
+    one.ahead = ahead;
   }
+  if (one.behind.empty()) return;
+  const auto leaves = std::ranges::find_if(
+      margins_, [&](const Margin& its) { return its.side == 0 && side_of(its, one.behind) != 0; });
+  if (leaves == margins_.end()) return;
+  leaves->side = -side_of(*leaves, one.behind);
+  one.margin = static_cast<std::size_t>(leaves - margins_.begin());
+  one.distance = rounding(one.margin, one.at);
+  one.clear = true;
+  at_start_ = std::move(one);
+}
+
+void Comparisons::go_behind_start() {
+  if (!at_start_) return;
+  held_ = at_start_->behind;
+  at_start_.reset();
+  list_margins();
 }
 
 void Comparisons::list_margins() {
@@ -160,7 +179,8 @@ const std::vector<std::size_t>& Comparisons::suspects(double to) {
 }
 
 /// Where a margin first becomes negative, if it does before `until`, among its interpolants: those of all
-/// margins have the same nodes. Throws StepFailure where it cannot be followed.
+/// margins have the same nodes. One that is 0 where the step ends, as at a sample at the time of a switch, is
+/// left there if it goes on so. Throws StepFailure where it cannot be followed.
 std::optional<Comparisons::Bracket> Comparisons::first_root(std::size_t k, double until, double to) {
   const FunctionOfTime f = [&](double t) { return margin_at(k, t); };
   const int degree = std::max(stepper_->degree(), least_degree);
@@ -174,7 +194,7 @@ std::optional<Comparisons::Bracket> Comparisons::first_root(std::size_t k, doubl
   const auto leaves_in = [&](const Interpolant& p) {
     for (std::size_t j = 1; j < p.nodes.size() && !first; ++j) {
       const double a = p.nodes[j - 1], b = p.nodes[j], f_a = p.values[j - 1], f_b = p.values[j];
-      if (f_b < 0.0) {
+      if (f_b < 0.0 || (f_b == 0.0 && b == to)) {
         first = Bracket{a, f_a, b, f_b, k};
       } else if (p.slope(j - 1) < 0.0 && p.slope(j) > 0.0) {
         const double t = p.turn(a, b, 1), f_t = f(t);
@@ -278,7 +298,8 @@ std::optional<Comparisons::Switch> Comparisons::leave(TimeStepper& stepper) {
   const Branches holding(nullptr, &held_);
   std::optional<Switch> last;  // that had no effect where it is
   Branches::Sides taken, before_last;
-  for (auto root = first_switch(to); root || last; root = first_switch(to)) {
+  const auto next = [&] { return from_ < to ? first_switch(to) : std::nullopt; };
+  for (auto root = next(); root || last; root = next()) {
     if (last && goes_wrong(taken, root ? root->t : to)) {
       held_ = std::move(before_last);
       list_margins();

@@ -23,9 +23,10 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// can tell, as at a jump of a higher derivative, the step goes on.
 class Comparisons {
  public:
-  /// For steps that begin with `start` at time t; on the sides where it is, or where it moves to from those
-  /// it is between.
-  Comparisons(const Problem& problem, const Start& start, double t, double tolerance);
+  /// For steps that begin with `start` at time t, on the sides where it is, but for batches that have known
+  /// ones.
+  Comparisons(const Problem& problem, const Start& start, double t, double tolerance,
+              const Branches::Sides& known = {});
   /// Behind a switch: on the sides there, which are known to hold up to `checked`. Batches of which none is
   /// known are on the sides where the start is.
   struct Behind {
@@ -36,8 +37,6 @@ class Comparisons {
 
   /// The sides that steps are taken on; null if nothing is compared.
   [[nodiscard]] const Branches::Sides* held() const { return any_ ? &held_ : nullptr; }
-  /// Whether the start is between two sides, so that its accelerations may be those of another one.
-  [[nodiscard]] bool chosen() const { return chosen_; }
 
   /// A switch that a step must not go beyond.
   struct Switch {
@@ -49,6 +48,10 @@ class Comparisons {
     double step;             ///< that it was found in
     Branches::Sides behind;  ///< the sides there
   };
+  /// That of a start between two sides, which goes on behind it.
+  [[nodiscard]] const std::optional<Switch>& at_start() const { return at_start_; }
+  /// Steps are taken behind it.
+  void go_behind_start();
   /// The first one in the step that has just been taken.
   [[nodiscard]] std::optional<Switch> leave(TimeStepper& stepper);
 
@@ -82,7 +85,7 @@ class Comparisons {
     double a, f_a, b, f_b;
     std::size_t margin;
   };
-  void choose_sides(const Start& start);
+  void find_switch_at_start(const Start& start);
   void list_margins();
   [[nodiscard]] static double margin(const Margin& of, const Branches::Sides& recorded);
   [[nodiscard]] static int side_of(const Margin& of, const Branches::Sides& recorded);
@@ -104,8 +107,9 @@ class Comparisons {
   ComparedEquations equations_;
   double time_;  // the scene's
   std::size_t coordinates_;
-  bool any_ = false, chosen_ = false;
+  bool any_ = false;
   Branches::Sides held_, recorded_;
+  std::optional<Switch> at_start_;
   std::vector<Margin> margins_;
   std::vector<Margin> passed_;      // in the step that is looked at, by no more than round-off
   TimeStepper* stepper_ = nullptr;  // of the step that is looked at

@@ -21,7 +21,7 @@ SaddlePattern::Analyses analyses(const Scene<D>& scene, Stepper stepper) {
   const Options options{.t_end = 0.2, .stepper = stepper};
   const auto system = std::make_shared<const System>(scene.system());
   const Opening opening = open_run(system, scene.initial_positions(), scene.initial_velocities(), options);
-  Integration integration(opening.problem, opening.start, options);
+  Integration integration(opening.problem, opening.start, opening.sides, options);
   OutputState moment(*system, integration.start());
   for (int i = 1; i <= 20; ++i) {
     const double t = options.t_end * i / 20;

@@ -97,7 +97,7 @@ template <int D>
 Integration integration_of(const std::shared_ptr<const System>& system, const Scene<D>& scene,
                            const Options& options) {
   const Opening opening = open_run(system, scene.initial_positions(), scene.initial_velocities(), options);
-  return Integration(opening.problem, opening.start, options);
+  return Integration(opening.problem, opening.start, opening.sides, options);
 }
 
 /// All that can be read from a run at its last step, and before it.
