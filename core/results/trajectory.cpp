@@ -3,6 +3,7 @@
 #include <dalembert/core/results/ledger.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 
 namespace dalembert {
@@ -64,6 +65,13 @@ FlatSample Record::sample(std::size_t i) const {
           unique.empty() ? std::span<const char>{} : std::span(unique).subspan(i * rows, rows)};
 }
 
+namespace {
+
+/// As the caller wrote it, who may have counted below 0.
+std::string number(std::size_t index) { return std::to_string(static_cast<std::ptrdiff_t>(index)); }
+
+}  // namespace
+
 template <int D>
 Trajectory<D>::Trajectory(std::shared_ptr<const Record> record) : record_(std::move(record)) {
   if (record_->layout->dimension != D) {
@@ -82,7 +90,7 @@ Trajectory<D>& Trajectory<D>::operator=(const Trajectory&) = default;
 template <int D>
 void Trajectory<D>::require_event(std::size_t k) const {
   if (k < record_->events.size()) return;
-  throw InvalidArgument("There is no event " + std::to_string(k) + ": in this run " +
+  throw InvalidArgument("There is no event " + number(k) + ": in this run " +
                         std::to_string(record_->events.size()) + " happened, counted from 0");
 }
 
@@ -102,15 +110,17 @@ Sample<D> Trajectory<D>::sample_after(std::size_t k) const& {
 template <int D>
 Sample<D> Trajectory<D>::sample(std::size_t i) const& {
   if (i >= size()) {
-    throw InvalidArgument("There is no sample " + std::to_string(i) + ": this run has " +
-                          std::to_string(size()) + ", counted from 0");
+    throw InvalidArgument("There is no sample " + number(i) + ": this run has " + std::to_string(size()) +
+                          ", counted from 0");
   }
   return {*record_->layout_of(i), record_->sample(i)};
 }
 
 template <int D>
 const Ledger& Trajectory<D>::ledger() const& {
-  if (!record_->ledger) throw InvalidArgument("ledger(): run it with the option .ledger = true");
+  if (!record_->ledger)
+    throw InvalidArgument(
+        "ledger(): run it with the option .ledger = true, and ask the run, not what at() reads of it");
   return *record_->ledger;
 }
 

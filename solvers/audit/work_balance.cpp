@@ -129,7 +129,8 @@ void WorkBalance::check(const FlatSample& sample, double work, double error, con
 }
 
 void WorkBalance::accept(const FlatSample& sample) {
-  before_ = std::exchange(checked_, sample.time);
+  // Read once more, an instant leaves the time before it as it is.
+  if (sample.time > checked_) before_ = std::exchange(checked_, sample.time);
   kinetic_ = stated_->kinetic_energy(sample.v);
   changes_before_ = changes_;
   size_ = std::max(size_, std::abs(sample.energy) + kinetic_);

@@ -25,6 +25,9 @@ std::string words_of_time(double t) {
 /// But for what jumps.
 bool is_known(const Certainty& its) { return its.doubt == Doubt::none || its.doubt == Doubt::at_a_jump; }
 
+/// Results are sums of as many terms as the scene has rows and coordinates.
+double roundings_of_sums(const Record& run) { return 10.0 + static_cast<double>(run.coordinates + run.rows); }
+
 }  // namespace
 
 TwoRuns::TwoRuns(std::shared_ptr<const Record> run, std::shared_ptr<const Record> reference,
@@ -43,6 +46,8 @@ TwoRuns::TwoRuns(std::shared_ptr<const Record> run, std::shared_ptr<const Record
   match_samples();
   match_events();
   set_roundings();
+  const double q = better.accuracy / run_->statistics.accuracy;
+  if (q > most_of_better && q <= 1.0 - most_of_better) bound_ = 1.0 / (1.0 - q);
   find_jumps();
   if (!stopped.empty()) {
     const double end = reference_->times.empty() ? -unknown : reference_->times.back();
@@ -50,8 +55,6 @@ TwoRuns::TwoRuns(std::shared_ptr<const Record> run, std::shared_ptr<const Record
                "the more accurate run stopped: " + stopped);
   }
   find_horizon();
-  const double q = better.accuracy / run_->statistics.accuracy;
-  if (q > most_of_better && q <= 1.0 - most_of_better) bound_ = 1.0 / (1.0 - q);
   if (q > 1.0 - most_of_better) {
     std::ostringstream why;
     why << "there is no more accurate run: it claims an accuracy of " << better.accuracy << ", this one of "
@@ -110,30 +113,36 @@ void TwoRuns::match_events() {
     doubt_from(matching.part_at(), Doubt::other_events, matching.difference());
 }
 
-/// Results are sums of as many terms as the scene has rows and coordinates; contacts and friction change
-/// where something is 0 up to what their solvers tell from it.
+/// Contacts and friction change where something is 0 up to what their solvers tell from it.
 void TwoRuns::set_roundings() {
-  const double of_sum = 10.0 + static_cast<double>(run_->coordinates + run_->rows);
+  const double of_sum = roundings_of_sums(*run_);
   for (Certainty& its : samples_) its.roundings = of_sum;
   for (std::size_t k = 0; k < events_.size(); ++k) {
     const bool asked_for = run_->events[k].kind == EventKind::event;
     events_[k].roundings = asked_for ? of_sum : std::max(of_sum, constants.roundings_at_contacts);
+    if (events_[k].doubt == Doubt::none)
+      set_round_off(events_[k], difference(run_->at_events->sample(k),
+                                           reference_->at_events->sample(events_[k].counterpart)));
   }
 }
 
-/// Where a sample lies between the two times of a jump, or as near to them as these are known. A rest begins
-/// for a run at the last impact that it lists.
+/// Where a sample lies between the two times of a jump, or as near to them as these are known: to a part of
+/// their difference, and to round-off. A rest begins for a run at the last impact that it lists. What happens
+/// as the run begins is not looked for: its time is exact.
 void TwoRuns::find_jumps() {
+  if (samples_.empty()) return;
   std::vector<std::pair<double, double>> jumps;
   for (std::size_t k = 0; k < events_.size(); ++k) {
     if (!is_known(events_[k]) || run_->events[k].kind == EventKind::event) continue;
     const std::size_t j = events_[k].counterpart;
     const double a = run_->events[k].time, b = reference_->events[j].time,
-                 more = most_of_better * std::abs(a - b);
+                 part = std::max(most_of_better, bound_ - 1.0);
+    if (a == b && a == run_->times.front()) continue;
+    const double more = std::max({part * std::abs(a - b), round_off_of_time(k), run_->events[k].uncertain});
     double from = std::min(a, b);
     if (events_[k].doubt == Doubt::at_a_jump)
       from = std::min({from, run_->at_events->times[k], reference_->at_events->times[j]});
-    if (a != b || from < a) jumps.emplace_back(from - more, std::max(a, b) + more);
+    jumps.emplace_back(from - more, std::max(a, b) + more);
   }
   std::ranges::sort(jumps);
   for (std::size_t k = 1; k < jumps.size(); ++k)
@@ -175,11 +184,10 @@ void TwoRuns::find_horizon() {
     if (apart > parted) horizon = std::min(horizon, t);
   }
   for (std::size_t k = 0; k < events_.size(); ++k) {
-    Certainty& its = events_[k];
+    const Certainty& its = events_[k];
     if (its.doubt != Doubt::none) continue;
     const double t = run_->events[k].time, apart = difference(run_->at_events->sample(k),
                                                               reference_->at_events->sample(its.counterpart));
-    set_round_off(its, apart);
     if (apart > parted) horizon = std::min(horizon, t);
   }
   if (horizon == unknown) return;
@@ -201,11 +209,14 @@ double TwoRuns::error(double difference, double magnitude, const Certainty& its)
   return std::max(bound_ * difference, round_off(difference, magnitude, its));
 }
 
+/// What is 0 up to round-off is so for as long as the scene takes to move by that, at whatever time; the time
+/// itself is a sum of steps.
 double TwoRuns::round_off_of_time(std::size_t k) const {
   const Certainty& its = events_[k];
   if (!is_known(its)) return unknown;
-  const double magnitude = std::max(std::abs(run_->events[k].time), time_);
-  return std::max(round_off(0.0, magnitude, its), its.of_states * time_ / most_of_better);
+  const double of_sum = roundings_of_sums(*run_) * epsilon * std::abs(run_->events[k].time);
+  return std::max(
+      {round_off(0.0, time_, its), of_sum / most_of_better, its.of_states * time_ / most_of_better});
 }
 
 double TwoRuns::error_of_time(std::size_t k) const {

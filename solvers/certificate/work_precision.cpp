@@ -59,6 +59,22 @@ std::ofstream opened(const std::string& path) {
   return file;
 }
 
+/// Throws unless all that was written has arrived.
+void close(std::ofstream& file, const std::string& path) {
+  file.close();
+  if (!file) throw Error("cannot write " + path + ": is there no room left where it is?");
+}
+
+/// As gnuplot quotes text in one line, of which it takes nothing for a command.
+std::string quoted(const std::string& text) {
+  std::string all = "'";
+  for (const char c : text) {
+    const bool control = static_cast<unsigned char>(c) < 0x20;
+    all += c == '\'' ? std::string("''") : std::string(1, control ? ' ' : c);
+  }
+  return all + '\'';
+}
+
 void write_curves(std::ostream& out, const std::vector<WorkPrecisionPoint>& points) {
   std::string last;
   for (const WorkPrecisionPoint& point : points) {
@@ -108,7 +124,8 @@ void WorkPrecision::write_csv(std::ostream& to) const {
 
 void WorkPrecision::write_plot(std::ostream& out) const {
   write_curves(out, points);
-  out << "set title \"" << scene << "\"\nset logscale xy\nset xlabel \"run time / s\"\nset ylabel \"error\"\n"
+  out << "set title " << quoted(scene)
+      << " noenhanced\nset logscale xy\nset xlabel \"run time / s\"\nset ylabel \"error\"\n"
       << "set format y \"%.0e\"\nset key left bottom\n";
   std::string command = "plot ";
   for (const std::string& stepper : steppers_in(points)) {
@@ -123,11 +140,13 @@ void WorkPrecision::write_plot(std::ostream& out) const {
 void WorkPrecision::write_csv(const std::string& path) const {
   auto file = opened(path);
   write_csv(file);
+  close(file, path);
 }
 
 void WorkPrecision::write_plot(const std::string& path) const {
   auto file = opened(path);
   write_plot(file);
+  close(file, path);
 }
 
 template <int D>

@@ -121,6 +121,10 @@ TEST_F(TwoSamples, AConstraintExertsNoForceOnAParticleItDoesNotTouch) {
 TEST_F(TwoSamples, HaveNoThird) {
   EXPECT_THAT([&] { (void)run.position(a, 2); },
               ThrowsMessage<InvalidArgument>(AllOf(HasSubstr("no sample 2"), HasSubstr("has 2"))));
+  EXPECT_THAT([&] { (void)run.sample(static_cast<std::size_t>(-1)); },
+              ThrowsMessage<InvalidArgument>(HasSubstr("no sample -1:")));
+  EXPECT_THAT([&] { (void)run.event_sample(static_cast<std::size_t>(-1)); },
+              ThrowsMessage<InvalidArgument>(HasSubstr("no event -1:")));
 }
 
 TEST_F(TwoSamples, RefuseAForeignHandle) {

@@ -234,6 +234,50 @@ TEST(Certificate, DoesNotKnowVelocitiesWhereAnImpactMayBeBeforeOrAfter) {
   EXPECT_THAT(certificate.statement(), HasSubstr("not known at 1 samples"));
 }
 
+/// A ball that falls for 1 s and d: two runs may give the same time for its impact and both be off by
+/// round-off. Beyond the error of that time the velocity is known, and on the right side.
+TEST_P(CertificateBy, KnowsTheVelocityBesideAnImpactOnlyBeyondTheErrorOfItsTime) {
+  const double g = 9.81;
+  int known = 0;
+  for (const double d : {1e-15, 3e-15, 1e-14, 4e-14, 1e-13, 1e-12, 1e-9}) {
+    for (const double fall : {1.0 - d, 1.0 + d}) {
+      Scene<2> scene;
+      scene.add(UniformGravity<2>{{0.0, -g}});
+      const auto ball = scene.add_particle({.mass = 0.3, .position = {0.0, 0.5 * g * fall * fall}});
+      scene.add(unilateral(OnCurve{ball, Plane<2>{}}, {.restitution = 0.8}));
+      const double after = 0.8 * g * fall - g * (1.0 - fall);
+      for (const double tolerance : {1e-8, 1e-11}) {
+        const auto certificate =
+            certify(scene, {.t_end = 1.5, .times = {1.0}, .tolerance = tolerance, .stepper = GetParam()});
+        const double error = std::abs(certificate.run().velocity(ball, 0).y() - (fall > 1.0 ? -g : after));
+        EXPECT_GE(certificate.velocity_error(ball, 0), 0.8 * error) << fall - 1.0;
+        if (certificate.doubt(0) == Doubt::none) ++known;
+        if (d < certificate.event_time_error(0)) EXPECT_EQ(certificate.doubt(0), Doubt::at_a_jump);
+      }
+    }
+  }
+  EXPECT_GE(known, 4);  // 1e-9 is far from round-off
+}
+
+/// The clock of a late start is rounded, to 2^-52 of 1e6. That is not multiplied by what a contact takes for
+/// 0, which is a part of the motion.
+TEST_P(CertificateBy, KnowsTheTimesOfImpactsToRoundOffOfTheClockAtALateStart) {
+  const double g = 9.81, start = 1e6;
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto ball = scene.add_particle({.mass = 0.3, .position = {0.0, 1.0}});
+  scene.add(unilateral(OnCurve{ball, Plane<2>{}}, {.restitution = 0.8}));
+  const auto certificate =
+      certify(scene, {.t_end = start + 2.0, .t_start = start, .tolerance = 1e-8, .stepper = GetParam()});
+  const double fall = std::sqrt(2.0 / g);
+  const double first = std::abs(certificate.run().events()[0].time - start - fall),
+               second = std::abs(certificate.run().events()[1].time - start - 2.6 * fall);
+  EXPECT_GE(certificate.event_time_error(0), 0.8 * first);
+  EXPECT_GE(certificate.event_time_error(1), 0.8 * second);
+  // A few hundred roundings of the clock; the 5e4 of what is 0 would be 1e-5.
+  EXPECT_LT(certificate.event_time_error(1), 1000.0 * std::numeric_limits<double>::epsilon() * start);
+}
+
 /// A double pendulum from high up, at a loose tolerance: neighbouring motions part by e in about a tenth of a
 /// second, so that the difference is of the size of the motion long before the end.
 TEST(Certificate, SaysHowFarAChaoticMotionIsKnown) {

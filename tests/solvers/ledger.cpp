@@ -155,6 +155,12 @@ TEST(LedgerOfARun, IsReadWhereItWasAskedFor) {
   const auto run = simulate(scene, {.t_end = 1.0, .samples = 2, .length = 1.0});
   EXPECT_THAT([&] { (void)run.ledger(); },
               testing::ThrowsMessage<InvalidArgument>(testing::HasSubstr(".ledger = true")));
+  const auto kept =
+      simulate(scene, {.t_end = 1.0, .samples = 2, .dense = true, .ledger = true, .length = 1.0});
+  const std::vector<double> times{0.3};
+  const auto between = kept.at(times);
+  EXPECT_THAT([&] { (void)between.ledger(); }, testing::ThrowsMessage<InvalidArgument>(
+                                                   testing::HasSubstr("ask the run, not what at() reads")));
 }
 
 }  // namespace

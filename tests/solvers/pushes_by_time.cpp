@@ -125,5 +125,28 @@ TEST_P(PotentialsOfTime, MaySwitchAtASampleOrBetween) {
   }
 }
 
+/// With something to be found each sample is looked at twice: what happens there comes first. An instant that
+/// is read again shows no less. F = 40 N from 0.7 s on.
+TEST_P(PotentialsOfTime, MaySwitchAtASampleWhateverElseMayHappen) {
+  constexpr double at = 0.7;
+  for (const double level : {-1.0, 0.1}) {
+    for (const bool at_once : {false, true}) {
+      Scene<2> scene;
+      const auto body = scene.add_particle({.mass = 2.0, .velocity = {1.0, 0.0}}, "body");
+      scene.add(potential(points(body), [at_once](auto t, auto r) {
+        return (at_once ? t < at : t <= at) ? 0.0 * r.x() : -40.0 * r.x();
+      }));
+      const Event<2> passes{.name = "passes",
+                            .function = [=](const Sample<2>& now) { return now.position(body).x() - level; }};
+      const auto run = simulate(
+          scene,
+          {.t_end = 1.4, .samples = 11, .tolerance = GetParam().tolerance, .stepper = GetParam().stepper},
+          {passes});
+      EXPECT_NEAR(run.position(body, 10).x(), 1.4 + 0.5 * 20.0 * at * at, 10.0 * error());
+      EXPECT_EQ(run.events().size(), level > 0.0 ? 1U : 0U);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::pushes_by_time_test

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <sstream>
 
@@ -146,6 +147,22 @@ TEST(WorkPrecision, HoldsTheTrueErrors) {
   EXPECT_EQ(std::ranges::count(csv.str(), '\n'), 5);
   curve.write_plot(plot);
   EXPECT_THAT(plot.str(), HasSubstr("plot $ida using 1:2"));
+}
+
+/// A quote, a line's end or a backquote in gnuplot's own quotes would end the text, or be run.
+TEST(WorkPrecision, PlotsASceneOfAnyName) {
+  std::ostringstream plot;
+  WorkPrecision{"a \"b\"\nc 'd' `e`", {}}.write_plot(plot);
+  EXPECT_THAT(plot.str(), HasSubstr("set title 'a \"b\" c ''d'' `e`' noenhanced\n"));
+}
+
+TEST(WorkPrecision, SaysWhenItsFilesWereNotWritten) {
+  const std::string full = "/dev/full";  // which Linux has: no room is left on it
+  if (!std::filesystem::exists(full)) GTEST_SKIP();
+  const WorkPrecision one{"scene", {{.stepper = "ida", .tolerance = 1e-4}}};
+  const auto room = testing::ThrowsMessage<Error>(HasSubstr("cannot write /dev/full: is there no room left"));
+  EXPECT_THAT([&] { one.write_csv(full); }, room);
+  EXPECT_THAT([&] { one.write_plot(full); }, room);
 }
 
 TEST(WorkPrecision, KeepsWhatWasRefusedAsAPointWithoutErrors) {

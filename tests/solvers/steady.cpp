@@ -170,5 +170,24 @@ TEST(Steady, RefusesWhatChangesWithTime) {
   EXPECT_THAT([&] { (void)steady(scene); }, ThrowsMessage<InvalidScene>(HasSubstr("changes with time")));
 }
 
+/// A remedy is one of what is refused: of a contact, a released constraint, friction.
+TEST(Steady, RefusesWhatDoesNotAlwaysHoldWithARemedy) {
+  Scene<2> scene;
+  const auto block = scene.add_particle({.mass = 1.0, .velocity = {1.0, 0.0}});
+  const auto refused = [](const Scene<2>& one, const std::string& why) {
+    EXPECT_THAT([&] { (void)steady(one); }, ThrowsMessage<InvalidScene>(HasSubstr(why)));
+  };
+  Scene<2> touching = scene;
+  touching.add(unilateral(OnCurve{block, Plane<2>{}}));
+  refused(touching, "state it as a bilateral one");
+  const auto floor = scene.add(OnCurve{block, Plane<2>{}}, "floor");
+  Scene<2> released = scene;
+  released.release(floor);
+  refused(released, "\"floor\" has been released and is not in force; put it back");
+  scene.add(coulomb(floor, Slip{block, Plane<2>{}}, 0.3), "rough");
+  refused(scene, "\"rough\": where friction sticks");
+  refused(scene, "leave it out to find the one without friction");
+}
+
 }  // namespace
 }  // namespace dalembert::steady_test

@@ -168,6 +168,20 @@ TEST_F(WriteHtml, NamesAreNoHtml) {
   EXPECT_EQ(page.first("particles").get<std::string>("name"), "<b>\"p\\\"\n&");
 }
 
+/// Well-formed characters of two, three and four bytes stay as they are. Of the rest each byte is U+FFFD:
+/// Latin-1, an overlong '/', half a surrogate pair, what is cut off.
+TEST_F(WriteHtml, NamesThatAreNotUtf8AreShownAsSuch) {
+  const std::string right = "\xc3\xa9 \xe2\x82\xac \xf0\x9f\x99\x82", none = "\xef\xbf\xbd";
+  for (const std::string wrong : {"\xe9", "\xc0\xaf", "\xed\xa0\x80", "\xf0\x9f\x99"}) {
+    Scene<2> odd(right + wrong + right + wrong);
+    odd.add_particle({.mass = 1.0});
+    const Page page = page_of(simulate(odd, {.t_end = 0.1, .samples = 2, .length = 1.0}));
+    std::string shown;
+    for (std::size_t k = 0; k < wrong.size(); ++k) shown += none;
+    EXPECT_EQ(page.data().get<std::string>("scene"), right + shown + right + shown);
+  }
+}
+
 TEST_F(WriteHtml, AForceThatIsNotDeterminedIsNoNumber) {
   auto record = std::make_shared<Record>(*simulate(scene, {.t_end = 1.0, .samples = 3}).record());
   record->values[record->stride() + 3 * record->coordinates] = std::numeric_limits<double>::quiet_NaN();
