@@ -124,7 +124,7 @@ bool EventHandler::take_step_again(const std::vector<EventWatch::Found>& all, In
   });
   if (passes == all.end()) return false;
   const double t = integration.start_of_step();
-  stop = {t, false, {{passes->record.source, t}}, all};
+  stop = {t, false, {{passes->record.source, t}}, {}, all};
   return true;
 }
 
@@ -278,7 +278,7 @@ Stop EventHandler::restart(const Stop& stop, const FlatSample* before, Integrati
   const double t = stop.time;
   const System& system = integration.system();
   std::optional<std::size_t> changed;
-  if (!stop.changes.empty() && was_asked_for(stop.changes.front())) changed = stop.changes.front().source;
+  if (stop.made && was_asked_for(*stop.made)) changed = stop.made->source;
   const EventWatch::Read ahead = [&](double at) {
     integration.read_ahead(at - t, seen_);
     return seen_.flat();
@@ -287,8 +287,7 @@ Stop EventHandler::restart(const Stop& stop, const FlatSample* before, Integrati
   const bool timed = system.rheonomic() || system.forces().timed();
   const auto jumped = watch_.restart({start.flat(), before, asked_for_, timed, stop.not_reached, changed,
                                       ahead, integration.scales(t).time});
-  Stop next{t, stop.ends_run};
-  if (!stop.changes.empty()) next.changes.assign(stop.changes.begin() + 1, stop.changes.end());
+  Stop next{t, stop.ends_run, stop.changes};
   for (const EventWatch::Found& one : jumped) {
     if (!one.wanted) continue;
     if (changes(one.record)) {

@@ -20,6 +20,7 @@ struct Stop {
   double time;
   bool ends_run = false;                         ///< an event has ended the run there
   std::vector<EventRecord> changes{};            ///< due there, in this order
+  std::optional<EventRecord> made{};             ///< the one of them from which the run goes on
   std::vector<EventWatch::Found> not_reached{};  ///< roots of the last step behind it
 };
 
@@ -47,8 +48,8 @@ class EventHandler {
   void list(Change change, const EventList::Side& before, Integration& integration);
   /// The same at the start of a run.
   void list_at_start(Change change, Integration& integration);
-  /// Follows the functions from a stop whose first change has been made, of this sample, or from the start of
-  /// the run.
+  /// Follows the functions from a stop where something has changed, of this sample, or from the start of the
+  /// run.
   [[nodiscard]] Stop restart(const Stop& stop, const FlatSample* before, Integration& integration);
 
   [[nodiscard]] const EventList& events() const { return events_; }

@@ -85,7 +85,11 @@ struct DALEMBERT_HIDDEN Integrator::Run {
         at_switch ? handler->go_behind_switch(integration) : handler->resolve(stop, side.sample, integration);
     if (!change) return std::nullopt;
     integration.restart_with_constraints(stop.time, change->system, change->q, change->v);
-    if (at_switch) stop.changes.insert(stop.changes.begin(), change->events.front());
+    stop.made.reset();
+    if (!at_switch) {
+      stop.made = stop.changes.front();
+      stop.changes.erase(stop.changes.begin());
+    }
     handler->list(std::move(*change), side, integration);
     return before;
   }

@@ -252,7 +252,9 @@ TEST_P(CertificateBy, KnowsTheVelocityBesideAnImpactOnlyBeyondTheErrorOfItsTime)
         const double error = std::abs(certificate.run().velocity(ball, 0).y() - (fall > 1.0 ? -g : after));
         EXPECT_GE(certificate.velocity_error(ball, 0), 0.8 * error) << fall - 1.0;
         if (certificate.doubt(0) == Doubt::none) ++known;
-        if (d < certificate.event_time_error(0)) EXPECT_EQ(certificate.doubt(0), Doubt::at_a_jump);
+        if (d < certificate.event_time_error(0)) {
+          EXPECT_EQ(certificate.doubt(0), Doubt::at_a_jump);
+        }
       }
     }
   }
