@@ -145,6 +145,18 @@ std::optional<Node> EquilibriumCorrector::finished(Node guess) const {
   }
 }
 
+/// A drive that the frame does not turn with, or a force of time, may begin within the range of p.
+bool EquilibriumCorrector::lasts(const Node& node) const {
+  try {
+    const Here here = at(parameter(node), node.x);
+    here.balance.require_lasting(state(here, node));
+    return true;
+  } catch (const Error& error) {
+    why_ = error.what();
+    return false;
+  }
+}
+
 Eigen::VectorXd EquilibriumCorrector::residual(double p, const Node& node, const ActiveRows& rows) const {
   const Here here = at(p, node.x);
   return balance_of(state(here, node), rows);

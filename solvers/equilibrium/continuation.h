@@ -43,7 +43,9 @@ class Corrector {
                                                     const Eigen::VectorXd& normal) const = 0;
   /// The point at x and lambda as they are, if that is one to the accuracy asked of an equilibrium.
   [[nodiscard]] virtual std::optional<Node> finished(Node guess) const = 0;
-  /// Why the last correction failed.
+  /// Whether a point persists as time passes; if not, see `why`.
+  [[nodiscard]] virtual bool lasts(const Node& node) const = 0;
+  /// Why the last correction failed, or the last point does not persist.
   [[nodiscard]] const std::string& why() const { return why_; }
   [[nodiscard]] double parameter(const Node& node) const { return value(node.fraction()); }
   /// The unit tangent of the branch at a point, towards options.to; none at a fold. It has no component along
@@ -99,6 +101,7 @@ class EquilibriumCorrector final : public Corrector {
 
   [[nodiscard]] std::optional<Node> correct(const Node& guess, const Eigen::VectorXd& normal) const override;
   [[nodiscard]] std::optional<Node> finished(Node guess) const override;
+  [[nodiscard]] bool lasts(const Node& node) const override;
   [[nodiscard]] std::optional<Eigen::VectorXd> tangent(const Node& node) const override;
   [[nodiscard]] double parameter_slope(const Node& node, const Eigen::VectorXd& normal) const override;
   [[nodiscard]] bool is_singular(const Node& node, Eigen::Index shape) const override;
