@@ -111,6 +111,7 @@ class EquilibriumCorrector final : public Corrector {
  private:
   struct Here {
     std::shared_ptr<const System> system;
+    Problem problem;
     EquilibriumSolver balance;
     UniformRotation<3> turning;
   };
@@ -125,6 +126,7 @@ class EquilibriumCorrector final : public Corrector {
     Eigen::MatrixXd A;
     double force;           ///< the unit of lambda
     Eigen::VectorXd units;  ///< of each row
+    Eigen::VectorXd sizes;  ///< the same, by the forces of its own uncoupled part of the scene
   };
   [[nodiscard]] Linear linear(const Here& here, const EquilibriumSolver::State& s, const Node& node,
                               const ActiveRows& rows) const;
@@ -135,7 +137,7 @@ class EquilibriumCorrector final : public Corrector {
   /// By the symmetries that the frame keeps: columns.
   [[nodiscard]] Eigen::MatrixXd displacements(const Eigen::VectorXd& x) const;
   void find_symmetries();
-  /// The largest of what is left of R1 and R2, in the units of `linear`.
+  /// The largest of what is left of R1 and R2, in the sizes of `linear`.
   [[nodiscard]] static double unbalanced(const EquilibriumSolver::State& s, const ActiveRows& rows,
                                          const Linear& all);
   void finish(const Here& here, const EquilibriumSolver::State& s, Node& node) const;
