@@ -1,5 +1,6 @@
 #include "dalembert/solvers/equilibrium/branches.h"
 
+#include <dalembert/core/analysis/rank.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/equilibrium/singular_points.h>
 #include <dalembert/solvers/equilibrium/steady_continuation.h>
@@ -58,6 +59,11 @@ class Follower {
     VectorXd along;
     std::size_t origin;
   };
+  /// A null vector; of what symmetries carry into its opposite only one direction counts.
+  struct Axis {
+    VectorXd along;
+    bool one_sided;
+  };
 
   [[nodiscard]] BranchPoint<FlatEquilibrium> point(const Node& node) const {
     return {corrector_.parameter(node), node.state, node.stiffness.least};
@@ -71,6 +77,8 @@ class Follower {
     VectorXd along = start.along;
     double step = step_;
     bool away = false;  // from where it began
+    way_ = 0.0;
+    folded_ = false;
     while (step > constants.shortest_branch_step * step_) {
       Node guess = last;
       guess.x += step * along;
@@ -84,7 +92,7 @@ class Follower {
         fraction(guess) = std::clamp(end, 0.0, 1.0);
       }
       const auto next = corrector_.correct(guess, normal);
-      if (!next || (next->x - last.x).norm() > 2.0 * step) {
+      if (!next || (next->x - last.x).norm() > 2.0 * step || !corrector_.lasts(*next)) {
         step *= 0.5;
         continue;
       }
@@ -136,6 +144,8 @@ class Follower {
       to.push_back(point(flutter.at));
       to.back().frequency = flutter.frequency;
     }
+    add_turning(before, a, b, found, why);
+    const VectorXd along = (b.x - a.x).normalized();
     while (!found.zeros.empty()) {
       const Node at = found.zeros.front().at;
       const bool turns = found.zeros.front().turns;
@@ -154,10 +164,26 @@ class Follower {
       else if (turns)
         found_.folds.push_back(point(at));
       else
-        bifurcate(at, places, why);
+        bifurcate(at, along, places, why);
     }
   }
-  void bifurcate(const Node& found, const std::vector<Index>& places, std::string& why) {
+  /// Where the parameter turns back there is a fold, or a fork.
+  void add_turning(const Node* before, const Node& a, const Node& b, SingularPoints::Found& found,
+                   std::string& why) {
+    const bool folds = std::ranges::any_of(found.zeros, &SingularPoints::Zero::turns),
+               folded = folded_ || folds;
+    const double way = b.fraction() - a.fraction();
+    // Less is round-off of points that are known to the accuracy asked of an equilibrium.
+    const bool is_known = std::abs(way) > std::sqrt(rank_threshold) * (b.x - a.x).norm();
+    const bool turned = is_known && std::exchange(way_, way) * way < 0.0;
+    folded_ = is_known ? folds && !turned : folded;
+    if (before == nullptr || !turned || folded) return;
+    if (auto fork = points_.turning(*before, b))
+      found.zeros.push_back(std::move(*fork));
+    else
+      why += why_turned(*before, b);
+  }
+  void bifurcate(const Node& found, const VectorXd& own, const std::vector<Index>& places, std::string& why) {
     found_.bifurcations.push_back(point(found));
     const auto orbits = corrector_.orbits(found, places);
     std::vector<Axis> axes;
@@ -167,21 +193,60 @@ class Follower {
         if (one_branch) break;  // the others are this one, carried around
       }
     }
-    bool emanates = false;
-    for (const VectorXd& direction : directions(axes)) emanates |= switch_branch(found, direction);
+    bool emanates = false, everywhere = true;
+    for (const VectorXd& direction : directions(axes)) {
+      const bool there = switch_branch(found, own, direction, direction);
+      emanates |= there;
+      everywhere &= there;
+    }
+    if (!emanates || (axes.size() == 1 && !everywhere))
+      emanates |= switch_along_the_parameter(found, own, axes, places);
     if (!emanates) why += why_none(found);
-    if (axes.size() > 2) why += why_not_all(found, places.size());
+    if (axes.size() > 1) why += why_not_all(found, places.size());
+  }
+  /// With t the tangent without any null vector z: a branch that touches z meets another along t; one that
+  /// hardly moves while the parameter changes leaves along t + k z. Across t the equations are quadratic in k
+  /// then, and Newton's iteration from outside ends at the outer root.
+  bool switch_along_the_parameter(const Node& found, const VectorXd& own, const std::vector<Axis>& axes,
+                                  const std::vector<Index>& places) {
+    const VectorXd t = along_the_parameter(found, places);
+    const bool forwards = switch_branch(found, own, t, t), backwards = switch_branch(found, own, -t, -t);
+    bool emanates = forwards || backwards;
+    if (forwards && backwards) return true;
+    for (const auto& [z, one_sided] : axes) {
+      for (const double side : {1.0, -1.0}) {
+        if (one_sided && side < 0.0) continue;
+        emanates |= switch_branch(found, own, t + side * z, t);
+        emanates |= switch_branch(found, own, side * z - t, -t);
+      }
+    }
+    return emanates;
+  }
+  /// Where the parameter does nothing at all, as to a column in line, no tangent is told.
+  [[nodiscard]] VectorXd along_the_parameter(const Node& found, const std::vector<Index>& places) const {
+    Eigen::MatrixXd shapes(found.x.size(), std::ssize(places));
+    for (Index k = 0; k < shapes.cols(); ++k)
+      shapes.col(k) = corrector_.direction(found.stiffness.shapes.col(places[static_cast<std::size_t>(k)]));
+    const Eigen::MatrixXd none = orthonormal_span(std::move(shapes));
+    const VectorXd t = corrector_.tangent(found).value_or(VectorXd::Unit(found.x.size(), found.x.size() - 1));
+    return (t - none * VectorXd(none.transpose() * t)).normalized();
   }
   [[nodiscard]] std::string why_none(const Node& found) const {
     std::ostringstream text;
     text << "at " << corrector_.parameter(found)
-         << " no point of a branch that emanates was found: " << corrector_.why() << "; ";
+         << " no point of a branch that emanates was found: " << not_found_ << "; ";
     return text.str();
   }
   [[nodiscard]] std::string why_not_all(const Node& found, std::size_t count) const {
     std::ostringstream text;
     text << "at " << corrector_.parameter(found) << ' ' << count
-         << " eigenvalues are 0 at once: branches were looked for along their shapes only; ";
+         << " eigenvalues are 0 at once: more branches may emanate than were found; ";
+    return text.str();
+  }
+  [[nodiscard]] std::string why_turned(const Node& a, const Node& b) const {
+    std::ostringstream text;
+    text << "between " << corrector_.parameter(a) << " and " << corrector_.parameter(b)
+         << " the branch turns back, at a point that was not located; ";
     return text.str();
   }
   [[nodiscard]] bool same_place(const VectorXd& a, const VectorXd& b) const {
@@ -196,11 +261,6 @@ class Follower {
     return places;
   }
 
-  /// A null vector; of what symmetries carry into its opposite only one direction counts.
-  struct Axis {
-    VectorXd along;
-    bool one_sided;
-  };
   /// Along each axis, and of two along their bisectors.
   static std::vector<VectorXd> directions(const std::vector<Axis>& axes) {
     std::vector<VectorXd> all;
@@ -218,14 +278,17 @@ class Follower {
     return all;
   }
 
-  /// Whether a point of another branch was found.
-  bool switch_branch(const Node& from, const VectorXd& direction) {
+  /// Whether a point of another branch than `own` was found, beside a guess and across `normal`.
+  bool switch_branch(const Node& from, const VectorXd& own, const VectorXd& towards, const VectorXd& normal) {
     std::optional<Node> next;
     for (double step = step_; !next && step > constants.shortest_branch_step * step_; step *= 0.5) {
       Node guess = from;
-      guess.x += step * direction;
-      next = corrector_.correct(guess, direction);
-      if (next && (next->x - from.x).norm() > 3.0 * step) next.reset();
+      guess.x += step * towards;
+      next = corrector_.correct(guess, normal);
+      if (!next)
+        not_found_ = corrector_.why();
+      else if (!is_another(from, *next, step, own, normal))
+        next.reset();
     }
     if (!next) return false;
     const VectorXd along = (next->x - from.x).normalized();
@@ -237,6 +300,23 @@ class Follower {
       starts_.push_back({*next, along, origin});
     return true;
   }
+  /// Whether a point is not far, persists, and is not the one of `own` across the same hyperplane.
+  bool is_another(const Node& from, const Node& next, double step, const VectorXd& own,
+                  const VectorXd& normal) {
+    constexpr double farthest = 3.0;
+    not_found_ = "those found are of the branch itself, or farther away than a step";
+    if ((next.x - from.x).norm() > farthest * step) return false;
+    if (!corrector_.lasts(next)) {
+      not_found_ = corrector_.why();
+      return false;
+    }
+    const double cosine = normal.dot(own);
+    if (std::abs(cosine) * farthest < 1.0) return true;
+    Node guess = from;
+    guess.x += step / cosine * own;
+    const auto here = corrector_.correct(guess, normal);
+    return !here || !same_place(here->x, next.x);
+  }
   [[nodiscard]] static double fraction_of(const Node& node) { return node.x[node.x.size() - 1]; }
 
   const Corrector& corrector_;
@@ -244,6 +324,9 @@ class Follower {
   SingularPoints points_;
   std::vector<Start> starts_;
   std::vector<VectorXd> located_;
+  std::string not_found_;  // why, of a branch that emanates
+  double way_ = 0.0;       // of the parameter, by the last step that changed it
+  bool folded_ = false;    // since then
   FlatDiagram found_;
 };
 

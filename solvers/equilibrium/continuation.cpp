@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 namespace dalembert {
 
@@ -32,6 +33,20 @@ Eigen::VectorXd balance_of(const EquilibriumSolver::State& s, const ActiveRows& 
   // What rests satisfies the nonholonomic rows.
   for (const std::size_t row : rows.rows) r[next++] = row < s.distance.size() ? s.distance[row] : 0.0;
   return r;
+}
+
+/// The largest force of each uncoupled part: that acts, that a unit of x changes or that the range of p does;
+/// `most` of one without any. A holds these changes.
+std::vector<double> forces_of_parts(const Islands& parts, std::span<const double> acting,
+                                    const Eigen::MatrixXd& A, const Eigen::VectorXd& slope, double most) {
+  std::vector<double> forces(parts.count);
+  for (std::size_t i = 0; i < acting.size(); ++i) {
+    const auto k = static_cast<Index>(i);
+    double& own = forces[parts.of_coordinate[i]];
+    own = std::max({own, acting[i], A.row(k).lpNorm<Eigen::Infinity>(), std::abs(slope[k])});
+  }
+  std::ranges::replace(forces, 0.0, most);
+  return forces;
 }
 
 }  // namespace
@@ -101,8 +116,9 @@ EquilibriumCorrector::Here EquilibriumCorrector::at(double p, const Eigen::Vecto
   if (posed.system->coordinates() != q.size() || posed.system->rows() != begin_.lambda.size())
     throw InvalidScene("Branches of scene \"" + posed.system->layout()->scene +
                        "\": for another value of the parameter it has other points or constraints");
-  EquilibriumSolver balance(Problem(posed.system), q, posed.time, posed.turning, length_);
-  return {std::move(posed.system), std::move(balance), posed.turning};
+  const Problem problem(posed.system);
+  EquilibriumSolver balance(problem, q, posed.time, posed.turning, length_);
+  return {std::move(posed.system), problem, std::move(balance), posed.turning};
 }
 
 EquilibriumSolver::State EquilibriumCorrector::state(const Here& here, const Node& node) const {
@@ -142,6 +158,18 @@ std::optional<Node> EquilibriumCorrector::finished(Node guess) const {
     return guess;
   } catch (const Error&) {
     return std::nullopt;
+  }
+}
+
+/// A drive that the frame does not turn with, or a force of time, may begin within the range of p.
+bool EquilibriumCorrector::lasts(const Node& node) const {
+  try {
+    const Here here = at(parameter(node), node.x);
+    here.balance.require_lasting(state(here, node));
+    return true;
+  } catch (const Error& error) {
+    why_ = error.what();
+    return false;
   }
 }
 
@@ -231,6 +259,10 @@ EquilibriumCorrector::Linear EquilibriumCorrector::linear(const Here& here, cons
   const Eigen::VectorXd slope = slope_by_parameter(node, rows);
   const double most = std::max({A.cwiseAbs().maxCoeff(), slope.head(n).cwiseAbs().maxCoeff(), s.scale}),
                force = most > 0.0 ? most : 1.0;
+  const Islands& parts = here.problem.islands();
+  const std::vector<double> own = forces_of_parts(parts, s.acting, A.topLeftCorner(n, n), slope, force);
+  Eigen::VectorXd units = Eigen::VectorXd::Constant(n + m, force), sizes = units;
+  for (Index i = 0; i < n; ++i) sizes[i] = own[parts.of_coordinate[static_cast<std::size_t>(i)]];
   for (Index a = 0; a < m; ++a) {
     const std::size_t r = rows.rows[static_cast<std::size_t>(a)];
     const bool holonomic = r < here.system->holonomic_rows();
@@ -242,14 +274,16 @@ EquilibriumCorrector::Linear EquilibriumCorrector::linear(const Here& here, cons
     if (holonomic) A(n + a, n + a) = here.system->law(r).compliance * force;
   }
   A.block(0, n + m, n + m, 1) = slope;
-  Eigen::VectorXd units = Eigen::VectorXd::Constant(n + m, force);
   for (Index a = n; a < n + m; ++a) {
-    const double length = A.row(a).head(n + m).norm();
+    const double length = A.row(a).head(n + m).norm(), yields = A(a, a) / force,
+                 across = A.row(a).head(n).norm(),
+                 share = own[parts.of_row(*here.system, rows.rows[static_cast<std::size_t>(a - n)])];
     units[a] = length > 0.0 ? length : 1.0;
+    sizes[a] = length > 0.0 ? std::hypot(across, yields * share) : 1.0;
   }
   A.topRows(n + m) = (units.cwiseInverse().asDiagonal() * A.topRows(n + m)).eval();
   A.bottomLeftCorner(X.cols(), n) = X.transpose();
-  return {std::move(A), force, std::move(units)};
+  return {std::move(A), force, std::move(units), std::move(sizes)};
 }
 
 std::optional<Eigen::VectorXd> EquilibriumCorrector::tangent(const Node& node) const {
@@ -269,10 +303,11 @@ std::optional<Eigen::VectorXd> EquilibriumCorrector::tangent(const Node& node) c
   return along.normalized();
 }
 
-/// Where forces cancel within one law nothing tells what they are sums of: so by what they change by.
+/// Where forces cancel within one law nothing tells what they are sums of: so by what they change by. Of each
+/// uncoupled part, as beside a large one a small one is balanced by nothing.
 double EquilibriumCorrector::unbalanced(const EquilibriumSolver::State& s, const ActiveRows& rows,
                                         const Linear& all) {
-  return balance_of(s, rows).cwiseQuotient(all.units).lpNorm<Eigen::Infinity>();
+  return balance_of(s, rows).cwiseQuotient(all.sizes).lpNorm<Eigen::Infinity>();
 }
 
 Eigen::VectorXd EquilibriumCorrector::solution(const Linear& all, const Eigen::VectorXd& normal,

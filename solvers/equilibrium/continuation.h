@@ -43,7 +43,9 @@ class Corrector {
                                                     const Eigen::VectorXd& normal) const = 0;
   /// The point at x and lambda as they are, if that is one to the accuracy asked of an equilibrium.
   [[nodiscard]] virtual std::optional<Node> finished(Node guess) const = 0;
-  /// Why the last correction failed.
+  /// Whether a point persists as time passes; if not, see `why`.
+  [[nodiscard]] virtual bool lasts(const Node& node) const = 0;
+  /// Why the last correction failed, or the last point does not persist.
   [[nodiscard]] const std::string& why() const { return why_; }
   [[nodiscard]] double parameter(const Node& node) const { return value(node.fraction()); }
   /// The unit tangent of the branch at a point, towards options.to; none at a fold. It has no component along
@@ -99,6 +101,7 @@ class EquilibriumCorrector final : public Corrector {
 
   [[nodiscard]] std::optional<Node> correct(const Node& guess, const Eigen::VectorXd& normal) const override;
   [[nodiscard]] std::optional<Node> finished(Node guess) const override;
+  [[nodiscard]] bool lasts(const Node& node) const override;
   [[nodiscard]] std::optional<Eigen::VectorXd> tangent(const Node& node) const override;
   [[nodiscard]] double parameter_slope(const Node& node, const Eigen::VectorXd& normal) const override;
   [[nodiscard]] bool is_singular(const Node& node, Eigen::Index shape) const override;
@@ -108,6 +111,7 @@ class EquilibriumCorrector final : public Corrector {
  private:
   struct Here {
     std::shared_ptr<const System> system;
+    Problem problem;
     EquilibriumSolver balance;
     UniformRotation<3> turning;
   };
@@ -122,6 +126,7 @@ class EquilibriumCorrector final : public Corrector {
     Eigen::MatrixXd A;
     double force;           ///< the unit of lambda
     Eigen::VectorXd units;  ///< of each row
+    Eigen::VectorXd sizes;  ///< the same, by the forces of its own uncoupled part of the scene
   };
   [[nodiscard]] Linear linear(const Here& here, const EquilibriumSolver::State& s, const Node& node,
                               const ActiveRows& rows) const;
@@ -132,7 +137,7 @@ class EquilibriumCorrector final : public Corrector {
   /// By the symmetries that the frame keeps: columns.
   [[nodiscard]] Eigen::MatrixXd displacements(const Eigen::VectorXd& x) const;
   void find_symmetries();
-  /// The largest of what is left of R1 and R2, in the units of `linear`.
+  /// The largest of what is left of R1 and R2, in the sizes of `linear`.
   [[nodiscard]] static double unbalanced(const EquilibriumSolver::State& s, const ActiveRows& rows,
                                          const Linear& all);
   void finish(const Here& here, const EquilibriumSolver::State& s, Node& node) const;

@@ -136,6 +136,21 @@ SingularPoints::Found SingularPoints::between(const Node* before, const Node& a,
   return found;
 }
 
+/// By (1) below an eigenvalue and the slope of the parameter are 0 at once. Along the branch p - p0 and the
+/// eigenvalue are even there, and only the slope changes its sign.
+std::optional<SingularPoints::Zero> SingularPoints::turning(const Node& a, const Node& b) const {
+  const VectorXd along = (b.x - a.x).normalized();
+  auto zero = nearest(a, b, [&](const Node& node) { return corrector_->parameter_slope(node, along); });
+  if (!zero) return std::nullopt;
+  const auto vanishes = [&](const Pair& pair) {
+    return is_none_beside(zero->at.stiffness.values[pair.second], a.stiffness.values[pair.first]);
+  };
+  zero->turns = false;
+  zero->count = std::ranges::count_if(follow(a, zero->at).pairs, vanishes);
+  if (zero->count == 0) return std::nullopt;
+  return zero;
+}
+
 std::optional<Node> SingularPoints::on_chord(const Node& a, const Node& b, double way) const {
   Node guess = way < 0.5 ? a : b;
   guess.x = a.x + way * (b.x - a.x);

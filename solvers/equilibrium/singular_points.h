@@ -40,6 +40,9 @@ class SingularPoints {
 
   /// Between a and b, `before` a on the branch if there is such a point.
   [[nodiscard]] Found between(const Node* before, const Node& a, const Node& b) const;
+  /// Where the parameter turns back between a and b though no eigenvalue changes its sign: a fork, entered
+  /// along a branch that touches the hyperplane across the parameter there.
+  [[nodiscard]] std::optional<Zero> turning(const Node& a, const Node& b) const;
 
  private:
   /// An eigenvalue at both ends of a step, by its places there.

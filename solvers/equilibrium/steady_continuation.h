@@ -15,6 +15,8 @@ class SteadyCorrector final : public Corrector {
 
   [[nodiscard]] std::optional<Node> correct(const Node& guess, const Eigen::VectorXd& normal) const override;
   [[nodiscard]] std::optional<Node> finished(Node guess) const override;
+  /// Points are found by what makes them last.
+  [[nodiscard]] bool lasts(const Node&) const override { return true; }
   [[nodiscard]] std::optional<Eigen::VectorXd> tangent(const Node& node) const override;
   [[nodiscard]] double parameter_slope(const Node&, const Eigen::VectorXd&) const override { return 1.0; }
   /// Eigenvalues of K decide nothing here.

@@ -297,6 +297,102 @@ TEST(Branches, SkateForksWhereTheSpringAlongItsBladeSoftens) {
   EXPECT_NEAR(sides, 0.0, 1e2 * on_branch);
 }
 
+/// A bead on a hoop of radius 1 about its vertical diameter, driven at one rate, in a frame of another.
+Diagram<Equilibrium<3>> follow_hoop(Particle<3>& bead, const BranchOptions& options, double frame = 0.0) {
+  return follow_branches<3>(
+      [&](double Omega) {
+        auto built = models::HoopAboutDiameter{.spin = Omega, .angle = std::acos(9.81 / 16.0)}.scene();
+        bead = built.bead;
+        return Posed<3>{std::move(built.scene),
+                        {.turning = {.rate = {0.0, 0.0, frame > 0.0 ? frame : Omega}}}};
+      },
+      options);
+}
+
+/// A step is given up below 2e-5 of the range: what lasts to 1e-8 of its speeds and forces ends within.
+constexpr double ended = 1e-4;
+
+TEST(Branches, EndWhereTheDriveLeavesTheFrame) {
+  // At rest in a frame that turns at 4 is the bead of a hoop that is driven at 4 only.
+  Particle<3> bead;
+  const auto diagram = follow_hoop(bead, {.from = 4.0, .to = 6.0}, 4.0);
+  ASSERT_EQ(diagram.branches.size(), 1U);
+  EXPECT_EQ(diagram.branches[0].end, BranchEnd::lost);
+  EXPECT_THAT(diagram.branches[0].why, HasSubstr("turning must be that of its drive"));
+  for (const auto& point : diagram.branches[0].points) EXPECT_NEAR(point.parameter, 4.0, ended);
+}
+
+TEST(Branches, EndWhereAForceOfTimeSetsIn) {
+  const auto diagram = follow_branches<2>(
+      [](double p) {
+        Scene<2> scene("shaken");
+        const auto mass = scene.add_particle({.mass = 1.0}, "mass");
+        scene.add(Spring{Fixed<2>{}, mass, 1.0, 0.0}, "spring");
+        scene.add(force_law(points(mass),
+                            [p](auto t, auto r, auto) { return vec(0.3 + p * sin(t) + 0.0 * r.x(), 0.0); }),
+                  "push");
+        return Posed<2>{std::move(scene)};
+      },
+      {.from = 0.0, .to = 1.0});
+  EXPECT_EQ(diagram.branches[0].end, BranchEnd::lost);
+  EXPECT_THAT(diagram.branches[0].why, HasSubstr("change with time"));
+  EXPECT_NEAR(diagram.branches[0].points.back().parameter, 0.0, ended);
+}
+
+TEST(Branches, ForkFromTheSideOfTheOneThatTurnsBackThere) {
+  // cos phi = g/Omega^2 beyond Omega^2 = g, on both sides of the hoop: one branch that turns back at the
+  // bottom, where the one of the bottom passes.
+  for (const double from : {6.0, 4.0, 3.3}) {
+    for (const double step : {0.02, 0.05}) {
+      Particle<3> bead;
+      const auto diagram = follow_hoop(bead, {.from = from, .to = 2.0, .step = step});
+      ASSERT_EQ(diagram.bifurcations.size(), 1U) << from << ' ' << step;
+      // Omega is flat there along the branch, see ShallowArchTurnsBackWhereItSnaps.
+      EXPECT_NEAR(diagram.bifurcations[0].parameter, std::sqrt(9.81), located);
+      EXPECT_TRUE(diagram.folds.empty());
+      ASSERT_EQ(diagram.branches.size(), 3U) << from << ' ' << step;
+      EXPECT_NEAR(diagram.branches[0].points.back().parameter, from, on_branch);
+      double ends = 0.0;
+      for (const std::size_t b : {1U, 2U}) {
+        EXPECT_EQ(diagram.branches[b].origin, 0U);
+        ends += diagram.branches[b].points.back().parameter;
+        for (const auto& point : diagram.branches[b].points)
+          EXPECT_NEAR(point.state.sample().position(bead).z(), -1.0, on_branch);
+      }
+      EXPECT_NEAR(ends, 2.0 + from, on_branch);  // one to either end
+    }
+  }
+}
+
+TEST(Branches, ForkHoweverFlatTheOtherOneIs) {
+  // (1 - p) x + c x^2 = 0: x = 0, and x = (p - 1)/c to both ends of the range.
+  for (const double c : {0.3, 1.0, 3.0, 10.0}) {
+    Particle<2> bead;
+    const auto diagram = follow_branches<2>(
+        [&](double p) {
+          Scene<2> scene("crossing");
+          bead = scene.add_particle({.mass = 1.0});
+          scene.add(OnCurve{bead, Plane<2>{}});
+          scene.add(potential(points(bead), [=](auto r) {
+            return 0.5 * (1.0 - p) * r.x() * r.x() + c * r.x() * r.x() * r.x() / 3.0;
+          }));
+          const auto unit = scene.add_particle({.mass = 1.0, .position = {3.0, 0.0}});
+          scene.add(Spring{Fixed<2>{{3.0, 0.0}}, unit, 1.0});
+          return Posed<2>{std::move(scene)};
+        },
+        {.from = 0.5, .to = 1.5});
+    ASSERT_EQ(diagram.bifurcations.size(), 1U) << c;
+    ASSERT_EQ(diagram.branches.size(), 3U) << c;
+    double ends = 0.0;
+    for (const std::size_t b : {1U, 2U}) {
+      ends += diagram.branches[b].points.back().parameter;
+      for (const auto& point : diagram.branches[b].points)
+        EXPECT_NEAR(point.state.sample().position(bead).x(), (point.parameter - 1.0) / c, on_branch) << c;
+    }
+    EXPECT_NEAR(ends, 2.0, on_branch) << c;
+  }
+}
+
 TEST(Branches, AllForksWithinOneStepAreFollowed) {
   // Two rigid columns side by side, V = k x^2/2 + p y with k = 10 and 10.1: each buckles at p = k, within the
   // same step of the load, into k cos theta = p to either side.

@@ -4,12 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace dalembert::branches_stability_test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 /// Singular points are where an eigenvalue that crosses 0 with a slope of order 1 is round-off.
 constexpr double located = 1e-12;
@@ -191,6 +193,47 @@ TEST(Branches, SteepTrussForksSidewaysAtOnePlaceWhateverTheStep) {
       ASSERT_FALSE(found.bifurcations.empty()) << h << ' ' << step;
       EXPECT_NEAR(found.bifurcations[0].parameter / expected, 1.0, located) << h << ' ' << step;
     }
+  }
+}
+
+/// The load on two rods of stiffness k from (-+a, 0) to a guided apex, relaxed where it is h high, at height
+/// y.
+double truss_load(double k, double a, double h, double y) {
+  const double relaxed = std::hypot(a, h), length = std::hypot(a, y);
+  return 2.0 * k * y * (h * h - y * y) / (length * (relaxed + length));
+}
+
+TEST(Branches, ASmallTrussBesideALargeOneIsBalancedAtEachPoint) {
+  struct Truss {
+    double a, h, at, share;
+    Particle<2> apex{};
+  };
+  // The small one snaps at its largest load, at y = h/sqrt 3 as it is shallow: of 0.8 of the load of the
+  // other.
+  const double k = 1000.0, least = truss_load(k, 0.01, 3e-5, 3e-5 / std::sqrt(3.0)),
+               most = truss_load(k, 1.0, 0.5, 0.5 / std::sqrt(3.0));
+  std::array<Truss, 2> trusses{Truss{1.0, 0.5, 0.0, 1.0}, Truss{0.01, 3e-5, 2.0, 1.25 * least / most}};
+  const auto diagram = follow_branches<2>(
+      [&](double p) {
+        Scene<2> scene("trusses");
+        for (Truss& t : trusses) {
+          t.apex = scene.add_particle({.mass = 1.0, .position = {t.at, t.h}});
+          for (const double side : {-t.a, t.a})
+            scene.add(
+                compliant(Distance{Fixed<2>{{t.at + side, 0.0}}, t.apex, std::hypot(t.a, t.h)}, 1.0 / k));
+          scene.add(holonomic(points(t.apex), [x = t.at](auto r) { return r.x() - x; }));
+          scene.add(potential(points(t.apex), [f = p * t.share](auto r) { return f * r.y(); }));
+        }
+        return Posed<2>{std::move(scene)};
+      },
+      {.from = 0.0, .to = 1.05 * most});
+  EXPECT_THAT(diagram.branches[0].why, Not(HasSubstr("change with time")));
+  // The first point is one to the accuracy asked of an equilibrium.
+  const Truss& small = trusses[1];
+  for (const auto& point : diagram.branches[0].points) {
+    const double y = point.state.sample().position(small.apex).y();
+    EXPECT_NEAR(truss_load(k, small.a, small.h, y), point.parameter * small.share, 1e-8 * least)
+        << point.parameter;
   }
 }
 

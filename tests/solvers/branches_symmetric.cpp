@@ -212,6 +212,16 @@ TEST(Branches, TurnBackWhereTheForcesOfOneLawCancel) {
   EXPECT_NEAR(found.folds[1].parameter, -limit, located);
 }
 
+TEST(Branches, SayThatOthersMayEmanateWhereTwoShapesFork) {
+  // Which are found hangs on the axes of the null space. One shape with all that a symmetry makes of it is
+  // none of that, see UpToASymmetryAreOneInAnyUnitOfLength.
+  const auto found =
+      follow_rotors(2, [](int, auto x, double p) { return -0.5 * (p - 1.0) * x * x + 0.25 * x * x * x * x; },
+                    {.from = 0.5, .to = 1.5});
+  ASSERT_EQ(found.bifurcations.size(), 1U);
+  EXPECT_THAT(found.branches[0].why, HasSubstr("2 eigenvalues are 0 at once: more branches may emanate"));
+}
+
 TEST(Branches, ThatAreNotFollowedAreListed) {
   // Five pitchforks one after the other: 3^5 branches at the end.
   const auto found = follow_rotors(
