@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 /// What rests, to round-off, without a force: then there is no length, speed or force to compare round-off
@@ -146,6 +147,45 @@ TEST_P(AtRest, ACompliantConstraintWithoutLoadHasTheForce0) {
   const auto run = simulate(scene, options(2.0));
   constexpr double rounding = 4e-16 / 1e-8;  // of the length over the compliance
   for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(run.multiplier(rod, k), 0.0, rounding);
+}
+
+/// The forces of rods at their natural lengths are round-off, of stiffness times length, and where they
+/// cancel so is what they leave of an acceleration.
+TEST(AtRestTest, WhatUnloadedRodsHoldBesideAGuideOrAPinStays) {
+  constexpr double C = 1e-4, tolerance = 1e-8;
+  for (int i = 0; i < 40; ++i)
+    for (const auto& [pinned, stepper] : {std::pair{false, Stepper::erk},
+                                          {false, Stepper::ida},
+                                          {true, Stepper::erk},
+                                          {true, Stepper::ida}}) {
+      const double x = 0.01 * i - 0.9, y = 0.3;
+      Scene<2> scene;
+      const auto body = scene.add_particle({.mass = 1.0, .position = {x, y}}, "body");
+      if (pinned) {
+        scene.add(Coincident{Fixed<2>{{x, y}}, body}, "pin");
+      } else {
+        scene.add(holonomic(points(body), [x](auto r) { return r.x() - x; }), "guide");
+      }
+      for (const Vec<2>& foot : {Vec<2>{1.7, -0.4}, Vec<2>{-1.2, 1.9}})
+        scene.add(compliant(Distance{Fixed<2>{foot}, body, std::hypot(x - foot.x(), y - foot.y())}, C));
+      const auto run =
+          simulate(scene, {.t_end = 0.01, .samples = 2, .tolerance = tolerance, .stepper = stepper});
+      EXPECT_NEAR((run.position(body, 1) - run.position(body, 0)).norm(), 0.0, tolerance) << x << pinned;
+    }
+}
+
+/// The same between two rods that are mirror images.
+TEST(AtRestTest, AGuideBetweenUnloadedRodsContradictsNothing) {
+  constexpr double C = 1e-4, x = -0.07, a = 0.88, h = 0.25;
+  const double length = std::hypot(a, h);
+  Scene<2> scene;
+  const auto body = scene.add_particle({.mass = 1.0, .position = {x, h}}, "body");
+  scene.add(compliant(Distance{Fixed<2>{{x - a, 0.0}}, body, length}, C), "left");
+  scene.add(compliant(Distance{Fixed<2>{{x + a, 0.0}}, body, length}, C), "right");
+  scene.add(holonomic(points(body), [](auto r) { return r.x() - x; }), "guide");
+  const double omega = std::sqrt(2.0 / C) * h / length;
+  EXPECT_NEAR(normal_modes(scene, equilibrium(scene)).frequency(0), omega, 1e-9 * omega);
+  EXPECT_NO_THROW((void)simulate(scene, {.t_end = 1e-4, .samples = 2, .stepper = Stepper::erk}));
 }
 
 }  // namespace
