@@ -188,5 +188,46 @@ TEST(AtRestTest, AGuideBetweenUnloadedRodsContradictsNothing) {
   EXPECT_NO_THROW((void)simulate(scene, {.t_end = 1e-4, .samples = 2, .stepper = Stepper::erk}));
 }
 
+/// A spring and a compliant rod at their natural lengths exert round-off, in any direction, which friction
+/// need not hold. Forces are that of a hundred roundings of a length at most.
+TEST_P(AtRest, UnloadedSpringsMoveNoBlockOnARoughRail) {
+  constexpr double k = 1e4, x = 0.2;
+  for (int i = 0; i < 20; ++i) {
+    const double y = 0.01 * i;
+    Scene<2> scene;
+    const auto block = scene.add_particle({.mass = 1.0, .position = {x, y}}, "block");
+    const Plane<2> level{.point = {0.0, y}};
+    const auto rail = scene.add(OnCurve{block, level}, "rail");
+    const auto friction = scene.add(coulomb(rail, Slip{block, level}, 0.3, 0.4), "friction");
+    scene.add(Spring{Fixed<2>{{0.3, 1.7}}, block, k, std::hypot(x - 0.3, y - 1.7)});
+    const auto rod =
+        scene.add(compliant(Distance{Fixed<2>{{-0.7, -1.1}}, block, std::hypot(x + 0.7, y + 1.1)}, 1.0 / k));
+    const auto run = simulate(scene, options(1.0));
+    EXPECT_TRUE(run.events().empty()) << y;
+    EXPECT_EQ(run.position(block, 4), run.position(block, 0)) << y;
+    constexpr double rounding = 100.0 * 2.3e-16 * k * 3.0;  // of the scene's length
+    for (std::size_t n = 0; n < 5; ++n) {
+      EXPECT_NEAR(run.multiplier(rail, n), 0.0, rounding) << y;
+      EXPECT_NEAR(run.multiplier(friction, n), 0.0, rounding) << y;
+      EXPECT_NEAR(run.multiplier(rod, n), 0.0, rounding) << y;
+    }
+  }
+}
+
+/// Round-off of a spring does not hold what a force beyond friction pulls: x'' = (F - mu m g)/m, beside a
+/// spring across the rail whose force is as good as constant.
+TEST_P(AtRest, ABlockBesideAStiffSpringSlidesUnderALoad) {
+  constexpr double k = 1e4, g = 10.0, mu = 0.3, F = 3.001;
+  Scene<2> scene;
+  const auto block = scene.add_particle({.mass = 1.0, .position = {0.2, 0.1}}, "block");
+  const Plane<2> level{.point = {0.0, 0.1}};
+  const auto rail = scene.add(OnCurve{block, level}, "rail");
+  scene.add(coulomb(rail, Slip{block, level}, mu), "friction");
+  scene.add(UniformGravity<2>{{F, -g}});
+  scene.add(
+      force_law(points(block), [](auto, auto r, auto) { return vec(0.0 * r.x(), -k * (r.y() - 0.1)); }));
+  EXPECT_NEAR(simulate(scene, options(2.0)).position(block, 4).x() - 0.2, 0.5 * (F - mu * g) * 4.0, error());
+}
+
 }  // namespace
 }  // namespace dalembert::at_rest_test
