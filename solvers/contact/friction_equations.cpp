@@ -107,7 +107,7 @@ double FrictionEquations::round_off_of(std::span<const RoughState> all, const Ro
     }
     force = std::max({force, std::abs(lambda[row]), lightest_mass(*stated_, lengths_, row) * acceleration});
   }
-  return std::min(round_off(), tolerance_) * force + std::numeric_limits<double>::min();
+  return std::min(round_off(), tolerance_) * force + rough.noise + std::numeric_limits<double>::min();
 }
 
 }  // namespace dalembert

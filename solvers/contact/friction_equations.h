@@ -51,8 +51,8 @@ class FrictionEquations {
   /// These, numbers among all, without their friction.
   [[nodiscard]] SlipCoupling released(std::span<const RoughState> all, const std::vector<std::size_t>& which,
                                       const Open& open, const Instant& at) const;
-  /// Round-off of its own force and of what it shares with others, and of the inertia of the lightest that it
-  /// acts on; never 0.
+  /// Round-off of its own force and of what it shares with others, of the inertia of the lightest that it
+  /// acts on, and of springs; never 0.
   [[nodiscard]] double round_off_of(std::span<const RoughState> all, const RoughState& rough,
                                     std::span<const double> a, std::span<const double> lambda) const;
 

@@ -57,7 +57,8 @@ double FrictionModes::excess(const RoughState& rough, const Motion& motion) cons
       sigma <= equations_->round_off_of(all_, rough, motion.a, motion.lambda))
     return -1.0;
   const double known = rough.reached ? std::sqrt(round_off()) : -round_off();
-  return sigma / (rough.mu_static * std::abs(motion.lambda[rough.pressing_row])) - 1.0 + known;
+  const double bound = rough.mu_static * std::abs(motion.lambda[rough.pressing_row]) + rough.noise;
+  return sigma / bound - 1.0 + known;
 }
 
 /// Whether all that is at rest can stay there: what others prescribe may move it.

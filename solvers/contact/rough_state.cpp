@@ -3,6 +3,7 @@
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/contact/round_off.h>
+#include <dalembert/solvers/manifold/spring_noise.h>
 
 #include <algorithm>
 #include <cmath>
@@ -54,18 +55,38 @@ VectorXd RoughState::part(std::span<const double> all) const {
 
 double RoughState::no_slip(double tolerance) const { return std::min(round_off(), 0.1 * tolerance) * speed; }
 
+namespace {
+
+/// The force along a row that takes away the accelerations by these forces.
+double along(const System& system, std::span<const double> w, std::size_t row,
+             std::span<const double> forces) {
+  double acceleration = 0.0, of_unit = 0.0;
+  for (const std::size_t k : system.row(row)) {
+    const std::size_t i = system.w_columns()[k];
+    acceleration += std::abs(w[k]) * forces[i] / system.masses()[i];
+    of_unit += w[k] * w[k] / system.masses()[i];
+  }
+  return of_unit > 0.0 ? acceleration / of_unit : 0.0;
+}
+
+}  // namespace
+
 void measure_gradients(std::span<RoughState> all, const System& stated, const Scales& scales,
                        const Instant& at) {
   if (all.empty()) return;
   auto e = stated.evaluation();
+  std::vector<double> noise;
   try {
     stated.evaluate(at, e);
+    noise = spring_noise(stated, scales, at);
   } catch (const EquationFault&) {
     return;  // of what is not in force there; the motion itself will say so, if it gets there
   }
   for (RoughState& r : all) {
     r.of_lengths = r.of_angles = 0.0;
+    r.noise = along(stated, e.w, r.pressing_row, noise);
     for (std::size_t row = r.row; row < r.row + r.rows; ++row) {
+      r.noise = std::max(r.noise, along(stated, e.w, row, noise));
       double of_lengths = 0.0, of_angles = 0.0;
       for (const std::size_t k : stated.row(row))
         (scales.is_angle[stated.w_columns()[k]] ? of_angles : of_lengths) += std::abs(e.w[k]);

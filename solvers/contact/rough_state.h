@@ -27,6 +27,7 @@ struct RoughState {
   bool one_sided = false;
   double sign = 1.0;                         ///< of lambda
   double of_lengths = 1.0, of_angles = 0.0;  ///< what its slip gains by a rate of each
+  double noise = 0.0;  ///< a force on it, or on what presses on it, that is round-off of springs
   /// Speeds: the scene's, but of a brake's rotor that of its rim; that may be none, and below which a slip in
   /// space is slow.
   double speed = 0.0, still = 0.0, slow = 0.0;
@@ -63,7 +64,7 @@ struct RoughState {
   }
 };
 
-/// Notes what their slips gain by rates of coordinates.
+/// Notes what their slips gain by rates of coordinates, and the round-off of springs on them.
 void measure_gradients(std::span<RoughState> all, const System& stated, const Scales& scales,
                        const Instant& at);
 

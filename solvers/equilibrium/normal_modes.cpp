@@ -200,23 +200,46 @@ void require_same_size(const System& system, const FlatSample& at) {
                                std::to_string(system.rows()));
 }
 
+/// What round-off of elongations makes of forces on each coordinate, through springs of compliant rows and
+/// constraints beside them. These pass on no more of a force, in the metric of the masses, than there is (by
+/// Gauss's principle).
+std::vector<double> round_off_of_springs(const Islands& parts, const EquilibriumSolver& balance,
+                                         const EquilibriumSolver::State& s, std::span<const double> w) {
+  const System& system = balance.system();
+  const Scales& scales = balance.scales();
+  const auto lengths = scales.lengths();
+  const double dx = roundings_of_forces * epsilon * scales.length + scales.rounding(s.q);
+  std::vector<double> forces(s.q.size()), squares(parts.count);
+  for (std::size_t r = 0; r < system.rows(); ++r) {
+    if (!system.law(r).compliant()) continue;
+    const double lambda = gradient_length(system, w, lengths, r) * dx / system.law(r).compliance;
+    for (const std::size_t k : system.row(r)) forces[system.w_columns()[k]] += std::abs(w[k]) * lambda;
+  }
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    squares[parts.of_coordinate[i]] += forces[i] * forces[i] / system.masses()[i];
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    forces[i] = std::sqrt(system.masses()[i] * squares[parts.of_coordinate[i]]);
+  return forces;
+}
+
 /// Whether the multipliers of `s` are not those which its forces ask for, `fresh`, but of other forces or
-/// masses. What no multipliers balance is no fault of theirs.
+/// masses. What no multipliers balance is no fault of theirs, nor what is `round_off`.
 bool are_of_other_forces(const System& system, const EquilibriumSolver::State& s,
-                         std::span<const double> fresh, std::span<const double> w) {
+                         std::span<const double> fresh, std::span<const double> w,
+                         std::span<const double> round_off) {
   std::vector<double> excess(s.q.size());
   for (std::size_t r = 0; r < system.rows(); ++r) add_row(system, w, r, s.lambda[r] - fresh[r], excess);
   double unbalanced = 0.0;
   for (std::size_t i = 0; i < excess.size(); ++i)
     unbalanced = std::max(unbalanced, std::abs(s.force[i] - excess[i]));
   for (std::size_t i = 0; i < excess.size(); ++i)
-    if (std::abs(excess[i]) > equilibrium_tolerance * s.acting[i] + unbalanced) return true;
+    if (std::abs(excess[i]) > equilibrium_tolerance * s.acting[i] + unbalanced + round_off[i]) return true;
   return false;
 }
 
 /// Throws unless forces balance there, constraints are satisfied and nothing moves against them, as when it
 /// was found.
-void require_equilibrium(const EquilibriumSolver& balance, const FlatSample& at) {
+void require_equilibrium(const Islands& parts, const EquilibriumSolver& balance, const FlatSample& at) {
   const System& system = balance.system();
   EquilibriumSolver::State s = balance.start();
   const std::vector<double> fresh = s.lambda;
@@ -226,7 +249,9 @@ void require_equilibrium(const EquilibriumSolver& balance, const FlatSample& at)
   auto e = system.evaluation();
   system.evaluate({balance.time(), at.q, at.v}, e);
   std::ostringstream why;
-  if (!balance.is_equilibrium(s, equilibrium_tolerance) || are_of_other_forces(system, s, fresh, e.w))
+  const auto round_off = round_off_of_springs(parts, balance, s, e.w);
+  if (!balance.is_equilibrium(s, equilibrium_tolerance) ||
+      are_of_other_forces(system, s, fresh, e.w, round_off))
     why << "forces or constraints have a relative residual of " << s.relative_residual;
   const Scales& scales = balance.scales();
   const double time = balance.frame().rotates() ? 1.0 / balance.frame().rate() : scales.time;
@@ -390,7 +415,7 @@ Modes find_modes(const System& system, const Record& state, const UniformRotatio
   const EquilibriumSolver balance =
       motion ? EquilibriumSolver(problem, at.q, at.time, RotatingFrame(*motion), length)
              : EquilibriumSolver(problem, at.q, at.time, turning, length);
-  require_equilibrium(balance, at);
+  require_equilibrium(problem.islands(), balance, at);
   require_smooth(system, at);
   LinearTerms terms = linear_terms(system, balance.frame(), {at.time, at.q, at.v}, at.lambda);
   terms.roundings = balance.scales().roundings_of_difference(at.q);

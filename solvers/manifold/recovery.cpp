@@ -2,8 +2,10 @@
 
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/linear/rows.h>
+#include <dalembert/solvers/manifold/spring_noise.h>
 
 #include <algorithm>
 #include <cmath>
@@ -255,17 +257,35 @@ std::vector<double> Recovery::stretches_to_come(const OutputState& m) const {
   return stretches;
 }
 
-/// The force of a spring of stiffness 1/C is off by dx/C where positions are off by dx. That is a rounding of
-/// what was stated; each step adds some more, and as nothing damps the vibration they wander, sqrt(n) steps'
-/// far after n steps. As elsewhere a force may be wrong by the root of the tolerance, relative to the largest
-/// that there is; at the start, where there may be none yet, also to what its own will be. Where nothing acts
-/// and nothing moves there is none, and each is 0 to the rounding of its own stretch.
+/// How far positions are off after so many steps: by a rounding of what was stated, and as each step adds
+/// some more and nothing damps a vibration they wander, sqrt(n) steps' far after n steps.
+double Recovery::wander(const OutputState& m, long steps) const {
+  return scales_.largest_rounding(m.q) + std::sqrt(static_cast<double>(steps)) * scales_.rounding(m.q);
+}
+
+/// Whether nothing moves, and nothing acts but springs and compliant constraints at their natural lengths,
+/// whose forces are round-off: then there is no force to which others are relative, and each is 0 to the
+/// rounding of a stretch.
+bool Recovery::rests_unloaded(const Manifold& manifold, const OutputState& m, long steps) const {
+  const auto& [force, g, psi, w] = manifold.equations();
+  const double dx = wander(m, steps);
+  if (scales_.largest(m.v) * scales_.length * scales_.time > dx) return false;
+  for (std::size_t r = 0; r < m.lambda.size(); ++r) {
+    const double C = system_->law(r).compliance;
+    const double none = gradient_length(*system_, w, lengths_, r) * (dx + 10.0 * epsilon * scales_.length);
+    if (C > 0.0 && std::abs(m.lambda[r]) * C > none) return false;
+  }
+  if (std::ranges::all_of(force, [](double F) { return F == 0.0; })) return true;
+  const auto noise = spring_noise(*system_, scales_, {m.t, m.q, m.v});
+  return std::ranges::equal(force, noise, [](double F, double none) { return std::abs(F) <= none; });
+}
+
+/// The force of a spring of stiffness 1/C is off by dx/C where positions are off by dx. As elsewhere a force
+/// may be wrong by the root of the tolerance, relative to the largest that there is; at the start, where
+/// there may be none yet, also to what its own will be.
 void Recovery::mark_compliant(const Manifold& manifold, OutputState& m, long steps) const {
   const auto& w = manifold.equations().w;
-  const double dx =
-      scales_.largest_rounding(m.q) + std::sqrt(static_cast<double>(steps)) * scales_.rounding(m.q);
-  const bool unloaded = std::ranges::all_of(manifold.equations().force, [](double F) { return F == 0.0; });
-  if (unloaded && scales_.largest(m.v) * scales_.length * scales_.time <= dx) return;
+  const double dx = wander(m, steps);
   const double largest = largest_force(manifold, m);
   const auto to_come = steps == 0 ? stretches_to_come(m) : std::vector<double>{};
   for (const Layout::Constraint& c : system_->layout()->constraints) {
@@ -300,8 +320,11 @@ void Recovery::recover(Manifold& manifold, OutputState& m, long steps) {
 }
 
 void Recovery::mark(Manifold& manifold, OutputState& m, long steps) {
-  if (manifold.sine() <= constants.well_conditioned) mark_undetermined(manifold, m);
-  if (system_->compliant() && !manifold.uses_given_multipliers()) mark_compliant(manifold, m, steps);
+  const bool close = manifold.sine() <= constants.well_conditioned;
+  const bool read = system_->compliant() && !manifold.uses_given_multipliers();
+  const bool unloaded = (close || read) && rests_unloaded(manifold, m, steps);
+  if (close && (system_->rheonomic() || !unloaded)) mark_undetermined(manifold, m);  // drives may accelerate
+  if (read && !unloaded) mark_compliant(manifold, m, steps);
 }
 
 }  // namespace dalembert

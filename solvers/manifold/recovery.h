@@ -61,6 +61,8 @@ class Recovery {
   void mark_accelerations(OutputState& m) const;
   [[nodiscard]] double largest_force(const Manifold& manifold, const OutputState& m) const;
   [[nodiscard]] std::vector<double> stretches_to_come(const OutputState& m) const;
+  [[nodiscard]] double wander(const OutputState& m, long steps) const;
+  [[nodiscard]] bool rests_unloaded(const Manifold& manifold, const OutputState& m, long steps) const;
   void mark_compliant(const Manifold& manifold, OutputState& m, long steps) const;
   void require_finite(const OutputState& m) const;
   void leave_forces_out(OutputState& m) const;

@@ -93,12 +93,30 @@ enum class Level { position, velocity };
   throw InconsistentStart(what.str());
 }
 
+/// Per coordinate, the sum of what the forces and each compliant constraint by itself accelerate it by.
+std::vector<double> forced_by_each(const System& system, const System::Evaluation& e,
+                                   std::span<const double> lambda) {
+  std::vector<double> a(e.force.size());
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] = std::abs(e.force[i]) / system.masses()[i];
+  for (std::size_t r = 0; r < system.rows(); ++r) {
+    if (!system.in_force(r) || !system.law(r).compliant()) continue;
+    for (const std::size_t k : system.row(r)) {
+      const auto i = system.w_columns()[k];
+      a[i] += std::abs(e.w[k] * lambda[r]) / system.masses()[i];
+    }
+  }
+  return a;
+}
+
 /// Dropped rows follow from the others in position and velocity once they hold at the start. In
 /// acceleration they must agree too: two drives of one point may coincide and yet contradict each other.
 ///
 /// Where nothing moves, whatever speeds were given, or all move alike, the terms are round-off and agree in
 /// nothing: they are known to the round-off of a term of those speeds, v^2/L. A row's terms are divided by
 /// the length of its gradient: they are accelerations.
+///
+/// Accelerations are known to the round-off of the largest that a force gives, also where all forces cancel:
+/// those of springs at their natural lengths are the round-off of these, and so is each of their sums.
 void require_consistent_accelerations(const System& system, const Manifold& manifold, const Start& start,
                                       std::span<const double> given, double t) {
   const double speed = std::max(start.scales.largest(given), start.scales.largest(start.v));
@@ -106,7 +124,7 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
   std::vector<double> residual(system.rows());
   system.bias({t, start.q, start.v}, residual);
   const auto& w = manifold.equations().w;
-  const auto forced = forced_acceleration(system, manifold.equations());
+  const auto forced = forced_by_each(system, manifold.equations(), start.lambda);
   const auto lengths = start.scales.lengths();
   double scale = 0.0;
   for (std::size_t r = 0; r < residual.size(); ++r) {
@@ -116,7 +134,7 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
     for (const std::size_t k : system.row(r)) {
       const auto i = system.w_columns()[k];
       const double term = w[k] * start.a[i] / gradient;
-      scale = std::max({scale, std::abs(term), std::abs(residual[r]), std::abs(w[k] * forced[i]) / gradient});
+      scale = std::max({scale, std::abs(term), std::abs(residual[r]), std::abs(w[k]) * forced[i] / gradient});
       residual[r] += term;
     }
   }

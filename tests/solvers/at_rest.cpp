@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 /// What rests, to round-off, without a force: then there is no length, speed or force to compare round-off
@@ -146,6 +147,86 @@ TEST_P(AtRest, ACompliantConstraintWithoutLoadHasTheForce0) {
   const auto run = simulate(scene, options(2.0));
   constexpr double rounding = 4e-16 / 1e-8;  // of the length over the compliance
   for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(run.multiplier(rod, k), 0.0, rounding);
+}
+
+/// The forces of rods at their natural lengths are round-off, of stiffness times length, and where they
+/// cancel so is what they leave of an acceleration.
+TEST(AtRestTest, WhatUnloadedRodsHoldBesideAGuideOrAPinStays) {
+  constexpr double C = 1e-4, tolerance = 1e-8;
+  for (int i = 0; i < 40; ++i)
+    for (const auto& [pinned, stepper] : {std::pair{false, Stepper::erk},
+                                          {false, Stepper::ida},
+                                          {true, Stepper::erk},
+                                          {true, Stepper::ida}}) {
+      const double x = 0.01 * i - 0.9, y = 0.3;
+      Scene<2> scene;
+      const auto body = scene.add_particle({.mass = 1.0, .position = {x, y}}, "body");
+      if (pinned) {
+        scene.add(Coincident{Fixed<2>{{x, y}}, body}, "pin");
+      } else {
+        scene.add(holonomic(points(body), [x](auto r) { return r.x() - x; }), "guide");
+      }
+      for (const Vec<2>& foot : {Vec<2>{1.7, -0.4}, Vec<2>{-1.2, 1.9}})
+        scene.add(compliant(Distance{Fixed<2>{foot}, body, std::hypot(x - foot.x(), y - foot.y())}, C));
+      const auto run =
+          simulate(scene, {.t_end = 0.01, .samples = 2, .tolerance = tolerance, .stepper = stepper});
+      EXPECT_NEAR((run.position(body, 1) - run.position(body, 0)).norm(), 0.0, tolerance) << x << pinned;
+    }
+}
+
+/// The same between two rods that are mirror images.
+TEST(AtRestTest, AGuideBetweenUnloadedRodsContradictsNothing) {
+  constexpr double C = 1e-4, x = -0.07, a = 0.88, h = 0.25;
+  const double length = std::hypot(a, h);
+  Scene<2> scene;
+  const auto body = scene.add_particle({.mass = 1.0, .position = {x, h}}, "body");
+  scene.add(compliant(Distance{Fixed<2>{{x - a, 0.0}}, body, length}, C), "left");
+  scene.add(compliant(Distance{Fixed<2>{{x + a, 0.0}}, body, length}, C), "right");
+  scene.add(holonomic(points(body), [](auto r) { return r.x() - x; }), "guide");
+  const double omega = std::sqrt(2.0 / C) * h / length;
+  EXPECT_NEAR(normal_modes(scene, equilibrium(scene)).frequency(0), omega, 1e-9 * omega);
+  EXPECT_NO_THROW((void)simulate(scene, {.t_end = 1e-4, .samples = 2, .stepper = Stepper::erk}));
+}
+
+/// A spring and a compliant rod at their natural lengths exert round-off, in any direction, which friction
+/// need not hold. Forces are that of a hundred roundings of a length at most.
+TEST_P(AtRest, UnloadedSpringsMoveNoBlockOnARoughRail) {
+  constexpr double k = 1e4, x = 0.2;
+  for (int i = 0; i < 20; ++i) {
+    const double y = 0.01 * i;
+    Scene<2> scene;
+    const auto block = scene.add_particle({.mass = 1.0, .position = {x, y}}, "block");
+    const Plane<2> level{.point = {0.0, y}};
+    const auto rail = scene.add(OnCurve{block, level}, "rail");
+    const auto friction = scene.add(coulomb(rail, Slip{block, level}, 0.3, 0.4), "friction");
+    scene.add(Spring{Fixed<2>{{0.3, 1.7}}, block, k, std::hypot(x - 0.3, y - 1.7)});
+    const auto rod =
+        scene.add(compliant(Distance{Fixed<2>{{-0.7, -1.1}}, block, std::hypot(x + 0.7, y + 1.1)}, 1.0 / k));
+    const auto run = simulate(scene, options(1.0));
+    EXPECT_TRUE(run.events().empty()) << y;
+    EXPECT_EQ(run.position(block, 4), run.position(block, 0)) << y;
+    constexpr double rounding = 100.0 * 2.3e-16 * k * 3.0;  // of the scene's length
+    for (std::size_t n = 0; n < 5; ++n) {
+      EXPECT_NEAR(run.multiplier(rail, n), 0.0, rounding) << y;
+      EXPECT_NEAR(run.multiplier(friction, n), 0.0, rounding) << y;
+      EXPECT_NEAR(run.multiplier(rod, n), 0.0, rounding) << y;
+    }
+  }
+}
+
+/// Round-off of a spring does not hold what a force beyond friction pulls: x'' = (F - mu m g)/m, beside a
+/// spring across the rail whose force is as good as constant.
+TEST_P(AtRest, ABlockBesideAStiffSpringSlidesUnderALoad) {
+  constexpr double k = 1e4, g = 10.0, mu = 0.3, F = 3.001;
+  Scene<2> scene;
+  const auto block = scene.add_particle({.mass = 1.0, .position = {0.2, 0.1}}, "block");
+  const Plane<2> level{.point = {0.0, 0.1}};
+  const auto rail = scene.add(OnCurve{block, level}, "rail");
+  scene.add(coulomb(rail, Slip{block, level}, mu), "friction");
+  scene.add(UniformGravity<2>{{F, -g}});
+  scene.add(
+      force_law(points(block), [](auto, auto r, auto) { return vec(0.0 * r.x(), -k * (r.y() - 0.1)); }));
+  EXPECT_NEAR(simulate(scene, options(2.0)).position(block, 4).x() - 0.2, 0.5 * (F - mu * g) * 4.0, error());
 }
 
 }  // namespace

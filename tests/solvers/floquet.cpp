@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -41,6 +42,30 @@ TEST(Floquet, RestingSceneHasTheMultipliersOfItsModes) {
     EXPECT_NEAR(found.multipliers[0].real(), expected.real(), known);
     EXPECT_NEAR(std::abs(found.multipliers[0].imag()), expected.imag(), known);
     EXPECT_EQ(found.stability(), drag > 0.0 ? Stability::stable : Stability::undecided);
+  }
+}
+
+/// Springs at their natural lengths exert round-off, and a pin what balances it. The body vibrates about its
+/// pin with omega^2 = k b^2 / I, b the arm of the spring's force.
+TEST(Floquet, UnloadedSpringsOfWhatRestsHaveNoPeriodToMiss) {
+  constexpr double k = 1e4, mass = 1.0, inertia = 0.3, period = 0.05;
+  const Vec<2> centre{0.3, 0.7}, pin{0.2, 0.1}, foot{1.3, -0.9};
+  for (int i = 0; i < 40; ++i) {
+    const Vec<2> hook{0.1 * i - 2.1, 1.1};
+    Scene<2> scene("pinned");
+    const auto body = add_body(
+        scene, BodyState<2>{.mass = mass, .inertia = inertia, .centre = centre, .angle = 0.3}, "body");
+    scene.add(Coincident{Fixed<2>{pin}, body.point_at(pin)}, "pin");
+    scene.add(Spring{Fixed<2>{foot}, body.point_at(hook), k, (hook - foot).norm()}, "spring");
+    const Vec<2> r = hook - pin, along = (hook - foot).normalized();
+    const double arm = r.x() * along.y() - r.y() * along.x();
+    const double omega = std::abs(arm) * std::sqrt(k / (inertia + mass * (centre - pin).squaredNorm()));
+    const auto found = floquet(scene, period);
+    ASSERT_EQ(found.multipliers.size(), 2U) << i;
+    // Rates far above 1/period amplify what is known, of the matrix, by as much.
+    EXPECT_NEAR((found.multipliers[0] + found.multipliers[1]).real(), 2.0 * std::cos(omega * period),
+                known * std::max(1.0, omega))
+        << i;
   }
 }
 

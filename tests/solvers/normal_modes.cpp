@@ -10,9 +10,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <vector>
 
 namespace dalembert::normal_modes_test {
 namespace {
@@ -85,6 +87,39 @@ TEST(NormalModes, CompliantRodHasTheModesOfPendulumAndSpring) {
     // Of a matrix with entries to k/m each eigenvalue omega^2 is known to roundings of that.
     EXPECT_NEAR(modes.frequency(0), std::sqrt(9.81 / (1.0 + 19.62 / k)), rounding + 10 * epsilon * k);
     EXPECT_NEAR(modes.frequency(1), std::sqrt(k / 2.0), std::sqrt(k) * rounding);
+  }
+}
+
+/// Of three rigid masses on rods of stiffness k, each along n at the arm b about their centre, the sum of
+/// omega^2 is the trace of K/M: of k (1/(3 m) + b^2/I) for each rod. What the rods exert is round-off.
+TEST(NormalModes, ATriangleOnUnloadedRodsIsInItsOwnEquilibrium) {
+  constexpr double k = 1e6;
+  for (int i = 0; i < 200; ++i) {
+    Scene<2> scene("triangle");
+    const std::array<Vec<2>, 3> corners{Vec<2>{0.0, 0.0}, {1.0, 0.01 * i - 0.7}, {0.4, 0.9}},
+        feet{Vec<2>{-1.1, 0.3}, {2.3, 0.4}, {0.5, 2.2}};
+    const Vec<2> centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+    std::vector<Particle<2>> all;
+    for (const auto& r : corners) all.push_back(scene.add_particle({.mass = 1.0, .position = r}));
+    double moment = 0.0, trace = 0.0;
+    for (const auto& r : corners) moment += (r - centre).squaredNorm();
+    for (std::size_t j = 0; j < 3; ++j) {
+      const std::size_t next = (j + 1) % 3;
+      scene.add(Distance{all[j], all[next], (corners[j] - corners[next]).norm()});
+      const Vec<2> rod = corners[j] - feet[j], arm = corners[j] - centre;
+      scene.add(compliant(Distance{Fixed<2>{feet[j]}, all[j], rod.norm()}, 1.0 / k));
+      const double b = (arm.x() * rod.y() - arm.y() * rod.x()) / rod.norm();
+      trace += k * (1.0 / 3.0 + b * b / moment);
+    }
+    const auto rest = equilibrium(scene);
+    const auto modes = normal_modes(scene, rest);
+    ASSERT_EQ(modes.size(), 3U) << i;
+    double sum = 0.0;
+    for (std::size_t m = 0; m < 3; ++m) sum += modes.frequency(m) * modes.frequency(m);
+    EXPECT_NEAR(sum, trace, trace * rounding) << i;
+    // A force of 1e-5 is a hundred times the round-off of these rods.
+    scene.add(force_law(points(all[0]), [](auto t, auto, auto) { return vec(1e-5 + 0.0 * t, 0.0 * t); }));
+    EXPECT_THROW((void)normal_modes(scene, rest), InvalidArgument) << i;
   }
 }
 
