@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -177,6 +178,27 @@ TEST_P(SwitchTimes, ForcesEndWithTheRunBeforeTheirJump) {
     const auto floor = lifted.scene.add(unilateral(OnCurve{lifted.block, Plane<2>{}}), "floor");
     const auto rest = run(lifted, {0.0, at.T});
     EXPECT_NEAR(rest.multiplier(floor, 1), g, bound(rest)) << at.T;
+  });
+}
+
+// m y" = -y/C - g + F/m behind T on a yielding floor at its rest, y = -C m g + C F (1 - cos(t - T)) with C =
+// m = 1. Read from the steps, with a ledger of the work that the push does.
+TEST_P(SwitchTimes, PushBeginsOnAYieldingFloorWhereStepsAndLedgerAreRead) {
+  for_each_switch([](Switching at) {
+    Yard yard(at);
+    yard.scene.replace(yard.block, {.mass = 1.0, .position = {0.0, -g}});
+    yard.push({0.0, 3.0});
+    yard.scene.add(compliant(OnCurve{yard.block, Plane<2>{}}, 1.0), "floor");
+    const auto run = simulate(yard.scene, {.t_end = 2.0,
+                                           .times = {0.0, at.T, 2.0},
+                                           .tolerance = GetParam().tolerance,
+                                           .stepper = GetParam().stepper,
+                                           .dense = true,
+                                           .ledger = true});
+    for (const double t : {0.5 * at.T, at.T + 0.4, 2.0}) {
+      const double y = -g + (t > at.T ? 3.0 * (1.0 - std::cos(t - at.T)) : 0.0);
+      EXPECT_NEAR(run.at({t}).position(yard.block, 0).y(), y, bound(run)) << at.T << ' ' << t;
+    }
   });
 }
 
