@@ -224,7 +224,7 @@ Change EventHandler::change_scene(const EventRecord& due, const FlatSample& at,
 /// What an event has changed, put onto the constraints by impulses.
 Change EventHandler::put_onto(const FlatEvent::Changed& next, const FlatSample& at,
                               const Integration& integration) {
-  const Problem always(next.system->without(next.system->layout()->conditional_constraints()));
+  const Problem always(next.system->without(next.system->conditions().conditional_constraints()));
   std::vector<double> v = next.v;
   const auto impulses = project_impulsively_onto(always, integration.scales(at.time), at.time, next.q, v,
                                                  integration.tolerance());

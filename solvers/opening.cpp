@@ -22,7 +22,7 @@ namespace {
 void require_no_force_reads(const System& system) {
   const auto pattern = system.forces().friction_pattern();
   for (std::size_t k = 0; k < pattern.size(); ++k) {
-    for (const std::size_t c : system.layout()->contacts()) {
+    for (const std::size_t c : system.conditions().contacts()) {
       const Layout::Constraint& contact = system.layout()->constraints[c];
       if (pattern[k].column != contact.own_rows().front()) continue;
       throw InvalidScene(system.forces().owner_of_friction(k) + " reads the force of " + contact.label() +
@@ -177,7 +177,7 @@ Opening open_run(const std::shared_ptr<const System>& stated, std::span<const do
   const Branches::Sides sides =
       sides_behind(*stated, {options.t_start, q, v}, options.t_end - options.t_start);
   const Branches holding(nullptr, &sides);
-  const auto numbers = stated->layout()->conditional_constraints();
+  const auto numbers = stated->conditions().conditional_constraints();
   if (numbers.empty()) {
     const Problem problem(stated);
     Start start = first_start(problem, q, v, options, sides, std::numeric_limits<double>::infinity());

@@ -36,9 +36,7 @@ ActingParts::Acting ActingParts::acting(const Layout::Constraint& constraint, Pi
 
 /// An event may change it: then the layout does.
 std::optional<std::size_t> ActingParts::released(std::size_t constraint) {
-  const auto out = [constraint](const Layout& layout) {
-    return layout.constraints[constraint].condition.released;
-  };
+  const auto out = [constraint](const Layout& layout) { return layout.conditions->of[constraint].released; };
   const auto ever = [&](const auto& later) { return out(*later.layout); };
   if (!out(*layout_) && std::ranges::none_of(run_->later, ever)) return {};
   return all_->columns().add([&](std::size_t i) {
@@ -104,13 +102,15 @@ std::optional<ActingParts::Arrow> ActingParts::torque_arrow(const Acting& its) {
 
 void ActingParts::write_constraint(Json& json, const Acting& its, const Pictures& pictures) const {
   const Layout::Constraint& c = *its.constraint;
+  const auto index = &c - layout_->constraints.data();
+  const Condition& holds = layout_->conditions->of[static_cast<std::size_t>(index)];
   json.object([&] {
-    json.member("index", &c - layout_->constraints.data());
+    json.member("index", index);
     json.member("kind", c.kind);
     json.member("name", c.name);
     json.member("meaning", c.meaning);
-    if (c.condition.contact) json.member("oneSided", c.condition.contact->sign());
-    if (c.condition.roughness) json.member("pressedBy", c.condition.roughness->pressed_by);
+    if (holds.contact) json.member("oneSided", holds.contact->sign());
+    if (holds.roughness) json.member("pressedBy", holds.roughness->pressed_by);
     pictures.write(json, its.drawn);
     json.member("lambda", its.lambda);
     write_error(json, its.error);

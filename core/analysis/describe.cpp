@@ -75,28 +75,29 @@ std::string System::describe() const {
   const std::size_t n = coordinates();
   const std::size_t nonholonomic = rows() - holonomic_rows();
   std::ostringstream out;
-  out << "scene \"" << layout_->scene << "\": " << layout_->particles.size()
-      << (layout_->particles.size() == 1 ? " particle" : " particles") << rotors(layout_->rotors.size())
-      << " in " << layout_->dimension << " dimensions, " << n << " coordinates\n"
-      << "constraints: " << kinds(parts_.constraints) << "; " << holonomic_rows() << " holonomic and "
-      << nonholonomic << " nonholonomic equations, " << (rheonomic() ? "rheonomic" : "scleronomic") << '\n'
-      << (layout_->contacts().empty()
+  out << "scene \"" << layout()->scene << "\": " << layout()->particles.size()
+      << (layout()->particles.size() == 1 ? " particle" : " particles") << rotors(layout()->rotors.size())
+      << " in " << layout()->dimension << " dimensions, " << n << " coordinates\n"
+      << "constraints: " << kinds(batches()) << "; " << holonomic_rows() << " holonomic and " << nonholonomic
+      << " nonholonomic equations, " << (rheonomic() ? "rheonomic" : "scleronomic") << '\n'
+      << (conditions().contacts().empty()
               ? ""
-              : "one-sided of these: " + std::to_string(layout_->contacts().size()) + ", counted as closed\n")
+              : "one-sided of these: " + std::to_string(conditions().contacts().size()) +
+                    ", counted as closed\n")
       << freedom_by_count(*this) << "islands that do not act on each other: " << islands(*this).count << '\n'
-      << "forces: " << kinds(forces_.plain()) << " besides constant ones"
-      << (forces_.has_friction() ? ", and " + kinds(forces_.friction()) + " that read multipliers" : "")
+      << "forces: " << kinds(forces().plain()) << " besides constant ones"
+      << (forces().has_friction() ? ", and " + kinds(forces().friction()) + " that read multipliers" : "")
       << '\n'
       << "unknowns of the stabilised index-2 equations: " << 2 * n + rows() + holonomic_rows() << '\n';
   const auto left_out = [&out](bool is, const char* what) {
     if (is) out << "left out: " << what << '\n';
   };
-  left_out(layout_->dimension == 2, "the third coordinate: the scene is planar");
+  left_out(layout()->dimension == 2, "the third coordinate: the scene is planar");
   left_out(rows() > 0 && !rheonomic(), "time derivatives of the constraints: none depends on time");
   left_out(rows() > 0 && !compliant(), "compliance: all constraints are rigid");
-  left_out(stiffness_pattern_.empty(), "the stiffness block: no force or constraint varies with position");
-  left_out(forces_.damping_pattern().empty(), "the damping block: no force depends on velocities");
-  left_out(!forces_.has_friction() && rows() > 0, "friction: no force reads a multiplier");
+  left_out(stiffness_pattern().empty(), "the stiffness block: no force or constraint varies with position");
+  left_out(forces().damping_pattern().empty(), "the damping block: no force depends on velocities");
+  left_out(!forces().has_friction() && rows() > 0, "friction: no force reads a multiplier");
   left_out(holonomic_rows() == 0, "the position multipliers mu: there is no holonomic constraint");
   left_out(rows() == 0, "the constraint forces: there is no constraint");
   return out.str();

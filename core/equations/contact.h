@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace dalembert {
 
@@ -29,6 +31,23 @@ struct Condition {
   std::optional<Contact> contact{};      ///< of a one-sided constraint
   std::optional<Roughness> roughness{};  ///< of Coulomb friction
   bool released = false;                 ///< not in force
+
+  /// Whether it holds at all times.
+  [[nodiscard]] bool always() const { return !contact && !roughness && !released; }
+};
+
+/// When each constraint of a scene holds.
+struct Conditions {
+  std::vector<Condition> of{};  ///< by the number of the constraint
+
+  /// The numbers of one-sided constraints.
+  [[nodiscard]] std::vector<std::size_t> contacts() const;
+  /// Those of Coulomb's law.
+  [[nodiscard]] std::vector<std::size_t> frictional_constraints() const;
+  /// All that are either.
+  [[nodiscard]] std::vector<std::size_t> conditional_constraints() const;
+  /// Those that the scene has released.
+  [[nodiscard]] std::vector<std::size_t> released() const;
 };
 
 }  // namespace dalembert

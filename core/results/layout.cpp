@@ -7,39 +7,6 @@
 
 namespace dalembert {
 
-namespace {
-
-std::vector<std::size_t> constraints_that(const Layout& layout, const auto& hold) {
-  std::vector<std::size_t> numbers;
-  for (std::size_t c = 0; c < layout.constraints.size(); ++c)
-    if (hold(layout.constraints[c].condition)) numbers.push_back(c);
-  return numbers;
-}
-
-}  // namespace
-
-std::vector<std::size_t> Layout::contacts() const {
-  return constraints_that(*this, [](const Condition& c) { return c.contact.has_value(); });
-}
-
-std::vector<std::size_t> Layout::frictional_constraints() const {
-  return constraints_that(*this, [](const Condition& c) { return c.roughness.has_value(); });
-}
-
-std::vector<std::size_t> Layout::conditional_constraints() const {
-  return constraints_that(*this, [](const Condition& c) { return c.contact || c.roughness; });
-}
-
-std::vector<std::size_t> Layout::released() const {
-  return constraints_that(*this, [](const Condition& c) { return c.released; });
-}
-
-std::string Layout::conditional_label() const {
-  for (const Constraint& c : constraints)
-    if (c.condition.contact || c.condition.roughness || c.condition.released) return c.label();
-  return {};
-}
-
 void Layout::index_slots(std::size_t coordinates) {
   touching_start.assign(coordinates + 1, 0);
   for (const int coordinate : slot_coordinate) ++touching_start[static_cast<std::size_t>(coordinate) + 1];

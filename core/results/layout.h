@@ -43,7 +43,6 @@ struct Layout {
     int first_row;   ///< in lambda
     int first_slot;  ///< in the slots of constraint forces, `width` of them
     std::uint64_t scene;
-    Condition condition{};  ///< when, if not always
     std::string meaning{};  ///< what its multiplier is, with its direction and sign, in words
     std::shared_ptr<const Drawing> drawing{};
 
@@ -77,6 +76,7 @@ struct Layout {
   /// touching_start[i + 1].
   std::vector<int> touching, touching_start;
   std::shared_ptr<const AppliedForces> applied;  ///< what the forces are at any instant
+  std::shared_ptr<const Conditions> conditions;  ///< when the constraints hold
 
   /// Whether the handle of something is one of this scene's.
   template <int D>
@@ -112,15 +112,6 @@ struct Layout {
   }
   /// Sets which slots act on each coordinate, once all have their places.
   void index_slots(std::size_t coordinates);
-
-  /// The numbers of one-sided constraints, of those of Coulomb's law, and of all that are either.
-  [[nodiscard]] std::vector<std::size_t> contacts() const;
-  [[nodiscard]] std::vector<std::size_t> frictional_constraints() const;
-  [[nodiscard]] std::vector<std::size_t> conditional_constraints() const;
-  /// Those that the scene has released.
-  [[nodiscard]] std::vector<std::size_t> released() const;
-  /// The label of a constraint that does not always hold; empty if all do.
-  [[nodiscard]] std::string conditional_label() const;
 
   /// The particle that a coordinate belongs to, or none: it is a rotor's.
   [[nodiscard]] const Particle* particle_at(int coordinate) const;

@@ -313,14 +313,14 @@ void Scene<D>::replace_any(int handle, const detail::ElementTable<ConstraintBatc
                            const void* constraint) {
   const auto number = static_cast<std::size_t>(handle);
   Layout::Constraint& its = layout_.constraints[number];
-  const bool released = its.condition.released;
+  Condition& holds = conditions_.of[number];
   Surroundings around = Admitting(*this, {its.kind, its.name}).of(type, constraint);
-  const Condition condition = type.condition(constraint);
+  Condition condition = type.condition(constraint);
+  condition.released = holds.released;
   auto drawing = type.drawing(constraint);
   exchange(constraints_, type, constraint, constraint_places_[number], number, its.label(),
            std::move(around));
-  its.condition = condition;
-  its.condition.released = released;
+  holds = condition;
   its.drawing = std::move(drawing);
 }
 
@@ -366,8 +366,9 @@ int Scene<D>::enter(Place place, const std::string& name, Surroundings around, c
   const int number = static_cast<int>(layout_.constraints.size());
   const ConstraintShape shape = constraints_[place.group].batch->shape();
   layout_.constraints.push_back({std::string(shape.kind), name, shape.rows, shape.width, shape.inputs,
-                                 shape.internal, 0, 0, identity_.number(), holds, std::string(meaning),
+                                 shape.internal, 0, 0, identity_.number(), std::string(meaning),
                                  std::move(drawing)});
+  conditions_.of.push_back(holds);
   place.around = std::move(around);
   constraint_places_.push_back(std::move(place));
   names_.insert({name, {Kind::constraint, number}});

@@ -256,6 +256,7 @@ class Scene {
 
   detail::Identity identity_;
   Layout layout_;
+  Conditions conditions_;
   std::vector<double> q_, v_, masses_;
   std::vector<std::pair<int, UniformGravity<D>>> gravities_;  // and their numbers among the forces
   std::vector<Group<ConstraintBatch>> constraints_;

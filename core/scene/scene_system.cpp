@@ -30,10 +30,12 @@ void Scene<D>::start_from(const Sample<D>& sample) {
 
 template <int D>
 void Scene<D>::set_released(int constraint, bool released) {
-  Layout::Constraint& its = layout_.constraints[static_cast<std::size_t>(constraint)];
-  if (its.condition.contact || its.condition.roughness)
-    throw InvalidArgument(its.label() + " does not always hold: it cannot be released or imposed");
-  its.condition.released = released;
+  const auto number = static_cast<std::size_t>(constraint);
+  Condition& holds = conditions_.of[number];
+  if (holds.contact || holds.roughness)
+    throw InvalidArgument(layout_.constraints[number].label() +
+                          " does not always hold: it cannot be released or imposed");
+  holds.released = released;
 }
 
 namespace detail {
@@ -78,7 +80,7 @@ System Scene<D>::system() const {
     }
     return with_paths.diagonal();
   };
-  SystemParts parts{.layout = layout_, .masses = masses_, .extent = extent};
+  SystemParts parts{.layout = layout_, .conditions = conditions_, .masses = masses_, .extent = extent};
   parts.layout.id = identity_.number();
   Vec<D> together = Vec<D>::Zero();
   for (const auto& [number, gravity] : gravities_) {
@@ -100,8 +102,8 @@ System Scene<D>::system() const {
     parts.forces.batches.push_back(group.batch->clone());
     parts.forces.numbers.push_back(group.numbers);
   }
-  const System all(std::move(parts));
-  const auto released = all.layout()->released();
+  System all(std::move(parts));
+  const auto released = all.conditions().released();
   return released.empty() ? all : all.without(released);
 }
 

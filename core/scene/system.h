@@ -14,9 +14,9 @@ namespace dalembert {
 
 /// The parts a System is made of; Scene::system() fills them in.
 struct SystemParts {
-  Layout layout{};               ///< rows, slots and applied forces are filled in by System
+  Layout layout{};               ///< rows, slots, conditions and applied forces are filled in by System
+  Conditions conditions{};       ///< one per constraint
   std::vector<double> masses{};  ///< one per coordinate; a rotor's inertia
-  // Shared by all systems of a run, whatever is in force.
   std::vector<std::shared_ptr<const ConstraintBatch>> constraints{};
   std::vector<std::vector<int>> constraint_numbers{};  ///< per batch: the scene's number of each element
   ForceParts forces{};
@@ -32,6 +32,8 @@ struct SystemParts {
 /// The force of constraint on coordinate i is Z_i = (W^T lambda)_i. A compliant holonomic constraint
 /// satisfies g + C lambda = 0 in place of g = 0: a spring whose force is its multiplier. Forces that read
 /// multipliers, F_f(t,q,v,lambda), join F in (1); what is called friction here is any of them.
+///
+/// A System is its equations, which copies share, and which of their rows are in force.
 class System {
  public:
   /// Everything a residual needs at one instant.
@@ -51,32 +53,36 @@ class System {
 
   explicit System(SystemParts parts);
 
-  [[nodiscard]] std::size_t coordinates() const { return parts_.masses.size(); }
-  [[nodiscard]] std::size_t rows() const { return row_start_.size() - 1; }
-  [[nodiscard]] std::size_t holonomic_rows() const { return holonomic_rows_; }
+  [[nodiscard]] std::size_t coordinates() const { return shared_->parts.masses.size(); }
+  [[nodiscard]] std::size_t rows() const { return shared_->row_start.size() - 1; }
+  [[nodiscard]] std::size_t holonomic_rows() const { return shared_->holonomic_rows; }
   /// Whether any constraint depends on time explicitly.
   [[nodiscard]] bool rheonomic() const;
-  [[nodiscard]] const RowLaw& law(std::size_t row) const { return laws_[row]; }
+  [[nodiscard]] const RowLaw& law(std::size_t row) const { return shared_->laws[row]; }
+  /// When each constraint holds, by its number in the layout.
+  [[nodiscard]] const Conditions& conditions() const { return *layout()->conditions; }
+  /// The label of a constraint that does not always hold; empty if all do.
+  [[nodiscard]] std::string conditional_label() const;
   /// Whether any row is not rigid.
   [[nodiscard]] bool compliant() const { return compliant_rows() > 0; }
-  [[nodiscard]] std::size_t compliant_rows() const { return compliant_rows_; }
-  [[nodiscard]] std::span<const double> masses() const { return parts_.masses; }
+  [[nodiscard]] std::size_t compliant_rows() const { return shared_->compliant_rows; }
+  [[nodiscard]] std::span<const double> masses() const { return shared_->parts.masses; }
   /// Whether each coordinate is an angle, and not a length.
   [[nodiscard]] std::vector<char> angles() const;
   /// Diagonal of the box around all points, the driven ones where they are at the start of the run [length].
-  [[nodiscard]] double extent(double t_start) const { return parts_.extent(t_start); }
-  [[nodiscard]] const std::shared_ptr<const Layout>& layout() const { return layout_; }
+  [[nodiscard]] double extent(double t_start) const { return shared_->parts.extent(t_start); }
+  [[nodiscard]] const std::shared_ptr<const Layout>& layout() const { return shared_->layout; }
   /// The applied forces: F, F_f, their derivatives and energies.
-  [[nodiscard]] const ForceBatches& forces() const { return forces_; }
+  [[nodiscard]] const ForceBatches& forces() const { return forces_->batches; }
 
   /// Pattern of W: its entries by rows, `for (const std::size_t k : row(r))`, and the column of each, the
   /// coordinate w_columns()[k]. A column may occur twice in a row; its entries add.
-  [[nodiscard]] Places row(std::size_t r) const { return {row_start_[r], row_start_[r + 1]}; }
-  [[nodiscard]] std::span<const std::size_t> w_columns() const { return w_columns_; }
+  [[nodiscard]] Places row(std::size_t r) const { return {shared_->row_start[r], shared_->row_start[r + 1]}; }
+  [[nodiscard]] std::span<const std::size_t> w_columns() const { return shared_->w_columns; }
   /// Places of the entries of the stiffness; places may repeat, their entries add.
-  [[nodiscard]] std::span<const MatrixEntry> stiffness_pattern() const { return stiffness_pattern_; }
+  [[nodiscard]] std::span<const MatrixEntry> stiffness_pattern() const { return forces_->stiffness_pattern; }
   /// The number of entries of the stiffness that are those of constraints; they come first.
-  [[nodiscard]] std::size_t stiffness_of_constraints() const { return stiffness_of_constraints_; }
+  [[nodiscard]] std::size_t stiffness_of_constraints() const { return shared_->stiffness_of_constraints; }
   /// The rows in force of constraints that hold only at times.
   [[nodiscard]] std::vector<std::size_t> conditional_rows() const;
   /// g and psi of the rows of these at an instant, also of those that are not in force; 0 in
@@ -115,8 +121,8 @@ class System {
   void linearise_constraints(const Instant& at, std::span<const double> lambda, Linearisation& out) const;
   /// And the part from the forces: all the rest.
   void linearise_forces(const Instant& at, std::span<const double> lambda, Linearisation& out) const {
-    forces_.friction_slope(at, lambda, out.friction);
-    forces_.linearise(at, lambda, out.stiffness, out.damping);
+    forces().friction_slope(at, lambda, out.friction);
+    forces().linearise(at, lambda, out.stiffness, out.damping);
   }
 
   /// What multipliers exert at the points the constraints were stated for, out of W: for every row as many
@@ -134,7 +140,7 @@ class System {
   [[nodiscard]] double elastic_energy(std::span<const double> lambda) const;
 
   /// The number of batches in Branches that the scene states; those of what slides come behind.
-  [[nodiscard]] std::size_t stated_batches() const { return parts_.constraints.size() + forces_.stated(); }
+  [[nodiscard]] std::size_t stated_batches() const { return batches().size() + forces().stated(); }
   /// The label of what a batch holds, by its number in Branches.
   [[nodiscard]] std::string label_of_batch(std::size_t batch) const;
   /// Whether its equations depend on time explicitly.
@@ -152,37 +158,53 @@ class System {
   [[nodiscard]] std::string describe(double t, std::span<const double> q) const;
 
  private:
-  /// Unless gamma is empty, with the bias.
-  void evaluate_all(const Instant& at, Evaluation& out, std::span<double> gamma) const;
-  void place_constraints(Layout& layout);
-  [[nodiscard]] const Layout::Constraint& constraint_of_row(std::size_t row, std::size_t& batch) const;
-
-  template <class F>
-  void on_constraints(double t, const F& f) const;
-
   /// Where a batch's part of each array is.
   struct ConstraintPlaces {
     Places rows, w, stiffness;
     bool holonomic;
   };
+  /// What is the same whatever is in force.
+  struct Shared {
+    SystemParts parts;
+    std::shared_ptr<const Layout> layout{};
+    std::vector<ConstraintPlaces> constraint_places{};
+    std::size_t holonomic_rows = 0;
+    std::vector<std::size_t> row_start{0}, w_columns{};
+    std::vector<RowLaw> laws{};
+    std::size_t compliant_rows = 0, stiffness_of_constraints = 0;
+
+    /// Returns the pattern of their stiffness.
+    std::vector<MatrixEntry> place_constraints(Layout& layout);
+  };
+  /// With those of what slides.
+  struct Forces {
+    ForceBatches batches;
+    std::vector<MatrixEntry> stiffness_pattern;  // with that of the constraints
+  };
+
+  /// Unless gamma is empty, with the bias.
+  void evaluate_all(const Instant& at, Evaluation& out, std::span<double> gamma) const;
+  [[nodiscard]] const Layout::Constraint& constraint_of_row(std::size_t row, std::size_t& batch) const;
+  [[nodiscard]] const std::vector<std::shared_ptr<const ConstraintBatch>>& batches() const {
+    return shared_->parts.constraints;
+  }
+  /// The scene's numbers of the elements of a batch.
+  [[nodiscard]] const std::vector<int>& numbers(std::size_t batch) const {
+    return shared_->parts.constraint_numbers[batch];
+  }
+
+  template <class F>
+  void on_constraints(double t, const F& f) const;
+
   /// Of these rows; empty if all rows are in force.
   [[nodiscard]] std::span<const char> out_of_force(const Places& own) const {
     return out_of_force_.empty() ? std::span<const char>() : own.in(std::span(out_of_force_));
   }
 
-  SystemParts parts_;
-  std::shared_ptr<const Layout> layout_;
-  std::vector<ConstraintPlaces> constraint_places_;
-  std::size_t holonomic_rows_ = 0;
-  std::vector<std::size_t> row_start_;
-  std::vector<std::size_t> w_columns_;
+  std::shared_ptr<const Shared> shared_;
+  std::shared_ptr<const Forces> forces_;
   std::vector<char> out_of_force_;  // per row; empty if all are in force
   std::size_t rows_in_force_ = 0;
-  std::vector<RowLaw> laws_;
-  std::size_t compliant_rows_ = 0;
-  std::vector<MatrixEntry> stiffness_pattern_;
-  std::size_t stiffness_of_constraints_ = 0;
-  ForceBatches forces_;
 };
 
 }  // namespace dalembert

@@ -26,7 +26,7 @@ void ImpactLaws::check(const Jump& jump, bool at_start, const Claim& claim, Find
     const auto own = stated_->layout()->constraints[number].own_rows().in(jump.impulses);
     return std::ranges::any_of(own, [](double P) { return P != 0.0; });
   };
-  std::vector<std::size_t> idle = stated_->layout()->conditional_constraints();
+  std::vector<std::size_t> idle = stated_->conditions().conditional_constraints();
   std::erase_if(idle, carries);
   const System acting = stated_->without(idle);
   acting.evaluate({jump.time, jump.q, jump.v_before}, before_);
@@ -67,15 +67,16 @@ void ImpactLaws::check_carriers(const Jump& jump, bool at_start, Findings& findi
   const double most = largest(jump.impulses), limit = limits_.relative(most);
   if (most == 0.0) return;
   const bool accumulated = happened(jump, EventKind::rested);
-  for (const Layout::Constraint& c : stated_->layout()->constraints) {
-    for (const std::size_t r : c.own_rows()) {
+  for (std::size_t c = 0; c < stated_->layout()->constraints.size(); ++c) {
+    const Condition& holds = stated_->conditions().of[c];
+    for (const std::size_t r : stated_->layout()->constraints[c].own_rows()) {
       double wrong = 0.0;
-      if (!stated_->in_force(r) || stated_->law(r).compliant() || c.condition.roughness)
+      if (!stated_->in_force(r) || stated_->law(r).compliant() || holds.roughness)
         wrong = std::abs(jump.impulses[r]);
-      else if (c.condition.contact && !accumulated)
-        wrong = std::max(-c.condition.contact->sign() * jump.impulses[r], 0.0);
+      else if (holds.contact && !accumulated)
+        wrong = std::max(-holds.contact->sign() * jump.impulses[r], 0.0);
       findings.weigh(Law::impulse_carrier, {Subject::Kind::row, r}, jump.time, wrong, limit);
-      if (!c.condition.contact || std::abs(jump.impulses[r]) <= limit) continue;
+      if (!holds.contact || std::abs(jump.impulses[r]) <= limit) continue;
       double near = limits_.by_time(jump.time, before_.psi[r]);
       for (const std::size_t k : stated_->row(r))
         near += std::abs(after_.w[k]) *
@@ -101,12 +102,13 @@ void ImpactLaws::check_restitution(const Jump& jump, Findings& findings) const {
   if (happened(jump, EventKind::rested) || happened(jump, EventKind::event))
     return;  // several impacts in one
   const double none = limits_.relative(largest(jump.impulses));
-  for (const Layout::Constraint& c : stated_->layout()->constraints) {
-    const std::size_t r = c.own_rows().front();
-    if (!c.condition.contact || std::abs(jump.impulses[r]) <= none) continue;
-    const double s = c.condition.contact->sign();
+  for (const std::size_t c : stated_->conditions().contacts()) {
+    const std::size_t r = stated_->layout()->constraints[c].own_rows().front();
+    if (std::abs(jump.impulses[r]) <= none) continue;
+    const Contact& law = *stated_->conditions().of[c].contact;
+    const double s = law.sign();
     findings.weigh(Law::restitution, {Subject::Kind::row, r}, jump.time,
-                   std::abs(s * after_.psi[r] + c.condition.contact->restitution * s * before_.psi[r]),
+                   std::abs(s * after_.psi[r] + law.restitution * s * before_.psi[r]),
                    2.0 * speed_limit(*stated_, r, jump));
   }
 }

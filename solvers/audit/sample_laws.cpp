@@ -18,13 +18,13 @@ SampleLaws::SampleLaws(std::shared_ptr<const System> stated, const Claim& claim)
       u_(stated_->rows()),
       residual_(stated_->coordinates()),
       terms_(stated_->coordinates()),
-      conditional_(stated_->layout()->conditional_constraints()),
+      conditional_(stated_->conditions().conditional_constraints()),
       acts_(conditional_.size(), 1),
       acted_(conditional_.size(), 1),
       always_(stated_->rows(), 1) {
   const auto& all = stated_->layout()->constraints;
   for (const std::size_t number : conditional_) {
-    const Condition& holds = all[number].condition;
+    const Condition& holds = stated_->conditions().of[number];
     const std::size_t first = all[number].own_rows().front();
     for (const std::size_t r : all[number].own_rows()) always_[r] = 0;
     if (holds.contact) contacts_.push_back({first, holds.contact->sign()});
@@ -42,8 +42,9 @@ void SampleLaws::find_what_acts(const FlatSample& sample) {
   for (std::size_t k = 0; k < conditional_.size(); ++k) {
     const Layout::Constraint& its = stated_->layout()->constraints[conditional_[k]];
     acts_[k] = std::ranges::any_of(its.own_rows().in(sample.lambda), exerts);
-    if (!its.condition.roughness) continue;
-    const auto pressing = static_cast<std::size_t>(its.condition.roughness->pressed_by);
+    const auto& law = stated_->conditions().of[conditional_[k]].roughness;
+    if (!law) continue;
+    const auto pressing = static_cast<std::size_t>(law->pressed_by);
     if (std::ranges::any_of(stated_->layout()->constraints[pressing].own_rows().in(sample.lambda), exerts))
       acts_[k] = 1;
   }

@@ -17,7 +17,7 @@ WorkBalance::WorkBalance(std::shared_ptr<const System> stated, const Claim& clai
     : stated_(std::move(stated)),
       limits_(*stated_, claim),
       watches_(conservative(*stated_)),
-      falls_(!stated_->layout()->frictional_constraints().empty()),
+      falls_(!stated_->conditions().frictional_constraints().empty()),
       v_(stated_->coordinates()),
       at_rest_(stated_->coordinates()),
       g_(stated_->rows()),
@@ -92,7 +92,7 @@ bool WorkBalance::constraints_drive(const FlatSample& sample) {
 /// What forces do where a position errs by the accuracy or a rounding, or is moved by what rounding leaves of
 /// forces in balance: by r |F|/m for the time since the last sample.
 double WorkBalance::work_of_errors(const FlatSample& sample) {
-  stated_->without(stated_->layout()->conditional_constraints())
+  stated_->without(stated_->conditions().conditional_constraints())
       .evaluate({sample.time, sample.q, sample.v}, e_);
   const double time = sample.time - checked_;
   double sum = 0.0;

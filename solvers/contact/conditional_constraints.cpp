@@ -8,8 +8,9 @@ namespace dalembert {
 ConditionalConstraints::ConditionalConstraints(const std::shared_ptr<const System>& stated,
                                                const Scales& scales, double tolerance, const Instant& start,
                                                double duration)
-    : contacts_(std::make_shared<const System>(stated->without(stated->layout()->frictional_constraints())),
-                scales, tolerance, start, duration, !stated->layout()->frictional_constraints().empty()),
+    : contacts_(
+          std::make_shared<const System>(stated->without(stated->conditions().frictional_constraints())),
+          scales, tolerance, start, duration, !stated->conditions().frictional_constraints().empty()),
       friction_(stated, scales, tolerance, start) {}
 
 std::string ConditionalConstraints::label(std::size_t function) const {
@@ -83,7 +84,7 @@ Change ConditionalConstraints::replace_system(const std::shared_ptr<const System
   friction_.replace_system(stated, at);
   friction_.require_no_impulse(impulses, at);
   const auto touching = contacts_.replace_system(
-      std::make_shared<const System>(stated->without(stated->layout()->frictional_constraints())), at);
+      std::make_shared<const System>(stated->without(stated->conditions().frictional_constraints())), at);
   return resolve_friction(contacts_.resolve(at, touching), at);
 }
 

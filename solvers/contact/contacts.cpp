@@ -222,7 +222,7 @@ std::vector<std::size_t> Contacts::replace_system(std::shared_ptr<const System> 
   std::vector<std::size_t> touching;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     ContactState& c = contacts_[i];
-    const Contact& law = *stated_->layout()->constraints[c.number].condition.contact;
+    const Contact& law = *stated_->conditions().of[c.number].contact;
     c.restitution = law.restitution;
     c.sign = law.sign();
     const double gap = gaps_.gap(c), allowed = start_tolerance * known_.scales.length * c.gradient;

@@ -19,11 +19,11 @@ namespace {
 /// length 0.
 std::vector<double> contact_gradients(const System& stated, const Instant& at,
                                       std::span<const double> lengths) {
-  const std::vector<std::size_t> contacts = stated.layout()->contacts();
+  const std::vector<std::size_t> contacts = stated.conditions().contacts();
   const auto of = [&](const System& system, std::size_t number, const System::Evaluation& e) {
     return gradient_length(system, e.w, lengths, stated.layout()->constraints[number].own_rows().front());
   };
-  const System together = stated.without(stated.layout()->frictional_constraints());
+  const System together = stated.without(stated.conditions().frictional_constraints());
   auto e = together.evaluation();
   std::vector<double> all;
   try {
@@ -33,7 +33,7 @@ std::vector<double> contact_gradients(const System& stated, const Instant& at,
   } catch (const EquationFault&) {  // of one of them
   }
   for (const std::size_t number : contacts) {
-    std::vector<std::size_t> others = stated.layout()->conditional_constraints();
+    std::vector<std::size_t> others = stated.conditions().conditional_constraints();
     std::erase(others, number);
     const System alone = stated.without(others);
     try {
@@ -55,7 +55,7 @@ double nearest_contact(const System& stated, const Instant& at) {
   double farthest = 0.0;
   for (const double x : at.q) farthest = std::max(farthest, std::abs(x));
   double nearest = std::numeric_limits<double>::infinity();
-  const std::vector<std::size_t> contacts = stated.layout()->contacts();
+  const std::vector<std::size_t> contacts = stated.conditions().contacts();
   const auto lengths_of_gradients = contact_gradients(stated, at, ones);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const double gradient = lengths_of_gradients[i];
@@ -70,16 +70,16 @@ ContactsAtStart find_contacts(const System& stated, const Scales& scales, const 
   const Islands all = islands(stated);
   const auto gradients = contact_gradients(stated, start, scales.lengths());
   ContactsAtStart found;
-  for (const std::size_t number : stated.layout()->contacts()) {
-    const Layout::Constraint& its = stated.layout()->constraints[number];
-    const std::size_t i = found.contacts.size(), row = its.own_rows().front();
-    const ContactState& c =
-        found.contacts.emplace_back(ContactState{.number = number,
-                                                 .row = row,
-                                                 .sign = its.condition.contact->sign(),
-                                                 .restitution = its.condition.contact->restitution,
-                                                 .island = all.of_row(stated, row),
-                                                 .gradient = gradients[i]});
+  for (const std::size_t number : stated.conditions().contacts()) {
+    const Contact& law = *stated.conditions().of[number].contact;
+    const std::size_t i = found.contacts.size(),
+                      row = stated.layout()->constraints[number].own_rows().front();
+    const ContactState& c = found.contacts.emplace_back(ContactState{.number = number,
+                                                                     .row = row,
+                                                                     .sign = law.sign(),
+                                                                     .restitution = law.restitution,
+                                                                     .island = all.of_row(stated, row),
+                                                                     .gradient = gradients[i]});
     // Positions are known to their rounding and to that of the time: a sample of an impact is a start.
     const double gap = gaps.gap(c),
                  rounding = c.gradient * gaps.rounding() + round_off() * std::abs(start.t * gaps.rate(c));

@@ -47,9 +47,8 @@ Coupling::Coupling(std::shared_ptr<const System> of, const std::vector<std::size
       matrix_(problem_.pattern(others_.rows)) {
   if (!matrix_.factorise({.w = e_.w})) throw linearly_dependent(at.t);
   for (const std::size_t c : contacts) {
-    const Layout::Constraint& its = system_->layout()->constraints[c];
-    rows_.push_back(its.own_rows().front());
-    signs_.push_back(its.condition.contact->sign());
+    rows_.push_back(system_->layout()->constraints[c].own_rows().front());
+    signs_.push_back(system_->conditions().of[c].contact->sign());
   }
   group();
   respond();

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 DryFriction::DryFriction(std::shared_ptr<const System> stated, const Scales& scales, double tolerance,
                          const Instant& at)
     : equations_(stated, scales, tolerance), system_(stated), g_(stated->rows()), u_(stated->rows()) {
-  for (const std::size_t number : stated->layout()->frictional_constraints()) {
+  for (const std::size_t number : stated->conditions().frictional_constraints()) {
     const Layout::Constraint& its = stated->layout()->constraints[number];
     all_.push_back({.number = number, .row = its.own_rows().front(), .rows = its.own_rows().size()});
     all_.back().read_law(*stated);

@@ -14,16 +14,16 @@ namespace dalembert {
 using Eigen::VectorXd;
 
 void RoughState::read_law(const System& stated) {
-  const auto& constraints = stated.layout()->constraints;
-  const Roughness& law = *constraints[number].condition.roughness;
-  const Layout::Constraint& pressing = constraints[static_cast<std::size_t>(law.pressed_by)];
-  const std::size_t row = std::exchange(pressing_row, pressing.own_rows().front());
+  const Roughness& law = *stated.conditions().of[number].roughness;
   pressed_by = static_cast<std::size_t>(law.pressed_by);
+  const auto& contact = stated.conditions().of[pressed_by].contact;
+  const std::size_t row =
+      std::exchange(pressing_row, stated.layout()->constraints[pressed_by].own_rows().front());
   mu = law.mu;
   mu_static = law.mu_static;
-  one_sided = pressing.condition.contact.has_value();
+  one_sided = contact.has_value();
   if (one_sided) {
-    sign = pressing.condition.contact->sign();
+    sign = contact->sign();
   } else if (row != pressing_row) {
     sign = 1.0;
   }

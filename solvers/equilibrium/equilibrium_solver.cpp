@@ -39,16 +39,15 @@ void require_frictionless(const System& system) {
         "at rest friction takes any value up to its limit, and equilibria fill a region; leave "
         "it out to find the one without friction, or let a run come to rest");
   };
-  const Layout& layout = *system.layout();
   if (system.forces().has_friction()) refuse(system.forces().owner_of_friction(0), " reads a multiplier: ");
-  if (const auto rough = layout.frictional_constraints(); !rough.empty())
-    refuse(layout.constraints[rough.front()].label(), ": ");
+  if (const auto rough = system.conditions().frictional_constraints(); !rough.empty())
+    refuse(system.layout()->constraints[rough.front()].label(), ": ");
 }
 
 void require_bilateral(const System& system) {
-  const auto label = system.layout()->conditional_label();
+  const auto label = system.conditional_label();
   if (label.empty()) return;
-  for (const std::size_t c : system.layout()->released())
+  for (const std::size_t c : system.conditions().released())
     throw InvalidScene("Equilibria of scene \"" + system.layout()->scene +
                        "\": " + system.layout()->constraints[c].label() +
                        " has been released and is not in force; put it back, or build the scene without it");

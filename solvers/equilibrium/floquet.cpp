@@ -40,7 +40,7 @@ void require_suited(const System& system, double period) {
          << ", must be finite and > 0";
     throw InvalidArgument(what.str());
   }
-  if (const auto label = system.layout()->conditional_label(); !label.empty())
+  if (const auto label = system.conditional_label(); !label.empty())
     throw InvalidScene("Floquet multipliers: " + label +
                        " does not always hold; they are defined for scenes without such constraints");
   if (system.forces().has_friction())

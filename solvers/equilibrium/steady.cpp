@@ -229,10 +229,9 @@ void require_frictionless(const System& system, const std::string& scene) {
         ": where friction sticks it takes any value up to its limit, and steady motions fill a "
         "region; leave it out to find the one without friction, or let a run come to one");
   };
-  const Layout& layout = *system.layout();
   if (system.forces().has_friction()) refuse(system.forces().owner_of_friction(0) + " reads a multiplier");
-  if (const auto rough = layout.frictional_constraints(); !rough.empty())
-    refuse(layout.constraints[rough.front()].label());
+  if (const auto rough = system.conditions().frictional_constraints(); !rough.empty())
+    refuse(system.layout()->constraints[rough.front()].label());
 }
 
 void require_suited_to_steady(const System& system) {
@@ -244,10 +243,10 @@ void require_suited_to_steady(const System& system) {
                        "a constraint changes with time; let what it drives turn freely, with its rate as "
                        "stated, or ask for floquet multipliers");
   require_frictionless(system, scene);
-  for (const std::size_t c : system.layout()->released())
+  for (const std::size_t c : system.conditions().released())
     throw InvalidScene(scene + system.layout()->constraints[c].label() +
                        " has been released and is not in force; put it back, or build the scene without it");
-  if (const auto label = system.layout()->conditional_label(); !label.empty())
+  if (const auto label = system.conditional_label(); !label.empty())
     throw InvalidScene(scene + label + " does not always hold; state it as a bilateral one");
 }
 

@@ -40,10 +40,10 @@ VectorXd least_largest(const MatrixXd& A, const VectorXd& a, const std::vector<I
 }  // namespace
 
 FrictionShares::FrictionShares(const System& system) {
-  for (const std::size_t number : system.layout()->frictional_constraints()) {
+  for (const std::size_t number : system.conditions().frictional_constraints()) {
     const Layout::Constraint& its = system.layout()->constraints[number];
     if (!system.in_force(its.own_rows().front())) continue;
-    const auto& law = *its.condition.roughness;
+    const auto& law = *system.conditions().of[number].roughness;
     const auto& pressing = system.layout()->constraints[static_cast<std::size_t>(law.pressed_by)];
     all_.push_back({its.first_row, its.rows, pressing.first_row, law.mu_static});
   }

@@ -104,10 +104,11 @@ void MinimumNorm::place(const System& system) {
     }
     first += static_cast<Eigen::Index>(c->rows) * c->inputs;
   }
-  for (const std::size_t number : system.layout()->conditional_constraints()) {
+  for (const std::size_t number : system.conditions().contacts()) {
     const auto& c = system.layout()->constraints[number];
-    if (c.condition.contact && system.in_force(c.own_rows().front()))
-      one_sided_.push_back({.pressing_row = c.first_row, .sign = c.condition.contact->sign()});
+    if (system.in_force(c.own_rows().front()))
+      one_sided_.push_back(
+          {.pressing_row = c.first_row, .sign = system.conditions().of[number].contact->sign()});
   }
   for (const Eigen::Index r : dropped_) unique_[static_cast<std::size_t>(r)] = 0;
   const auto d = static_cast<Eigen::Index>(dropped_.size());

@@ -27,7 +27,7 @@ OutputState::OutputState(const System& system, const Start& start, bool changes)
       lambda(start.lambda),
       forces(system.layout()->slot_coordinate.size()) {
   if (changes || start.rows.size() < system.rows_in_force() ||
-      !system.layout()->conditional_constraints().empty())
+      !system.conditions().conditional_constraints().empty())
     unique.resize(lambda.size());
 }
 

@@ -119,6 +119,24 @@ TEST_F(MixedScene, TwoSystemsOfOneSceneGiveTheSameBits) {
   EXPECT_EQ(once.gamma, again.gamma);
 }
 
+TEST_F(MixedScene, LessOfItInForceIsRowsOfZerosOverTheSameEquations) {
+  const auto all = scene.system();
+  const auto& its = all.layout()->constraints[static_cast<std::size_t>(rod.index)];
+  const auto less = all.without(std::vector<std::size_t>{static_cast<std::size_t>(rod.index)});
+  EXPECT_EQ(less.layout(), all.layout());
+  EXPECT_EQ(less.w_columns().data(), all.w_columns().data());
+  EXPECT_EQ(less.rows_in_force(), all.rows_in_force() - 1);
+  auto e = all.evaluation(), e_less = e;
+  all.evaluate(state.instant(), e);
+  less.evaluate(state.instant(), e_less);
+  for (std::size_t r = 0; r < all.rows(); ++r) {
+    const bool out = r == its.own_rows().front();
+    EXPECT_EQ(less.in_force(r), !out);
+    EXPECT_EQ(e_less.psi[r], out ? 0.0 : e.psi[r]);
+    for (const std::size_t k : all.row(r)) EXPECT_EQ(e_less.w[k], out ? 0.0 : e.w[k]);
+  }
+}
+
 TEST_F(MixedScene, DescriptionCountsWhatThereIs) {
   EXPECT_THAT(scene.system().describe(),
               AllOf(HasSubstr("\"mixed\": 3 particles in 2 dimensions, 6 coordinates"),

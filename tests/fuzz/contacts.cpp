@@ -75,7 +75,7 @@ class Contacts {
     return system_.layout()->constraints[contact].own_rows().front();
   }
   [[nodiscard]] double sign_of(std::size_t contact) const {
-    return system_.layout()->constraints[contact].condition.contact->sign();
+    return system_.conditions().of[contact].contact->sign();
   }
 
   /// Whether two that are listed happened in one change, from one state to one other.
@@ -95,7 +95,7 @@ class Contacts {
   [[nodiscard]] std::string gaps(const FlatSample& at) {
     const auto e = evaluated(at);
     std::string fault;
-    for (const std::size_t c : system_.layout()->contacts()) {
+    for (const std::size_t c : system_.conditions().contacts()) {
       double square = 0.0, rounding = 0.0;
       for (const std::size_t k : system_.row(row_of(c))) {
         square += e.w[k] * e.w[k];
@@ -115,7 +115,7 @@ class Contacts {
     double largest = mass_ * s_.length / s_.time / s_.time;
     for (const double f : at.lambda)
       if (std::abs(f) > largest) largest = std::abs(f);
-    for (const std::size_t c : system_.layout()->contacts()) {
+    for (const std::size_t c : system_.conditions().contacts()) {
       const double wrong = -sign_of(c) * at.lambda[row_of(c)];
       const std::string fault = too_large("pull of " + system_.row_label(row_of(c)), at.time, wrong,
                                           error_of_run * s_.accuracy * largest);
@@ -126,15 +126,15 @@ class Contacts {
 
   /// Friction is within its cone, and drives nothing.
   [[nodiscard]] std::string friction(const FlatSample& at) {
-    if (system_.layout()->frictional_constraints().empty()) return {};
+    if (system_.conditions().frictional_constraints().empty()) return {};
     const auto e = evaluated(at);
     double largest = mass_ * s_.length / s_.time / s_.time;
     for (const double f : at.lambda)
       if (std::abs(f) > largest) largest = std::abs(f);
     const double allowed = error_of_run * s_.accuracy * largest;
-    for (const std::size_t c : system_.layout()->frictional_constraints()) {
+    for (const std::size_t c : system_.conditions().frictional_constraints()) {
       const Layout::Constraint& its = system_.layout()->constraints[c];
-      const Roughness& law = *its.condition.roughness;
+      const Roughness& law = *system_.conditions().of[c].roughness;
       double square = 0.0, power = 0.0;
       for (std::size_t r = row_of(c); r < row_of(c) + static_cast<std::size_t>(its.rows); ++r) {
         square += at.lambda[r] * at.lambda[r];
@@ -167,7 +167,7 @@ class Contacts {
     double largest = 0.0;
     for (std::size_t c = 0; c < layout.constraints.size(); ++c) {
       impulse.push_back(0.0);
-      if (layout.constraints[c].condition.roughness) continue;  // an impact that presses them is refused
+      if (system_.conditions().of[c].roughness) continue;  // an impact that presses them is refused
       const Constraint<1> handle{static_cast<int>(c), layout.constraints[c].scene};
       impulse.back() = run_.impulse(handle, k);
       largest = std::max(largest, std::abs(impulse.back()));
@@ -178,16 +178,17 @@ class Contacts {
     double unbalanced = 0.0;
     for (const double p : momentum) unbalanced = std::max(unbalanced, std::abs(p));
     // What slides in space may rest with what is left of its way in one direction (rest_in_space).
-    const double stopped = D == 3 && !system_.layout()->frictional_constraints().empty() ? 10.0 * slow : slow;
+    const double stopped =
+        D == 3 && !system_.conditions().frictional_constraints().empty() ? 10.0 * slow : slow;
     std::string fault = too_large("momentum out of balance", before.time, unbalanced, mass_ * stopped);
-    for (const std::size_t c : system_.layout()->contacts()) {
+    for (const std::size_t c : system_.conditions().contacts()) {
       if (fault.empty() && !rests(before.time))
         fault = too_large("pulling impulse of " + system_.row_label(row_of(c)), before.time,
                           -sign_of(c) * impulse[c], round_off * largest);
     }
     const EventRecord& it = run_.events()[k];
     if (it.kind != EventKind::struck || !fault.empty()) return fault;
-    const double restitution = layout.constraints[it.source].condition.contact->restitution;
+    const double restitution = system_.conditions().of[it.source].contact->restitution;
     const double left = e_after.psi[row_of(it.source)] + restitution * e.psi[row_of(it.source)];
     return too_large("rebound of " + system_.row_label(row_of(it.source)), before.time, std::abs(left),
                      2.0 * slow);

@@ -46,8 +46,8 @@ double largest(std::span<const double> x) {
 /// The system as it is at a sample: one-sided constraints without a force have no rows, nor have rough ones
 /// where they may slide.
 System in_force(const System& system, const FlatSample& sample) {
-  std::vector<std::size_t> idle = system.layout()->frictional_constraints();
-  for (const std::size_t c : system.layout()->contacts()) {
+  std::vector<std::size_t> idle = system.conditions().frictional_constraints();
+  for (const std::size_t c : system.conditions().contacts()) {
     const auto row = system.layout()->constraints[c].own_rows().front();
     if (sample.lambda[row] == 0.0) idle.push_back(c);
   }
@@ -165,8 +165,8 @@ std::string Check::run(double accuracy, std::string& detail) {
   std::string fault = residuals(determined ? held : std::max(held, error_of_run * accuracy), detail);
   if (!determined) return fault;
   if (fault.empty()) fault = accelerations(detail);
-  return fault.empty() && system.layout()->frictional_constraints().empty() ? principle(detail)
-                                                                            : fault;  // friction does work
+  return fault.empty() && system.conditions().frictional_constraints().empty() ? principle(detail)
+                                                                               : fault;  // friction does work
 }
 
 std::string fault_of_times(std::span<const double> times, std::span<const double> wanted,
@@ -204,7 +204,7 @@ std::string fault_of_run(const Draft<D>& draft, const Trajectory<D>& run, std::o
     const std::string fault = check.run(run.statistics().accuracy, detail);
     if (!fault.empty()) return fault;
   }
-  return system.layout()->conditional_constraints().empty() ? "" : fault_of_contacts(draft, run, detail);
+  return system.conditions().conditional_constraints().empty() ? "" : fault_of_contacts(draft, run, detail);
 }
 
 template std::string fault_of_run(const Draft<2>&, const Trajectory<2>&, std::optional<double>, std::string&);
