@@ -45,7 +45,7 @@ Integration::Integration(const Problem& problem, Start start, const Branches::Si
   from_ = options.t_start;
   if (options.dense) {
     kept_ = std::make_shared<KeptSteps>(options.tolerance);
-    kept_->add_segment(shared_system(), this->start(), options.t_start);
+    kept_->add_segment(*segment_, options.t_start);
   }
   keep_step(options.t_start);
 }
@@ -111,7 +111,7 @@ void Integration::enter_segment(std::unique_ptr<Segment> next) {
   Statistics past = statistics(time());
   past.advice.clear();  // beside a singular position it would be about the wrong stepper
   const double t = next->stepper->time();
-  if (kept_) own_steps().add_segment(next->problem.shared_system(), next->start, t);
+  if (kept_) own_steps().add_segment(*next, t);
   past_ = std::move(past);
   angle_ = {t, 1.0};
   segment_ = std::move(next);
@@ -159,6 +159,7 @@ void Integration::step(double wanted) {
     error_.add(segment_->stepper->error(), time() - from);
     find_switch(from);
     keep_step(from);
+    if (kept_ && switch_) own_steps().ends_at_switch(switch_->at.t - switch_->ahead);
   } catch (const StepFailure&) {
     // Newton's iteration may fail anywhere; where the constraints are close to dependent the explicit
     // stepper goes on.

@@ -37,6 +37,8 @@ class Comparisons {
 
   /// The sides that steps are taken on; null if nothing is compared.
   [[nodiscard]] const Branches::Sides* held() const { return any_ ? &held_ : nullptr; }
+  /// Up to where they are known to hold.
+  [[nodiscard]] double held_to() const { return from_; }
 
   /// A switch that a step must not go beyond.
   struct Switch {

@@ -4,6 +4,7 @@
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/run/chebyshev.h>
 #include <dalembert/solvers/run/output_projection.h>
+#include <dalembert/solvers/run/segment.h>
 
 #include <algorithm>
 #include <iterator>
@@ -24,10 +25,16 @@ std::string at(double t) {
 
 }  // namespace
 
-void KeptSteps::add_segment(std::shared_ptr<const System> system, const Start& start, double t) {
-  segments_.push_back({system, start, t, steps_.size()});
+void KeptSteps::add_segment(const Segment& segment, double t) {
+  const Branches::Sides* const held = segment.comparisons.held();
+  segments_.push_back({.system = segment.problem.shared_system(),
+                       .start = segment.start,
+                       .from = t,
+                       .first_step = steps_.size(),
+                       .sides = held != nullptr ? *held : Branches::Sides{},
+                       .begins_to = segment.comparisons.held_to()});
   if (!steps_.empty()) end(t);
-  system_ = std::move(system);
+  system_ = segments_.back().system;
 }
 
 void KeptSteps::end(double t) { steps_.back().end = std::max(t, steps_.back().from); }
@@ -99,6 +106,8 @@ void KeptSteps::read(std::span<const double> times, Record& out) const {
       out.use_layout(own.system->layout());
     }
     interpolate(step, t, *now, compliant);
+    const bool beside_switch = t <= own.begins_to || t >= own.ends_from;
+    const Branches holding(nullptr, beside_switch && !own.sides.empty() ? &own.sides : nullptr);
     try {
       output->read(*now, step.c > 0.0 ? &compliant : nullptr, step.number);
     } catch (const StepFailure& failure) {

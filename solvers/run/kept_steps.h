@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dalembert/core/autodiff/branches.h>
 #include <dalembert/core/results/trajectory.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/manifold/compliant_multipliers.h>
@@ -7,6 +8,7 @@
 #include <dalembert/solvers/manifold/start.h>
 #include <dalembert/solvers/run/time_stepper.h>
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <utility>
@@ -14,15 +16,19 @@
 
 namespace DALEMBERT_HIDDEN dalembert {
 
+struct Segment;
+
 /// The motion at every time of a run: of each step the stepper's own polynomial, kept as its values at the
 /// extrema of the Chebyshev polynomial of its degree.
 class KeptSteps final : public DenseOutput {
  public:
   explicit KeptSteps(double tolerance) : tolerance_(tolerance) {}
 
-  /// From here on the steps are those of a segment that starts with `start` at time t, maybe
-  /// with another system. If it throws nothing has changed.
-  void add_segment(std::shared_ptr<const System> system, const Start& start, double t);
+  /// From here on the steps are those of this segment, which starts at time t, maybe with another system. If
+  /// it throws nothing has changed.
+  void add_segment(const Segment& segment, double t);
+  /// The last step ends at a switch, from whose time those from here on are not told.
+  void ends_at_switch(double from) { segments_.back().ends_from = from; }
   /// What the last step's polynomial has beyond a time is no part of the run.
   void end(double t);
   [[nodiscard]] double end() const { return steps_.back().end; }
@@ -38,6 +44,8 @@ class KeptSteps final : public DenseOutput {
     Start start;
     double from;
     std::size_t first_step;
+    Branches::Sides sides;  // of the comparisons in its equations, held up to and from these times
+    double begins_to, ends_from = std::numeric_limits<double>::infinity();
   };
   struct Step {
     double from, to;

@@ -188,16 +188,18 @@ TEST_P(SwitchTimes, PushBeginsOnAYieldingFloorWhereStepsAndLedgerAreRead) {
     Yard yard(at);
     yard.scene.replace(yard.block, {.mass = 1.0, .position = {0.0, -g}});
     yard.push({0.0, 3.0});
-    yard.scene.add(compliant(OnCurve{yard.block, Plane<2>{}}, 1.0), "floor");
+    const auto floor = yard.scene.add(compliant(OnCurve{yard.block, Plane<2>{}}, 1.0), "floor");
     const auto run = simulate(yard.scene, {.t_end = 2.0,
                                            .times = {0.0, at.T, 2.0},
                                            .tolerance = GetParam().tolerance,
                                            .stepper = GetParam().stepper,
                                            .dense = true,
                                            .ledger = true});
-    for (const double t : {0.5 * at.T, at.T + 0.4, 2.0}) {
+    for (const double t : {0.5 * at.T, at.T, at.T + 0.4, 2.0}) {
       const double y = -g + (t > at.T ? 3.0 * (1.0 - std::cos(t - at.T)) : 0.0);
-      EXPECT_NEAR(run.at({t}).position(yard.block, 0).y(), y, bound(run)) << at.T << ' ' << t;
+      const auto there = run.at({t});
+      EXPECT_NEAR(there.position(yard.block, 0).y(), y, bound(run)) << at.T << ' ' << t;
+      EXPECT_NEAR(there.multiplier(floor, 0), -y, bound(run)) << at.T << ' ' << t;
     }
   });
 }
