@@ -225,13 +225,11 @@ Change EventHandler::change_scene(const EventRecord& due, const FlatSample& at,
 Change EventHandler::put_onto(const FlatEvent::Changed& next, const FlatSample& at,
                               const Integration& integration) {
   const Problem always(next.system->without(next.system->conditions().conditional_constraints()));
-  std::vector<double> v = next.v;
-  const auto impulses = project_impulsively_onto(always, integration.scales(at.time), at.time, next.q, v,
-                                                 integration.tolerance());
-  Change change{
-      .v = v, .impulses = std::vector<double>(at.lambda.size()), .q = next.q, .system = next.system};
-  if (conditional_ != nullptr)
-    change = conditional_->replace_system(next.system, {at.time, next.q, v}, impulses);
+  std::vector<double> q = next.q, v = next.v;
+  const auto impulses = project_impulsively_onto(always, integration.scales(at.time), at.time, q, v,
+                                                 integration.accuracy(at.time));
+  Change change{.v = v, .impulses = std::vector<double>(at.lambda.size()), .q = q, .system = next.system};
+  if (conditional_ != nullptr) change = conditional_->replace_system(next.system, {at.time, q, v}, impulses);
   for (std::size_t r = 0; r < impulses.size(); ++r) change.impulses[r] += impulses[r];
   return change;
 }

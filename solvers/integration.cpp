@@ -291,8 +291,12 @@ bool Integration::go_behind_switch() {
   }
   State now = interpolate(t);
   const Start before = start_of_rest(t);
+  {
+    // The forces of compliant constraints are those before it, where these have not jumped.
+    const Branches before_it = segment_->hold();
+    project_onto_compliant(t, now);
+  }
   const Branches holding(nullptr, &one.behind);
-  project_onto_compliant(t, now);
   Start next = dalembert::restart_with_rows(problem(), before, t, now.q, now.v);
   comparisons.require_leaving(one, next.a);
   Comparisons there(problem(), next, tolerance_of_a_step(segment_->by, options_.tolerance), behind);

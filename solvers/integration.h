@@ -6,6 +6,7 @@
 #include <dalembert/solvers/run/segment.h>
 #include <dalembert/solvers/run/singularity.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -84,6 +85,10 @@ class Integration {
   [[nodiscard]] std::shared_ptr<const DenseOutput> dense(double end);
   /// Of all its steppers up to a time inside the last step, without the run time.
   [[nodiscard]] Statistics statistics(double until) const;
+  /// What positions are right to at a time inside the last step, a part of the scene's length.
+  [[nodiscard]] double accuracy(double t) const {
+    return std::max(options_.tolerance, statistics(t).accuracy);
+  }
 
  private:
   /// A state of the stepper's own, not put onto the constraints.

@@ -226,6 +226,7 @@ struct DALEMBERT_HIDDEN Integrator::Run {
       s.audit = auditor->read();
       s.accuracy = std::max(s.accuracy, auditor->accuracy());
     }
+    if (auto coarse = coarse_steps(s.accuracy); !coarse.empty()) s.advice = std::move(coarse);
     return s;
   }
 

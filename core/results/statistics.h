@@ -25,7 +25,7 @@ struct Statistics {
   /// Steps of the explicit stepper limited by stability, not accuracy (counted by samples). If these are most
   /// of the steps, Stepper::ida may be faster: where nothing fast needs to be followed.
   long stability_limited = 0;
-  std::string advice;              ///< what slowed the run, if that is known, and what to do about it
+  std::string advice;              ///< what slowed or spoiled the run, if known, and what to do about it
   std::string linear_algebra;      ///< what factors the matrices: LDL the Schur complement, KLU the whole
   double length = 0.0;             ///< the scene's, to which tolerances were relative [length]
   double time = 0.0;               ///< the scene's, in which it moves by that length [time]

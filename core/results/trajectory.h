@@ -7,6 +7,7 @@
 #include <dalembert/core/results/statistics.h>
 
 #include <cstddef>
+#include <functional>
 #include <initializer_list>
 #include <iosfwd>
 #include <iterator>
@@ -26,6 +27,8 @@ class DenseOutput {
   virtual ~DenseOutput() = default;
   /// Appends the samples at these times. Throws InvalidArgument outside the run.
   virtual void read(std::span<const double> times, Record& out) const = 0;
+  /// Calls f with the equations as they are read at this time: at a switch, before it.
+  virtual void as_read(double /*t*/, const std::function<void()>& f) const { f(); }
 };
 
 /// A run as flat arrays: what a stepper fills and a Trajectory reads.

@@ -27,7 +27,7 @@ void AuditedDense::read(std::span<const double> times, Record& out) const {
         std::ranges::lower_bound(stated_.begin() + 1, stated_.end(), out.times[i], {}, &Stated::from);
     const Stated* own = &*std::prev(behind);
     if (std::exchange(last, own) != own) laws.emplace(own->system, claim_);
-    laws->check(out.sample(i), claim_, findings);
+    run_->as_read(out.times[i], [&] { laws->check(out.sample(i), claim_, findings); });
     if (!findings.violated()) continue;
     std::ostringstream what;
     what.precision(10);

@@ -252,6 +252,18 @@ Start consistent_start(const Problem& problem, std::span<const double> q, std::s
   return start;
 }
 
+namespace {
+
+/// Moves positions that are right to `known` onto the constraints. `e` is what was evaluated at them.
+void move_onto(const Problem& problem, const Scales& scales, double t, std::span<double> q,
+               std::span<const double> v, double known, const System::Evaluation& e) {
+  Manifold(problem, independent_rows(problem.system(), e.w, std::max(rank_threshold, known)),
+           scales.lengths())
+      .project_positions(t, q, v, converged_to * scales.length);
+}
+
+}  // namespace
+
 Start restart_with_constraints(const Problem& problem, const Start& before, double t,
                                std::span<const double> q, std::span<const double> v, double known) {
   const System& system = problem.system();
@@ -260,32 +272,33 @@ Start restart_with_constraints(const Problem& problem, const Start& before, doub
   start.v.assign(v.begin(), v.end());
   auto e = system.evaluation();
   system.evaluate({t, q, v}, e);
-  const auto lengths = start.scales.lengths();
-  const ActiveRows apart = independent_rows(system, e.w, std::max(rank_threshold, known));
-  Manifold(problem, apart, lengths)
-      .project_positions(t, start.q, start.v, converged_to * start.scales.length);
+  move_onto(problem, start.scales, t, start.q, start.v, known, e);
   system.evaluate({t, start.q, start.v}, e);
   start.rows = independent_rows(system, e.w);
-  Manifold manifold(problem, start.rows, lengths);
+  Manifold manifold(problem, start.rows, start.scales.lengths());
   if (!manifold.solve_motion(t, start.q, start.v, start.a, start.lambda)) throw linearly_dependent(t);
   return start;
 }
 
 std::vector<double> project_impulsively_onto(const Problem& problem, const Scales& scales, double t,
-                                             std::span<const double> q, std::span<double> v, double known) {
+                                             std::span<double> q, std::span<double> v, double known) {
   const System& system = problem.system();
   const auto lengths = scales.lengths();
   auto e = system.evaluation();
   evaluate_relaxed(system, {t, q, v}, e);
   const auto refuse = [&](const Violation& by, const char* what) {
     std::ostringstream text;
-    text << system.row_label(by.row) << what << by.size << "; state what holds then, or wait until it does";
+    text << system.row_label(by.row) << what << by.size
+         << "; state what holds then, wait until it does, or ask for a tighter tolerance if it should";
     throw StepFailure{text.str(), t};
   };
   const double least = std::max(start_tolerance, known);
   const Violation violation = position_violation(system, e, lengths);
   if (violation.size > least * scales.length)
     refuse(violation, " comes into force where it does not hold: it is violated by ");
+  // Impulses are those of the state that goes on: to move it behind them would turn what they act on.
+  move_onto(problem, scales, t, q, v, known, e);
+  evaluate_relaxed(system, {t, q, v}, e);
   std::vector<double> impulses(system.rows()), a(q.size()), lambda(system.rows());
   double fastest = scales.speed();
   for (std::size_t i = 0; i < v.size(); ++i) fastest = std::max(fastest, std::abs(v[i]) * lengths[i]);

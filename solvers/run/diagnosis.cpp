@@ -174,4 +174,12 @@ std::string coarse_time(const Scales& scales, double time) {
   return what.str();
 }
 
+std::string coarse_steps(double accuracy) {
+  if (accuracy < 1.0) return {};
+  std::ostringstream what;
+  what << "the errors of all steps add up to " << accuracy
+       << " times the scene's length, so that the results say nothing; ask for a tighter tolerance";
+  return what.str();
+}
+
 }  // namespace dalembert

@@ -23,6 +23,8 @@ namespace DALEMBERT_HIDDEN dalembert {
 
 /// That times so far from 0 are too coarse for the scene.
 [[nodiscard]] std::string coarse_time(const Scales& scales, double time);
+/// That the errors of steps add up to a part of the scene's length that leaves nothing of a result.
+[[nodiscard]] std::string coarse_steps(double accuracy);
 /// Whether times there tell the scene's own time from 0.
 [[nodiscard]] bool resolves_motion(const Scales& scales, double time);
 

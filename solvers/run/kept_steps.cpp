@@ -90,6 +90,16 @@ void KeptSteps::interpolate(const Step& step, double t, OutputState& m,
   m.t = t;
 }
 
+const KeptSteps::KeptSegment& KeptSteps::segment_of(const Step& step) const {
+  const auto number = static_cast<std::size_t>(&step - steps_.data());
+  return *std::prev(std::ranges::upper_bound(segments_, number, {}, &KeptSegment::first_step));
+}
+
+void KeptSteps::as_read(double t, const std::function<void()>& f) const {
+  const Branches holding(nullptr, segment_of(step_at(t)).held(t));
+  f();
+}
+
 void KeptSteps::read(std::span<const double> times, Record& out) const {
   CompliantMultipliers compliant(system_->rows());
   const KeptSegment* segment = nullptr;
@@ -97,17 +107,14 @@ void KeptSteps::read(std::span<const double> times, Record& out) const {
   std::optional<OutputState> now;
   for (const double t : times) {
     const Step& step = step_at(t);
-    const auto number = static_cast<std::size_t>(&step - steps_.data());
-    const KeptSegment& own =
-        *std::prev(std::ranges::upper_bound(segments_, number, {}, &KeptSegment::first_step));
+    const KeptSegment& own = segment_of(step);
     if (std::exchange(segment, &own) != &own) {
       output.emplace(Problem(own.system), own.start, tolerance_);
       now.emplace(*own.system, own.start);
       out.use_layout(own.system->layout());
     }
     interpolate(step, t, *now, compliant);
-    const bool beside_switch = t <= own.begins_to || t >= own.ends_from;
-    const Branches holding(nullptr, beside_switch && !own.sides.empty() ? &own.sides : nullptr);
+    const Branches holding(nullptr, own.held(t));
     try {
       output->read(*now, step.c > 0.0 ? &compliant : nullptr, step.number);
     } catch (const StepFailure& failure) {

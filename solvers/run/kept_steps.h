@@ -8,6 +8,7 @@
 #include <dalembert/solvers/manifold/start.h>
 #include <dalembert/solvers/run/time_stepper.h>
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -37,6 +38,7 @@ class KeptSteps final : public DenseOutput {
   void add(TimeStepper& stepper, double from, long number);
 
   void read(std::span<const double> times, Record& out) const override;
+  void as_read(double t, const std::function<void()>& f) const override;
 
  private:
   struct KeptSegment {
@@ -46,6 +48,10 @@ class KeptSteps final : public DenseOutput {
     std::size_t first_step;
     Branches::Sides sides;  // of the comparisons in its equations, held up to and from these times
     double begins_to, ends_from = std::numeric_limits<double>::infinity();
+
+    [[nodiscard]] const Branches::Sides* held(double t) const {
+      return !sides.empty() && (t <= begins_to || t >= ends_from) ? &sides : nullptr;
+    }
   };
   struct Step {
     double from, to;
@@ -56,6 +62,7 @@ class KeptSteps final : public DenseOutput {
     double c;           // see CompliantMultipliers; 0 if the state has none
   };
   [[nodiscard]] const Step& step_at(double t) const;
+  [[nodiscard]] const KeptSegment& segment_of(const Step& step) const;
   void interpolate(const Step& step, double t, OutputState& m, CompliantMultipliers& compliant) const;
 
   std::shared_ptr<const System> system_;

@@ -73,6 +73,47 @@ TEST_P(Changes, ImposeAConstraintWithItsImpulse) {
   EXPECT_NEAR(run.position(ball, 10).norm(), 1.0, tolerance);
 }
 
+TEST_P(Changes, CatchASpinningBodyBesideItsPath) {
+  // A pin takes hold of it at d from its centre, farther on its way by what counts as rounded. Its moment of
+  // momentum about the pin stays: (I + m d^2) omega = I omega_0.
+  constexpr double m = 2.0, I = 0.3, omega = 7.0, d = 0.5, late = 0.1;
+  for (const double beside : {1e-10, 1e-9, 4e-9}) {
+    Scene<2> scene;
+    const auto body =
+        add_body(scene, BodyState<2>{.mass = m, .inertia = I, .angular_velocity = omega}, "body");
+    const double c = std::cos(late * omega), s = std::sin(late * omega);
+    const auto pin = scene.add(
+        Coincident{Fixed<2>{{d * c - beside * s, d * s + beside * c}}, body.point({d, 0.0})}, "pin");
+    scene.release(pin);
+    const Event<2> caught{"caught", [](const auto& now) { return now.time() - late; }, Crossing::rising,
+                          false, [=](Scene<2>& its) { its.impose(pin); }};
+    const auto run = simulate(scene, options(0.5), {caught});
+    EXPECT_NEAR(angular_velocity(run.sample_after(0), body), omega * I / (I + m * d * d),
+                omega * error_of(run) + omega * omega * beside);
+  }
+}
+
+TEST_P(Changes, LatchADoorWhereItHasSwungBack) {
+  // Let go where it is level it comes back there after every period, of 4 K(sin 45 deg) / omega with omega^2
+  // = m g d / (I + m d^2), to the accuracy of the run. Hung at both ends it rests on them with half its
+  // weight.
+  const double period = 4.0 * 1.8540746773013719 / std::sqrt(g / 1.1);
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto door = add_body(scene, BodyState<2>{.mass = 1.0, .inertia = 0.1, .centre = {1.0, 0.0}}, "door");
+  add_joint(scene, Revolute{Ground<2>{}, door, {0.0, 0.0}}, "hinge");
+  const auto edge = door.point({1.0, 0.0});
+  const auto latch = scene.add(Coincident{Fixed<2>{{2.0, 0.0}}, edge}, "latch");
+  scene.release(latch);
+  const Event<2> back{
+      "back", [=](const auto& now) { return now.time() < 3.0 * period - 0.3 ? 1.0 : now.velocity(edge).y(); },
+      Crossing::falling, false, [=](Scene<2>& its) { its.impose(latch); }};
+  const auto run = simulate(scene, options(3.0 * period + 1.0), {back});
+  ASSERT_EQ(run.events().size(), 1U);
+  EXPECT_NEAR(run.events()[0].time, 3.0 * period, error_of(run) * 10.0);
+  EXPECT_NEAR(run.multiplier(latch, 10).y(), 0.5 * g, g * error_of(run));
+}
+
 TEST_P(Changes, StateForcesMassesAndVelocitiesAnew) {
   // At the bottom gravity doubles, the bob gets four times its mass, and is stopped: it stays.
   const Pendulum p;

@@ -204,6 +204,27 @@ TEST_P(SwitchTimes, PushBeginsOnAYieldingFloorWhereStepsAndLedgerAreRead) {
   });
 }
 
+// x" = -9 (x - d) on a smooth floor, where the end of the spring jumps from d = 0 to 0.1 m at T. Its force
+// jumps, the block does not.
+TEST_P(SwitchTimes, EndOfASpringJumps) {
+  for_each_switch([](Switching at) {
+    constexpr double omega = 3.0, x0 = 0.05, d = 0.1, t_end = 1.5;
+    Yard yard(at);
+    yard.scene.replace(yard.block, {.mass = 1.0, .position = {x0, 0.0}});
+    yard.scene.add(OnCurve{yard.block, Plane<2>{}}, "floor");
+    const auto end = [=](auto t, auto r) { return r.x() - (at.before(t) ? 0.0 : d) + 0.0 * t; };
+    const auto spring =
+        yard.scene.add(compliant(holonomic(points(yard.block), end), 1.0 / (omega * omega)), "spring");
+    const auto its = run(yard, {0.0, at.T, t_end});
+    const double x1 = x0 * std::cos(omega * at.T), v1 = -omega * x0 * std::sin(omega * at.T),
+                 s = omega * (t_end - at.T);
+    const double x = d + (x1 - d) * std::cos(s) + v1 / omega * std::sin(s);
+    expect_last(its, yard, {x, 0.0});
+    EXPECT_NEAR(its.multiplier(spring, 1), -omega * omega * x1, omega * omega * bound(its)) << at.T;
+    EXPECT_NEAR(its.multiplier(spring, 2), -omega * omega * (x - d), omega * omega * bound(its)) << at.T;
+  });
+}
+
 // A second phase, which takes over where the first has ended.
 TEST_P(SwitchTimes, RunsStartBehindTheirSwitch) {
   for_each_switch([](Switching at) {
