@@ -289,6 +289,7 @@ bool Integration::go_behind_switch() {
     behind_ = behind;
     return false;
   }
+  comparisons.require_no_impulse(one);
   State now = interpolate(t);
   const Start before = start_of_rest(t);
   const Branches holding(nullptr, &one.behind);

@@ -1,3 +1,4 @@
+#include "failure_of.h"
 #include "lagrangians.h"
 #include <dalembert/tests/both_steppers.h>
 
@@ -6,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace dalembert::lagrangian_test {
 namespace {
@@ -232,6 +234,20 @@ TEST_P(LagrangianMotions, EndWhereTheInertiaIsLostAndKeepWhatWasComputed) {
     EXPECT_GT(motion.position(motion.size() - 1)[0], 0.0);
     EXPECT_NEAR(motion.energy_function(motion.size() - 1), 4.0, 1e3 * bound);
   }
+}
+
+TEST_P(LagrangianMotions, NameOnceAConstraintThatThrows) {
+  LagrangianSystem<2> circle({.position = {1.0, 0.0}},
+                             [](const auto& q, const auto& v) { return 0.5 * v.squaredNorm() - q[1]; });
+  circle.constrain(
+      [](const auto& t, const auto& q) {
+        if (t > 1.0) throw std::runtime_error("torn");
+        return q.squaredNorm() - 1.0;
+      },
+      "ring");
+  const auto failure = failure_of([&] { (void)simulate(circle, options()); });
+  ASSERT_TRUE(failure);
+  EXPECT_THAT(failure->what(), HasSubstr(": Holonomic \"ring\" threw \"torn\" (t = 1"));
 }
 
 TEST_P(LagrangianMotions, StopWhereTheInertiaIsLostOnTheWay) {
