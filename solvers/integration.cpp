@@ -348,6 +348,12 @@ Statistics Integration::statistics(double until) const {
   return s;
 }
 
+std::string Integration::chattering_force(double step) {
+  const State& now = interpolate(time());
+  return dalembert::chattering_force(system(), scales(time()), {time(), now.q, now.v}, step,
+                                     options_.tolerance);
+}
+
 std::string Integration::unbounded_multiplier() {
   try {
     State now = interpolate(time());

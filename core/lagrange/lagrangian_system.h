@@ -63,8 +63,8 @@ class LagrangianSystem {
       : LagrangianSystem(state, differentiated(std::move(function)), name) {}
 
   /// Generalized forces Q(t, q, v), a Vec<N>, which are not in L: drag, drives, friction. Their comparisons
-  /// are not seen: dry friction that reverses by a jump holds a run at rest in ever shorter steps, so smooth
-  /// it, as by tanh(v/v_0). Throws InvalidArgument for an empty one.
+  /// are not seen: smooth dry friction where it reverses, as by tanh(v/v_0); a run that is held at rest by
+  /// a jump stops, if its steps would not reach the end. Throws InvalidArgument for an empty one.
   void apply(GeneralizedForce<N> force) {
     if (!force) throw InvalidArgument("Lagrangian \"" + name() + "\": a generalized force is empty");
     forces_.push_back(std::move(force));

@@ -161,6 +161,86 @@ std::string singular_here(const System& system, const Scales& scales, const Inst
   return {};  // the run is stopping: what stops it is known already
 }
 
+namespace {
+
+/// Two velocities of a coordinate, and its force there.
+struct Slower {
+  double v, force;
+};
+
+/// Between which velocities, no farther than `beside` from that of coordinate i, its force jumps from forward
+/// to backward: a smooth one changes by less and less where they are bisected. Nothing if it does not.
+std::optional<std::pair<Slower, Slower>> reversal(const System& system, const Instant& at, std::size_t i,
+                                                  double beside) {
+  constexpr int halvings = 30;
+  std::vector<double> v(at.v.begin(), at.v.end());
+  auto e = system.evaluation();
+  const auto with = [&](double speed) {
+    v[i] = speed;
+    system.evaluate({at.t, at.q, v}, e);
+    return Slower{speed, e.force[i]};
+  };
+  Slower low = with(at.v[i] - beside), high = with(at.v[i] + beside);
+  if (!(low.force > 0.0 && high.force < 0.0)) return std::nullopt;
+  const double all = low.force - high.force;
+  for (int k = 0; k < halvings; ++k) {
+    const Slower middle = with(0.5 * (low.v + high.v));
+    (low.force - middle.force > middle.force - high.force ? high : low) = middle;
+  }
+  if (low.force - high.force > 0.5 * all) return std::pair(low, high);
+  return std::nullopt;
+}
+
+/// The force that changes most from one velocity of coordinate i of a mover to another.
+std::string changing_force(const System& system, const Instant& at, const Mover& mover, std::size_t i,
+                           double from, double to) {
+  const Layout& layout = *system.layout();
+  const std::vector<double> none(system.rows(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> v(at.v.begin(), at.v.end()), force(mover.size);
+  const std::size_t k = i - static_cast<std::size_t>(mover.first);
+  const auto with = [&](std::size_t f, double speed) {
+    v[i] = speed;
+    return layout.applied->on(f, {at.t, at.q, v}, none, mover.first, mover.mass, force) ? force[k] : 0.0;
+  };
+  double most = 0.0;
+  std::string label;
+  for (std::size_t f = 0; f < layout.forces.size(); ++f) {
+    const double change = std::abs(with(f, to) - with(f, from));
+    if (!(change > most)) continue;
+    most = change;
+    label = layout.forces[f].label();
+  }
+  return label;
+}
+
+}  // namespace
+
+std::string chattering_force(const System& system, const Scales& scales, const Instant& at, double step,
+                             double tolerance) try {
+  for (const Mover& mover : movers(*system.layout())) {
+    for (std::size_t k = 0; k < mover.size; ++k) {
+      const std::size_t i = static_cast<std::size_t>(mover.first) + k;
+      const double v = at.v[i], error = scales.velocity_error(i, v, tolerance);
+      const auto jump = reversal(system, at, i, scales.velocity_error(i, v, std::sqrt(tolerance)));
+      if (!jump) continue;
+      const auto& [low, high] = *jump;
+      const double in_a_step = step * std::max(low.force, -high.force) / system.masses()[i];
+      if (std::max(low.v - v, v - high.v) > in_a_step + error) continue;
+      const std::string force = changing_force(system, at, mover, i, low.v, high.v);
+      if (force.empty()) continue;
+      std::ostringstream text;
+      text << "the force of " << force << " jumps where " << mover.name << " has the velocity "
+           << (std::abs(low.v) > error ? low.v : 0.0)
+           << " and drives it back there from both sides, as dry friction does: it would chatter. Smooth the "
+              "jump, as by tanh of the velocity, or end the run here";
+      return text.str();
+    }
+  }
+  return {};
+} catch (...) {
+  return {};  // no reason is known: the run goes on
+}
+
 bool resolves_motion(const Scales& scales, double time) {
   return least_resolved * epsilon * std::abs(time) <= scales.time;
 }

@@ -21,6 +21,11 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// of a cone. Both are singular at that place, or nearly so.
 [[nodiscard]] std::string singular_here(const System& system, const Scales& scales, const Instant& at);
 
+/// The force that drives a coordinate back by a jump on both sides of where its velocity comes to in a step
+/// of this length: dry friction whose comparisons are not seen.
+[[nodiscard]] std::string chattering_force(const System& system, const Scales& scales, const Instant& at,
+                                           double step, double tolerance);
+
 /// That times so far from 0 are too coarse for the scene.
 [[nodiscard]] std::string coarse_time(const Scales& scales, double time);
 /// Whether times there tell the scene's own time from 0.
