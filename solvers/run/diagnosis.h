@@ -26,6 +26,11 @@ namespace DALEMBERT_HIDDEN dalembert {
 [[nodiscard]] std::string chattering_force(const System& system, const Scales& scales, const Instant& at,
                                            double step, double tolerance);
 
+/// The force that jumps from driving a coordinate forward to driving it backward at a position no farther
+/// away than this, its label: there is no balance between both.
+[[nodiscard]] std::string force_that_jumps(const System& system, const Instant& at, std::size_t coordinate,
+                                           double distance);
+
 /// That times so far from 0 are too coarse for the scene.
 [[nodiscard]] std::string coarse_time(const Scales& scales, double time);
 /// Whether times there tell the scene's own time from 0.
