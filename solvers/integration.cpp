@@ -289,6 +289,7 @@ bool Integration::go_behind_switch() {
     behind_ = behind;
     return false;
   }
+  comparisons.require_no_impulse(one);
   State now = interpolate(t);
   const Start before = start_of_rest(t);
   {
@@ -349,6 +350,12 @@ Statistics Integration::statistics(double until) const {
     s.round_off = of_scene(error_.position_noise(), error_.velocity_noise());
   }
   return s;
+}
+
+std::string Integration::chattering_force(double step) {
+  const State& now = interpolate(time());
+  return dalembert::chattering_force(system(), scales(time()), {time(), now.q, now.v}, step,
+                                     options_.tolerance);
 }
 
 std::string Integration::unbounded_multiplier() {

@@ -81,6 +81,9 @@ class Integration {
   /// The constraint whose force has grown without bound where the last step ended, in words; empty if there
   /// is none.
   [[nodiscard]] std::string unbounded_multiplier();
+  /// The force that holds the motion where the last step ended, in steps of this length, see
+  /// dalembert::chattering_force.
+  [[nodiscard]] std::string chattering_force(double step);
   /// All steps, of the last one what lies before `end`, if the options ask to keep them; else null.
   [[nodiscard]] std::shared_ptr<const DenseOutput> dense(double end);
   /// Of all its steppers up to a time inside the last step, without the run time.

@@ -9,6 +9,7 @@
 #include <dalembert/solvers/run/stopwatch.h>
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -94,8 +95,22 @@ struct DALEMBERT_HIDDEN Integrator::Run {
     return before;
   }
 
+  /// A run whose steps would not reach its end, and did not when it was last looked at, is told why, if a
+  /// force holds it.
+  void look_for_chatter() {
+    const double t = integration.time(), step = (t - looked.time) / static_cast<double>(steps - looked.steps);
+    const bool slow = (options.t_end - t) > step * static_cast<double>(options.max_steps - steps);
+    std::string chatters = slow ? integration.chattering_force(step) : std::string{};
+    const bool again = looked.chatters;
+    looked = {t, steps, !chatters.empty()};
+    if (again && looked.chatters) throw StepFailure{std::move(chatters), t};
+  }
+
   void count_turn() {
-    if (++steps <= options.max_steps) return;
+    constexpr unsigned long first_look = 1024;
+    if (++steps >= static_cast<long>(first_look) && std::has_single_bit(static_cast<unsigned long>(steps)))
+      look_for_chatter();
+    if (steps <= options.max_steps) return;
     const bool short_steps =
         options.max_step > 0.0 &&
         static_cast<double>(options.max_steps) * options.max_step < options.t_end - options.t_start;
@@ -266,6 +281,12 @@ struct DALEMBERT_HIDDEN Integrator::Run {
   std::optional<Auditor> auditor;           // unless the options turn it off
   std::optional<EventHandler> handler;      // if there is anything to be found
   long steps = 0;
+  /// What the last look for chatter found, and when it was.
+  struct Look {
+    double time;
+    long steps;
+    bool chatters;
+  } looked{options.t_start, 0, false};
   Stopwatch stopwatch;
   std::optional<IntegrationFailure> stopped;
   Record record = empty_record();

@@ -219,9 +219,11 @@ struct DifferentiatedEquations::Evaluation {
     if (!out.psi.empty()) require_finite(std::isfinite(g.value), i, "is not a finite number");
     const auto finite = [](double x) { return std::isfinite(x); };
     if (!out.w.empty() && !std::all_of(gradient, gradient + variables, finite)) {
-      throw ElementFault{i, its.singular.empty() || its.on_velocities
-                                ? "has no finite gradient"
-                                : "has no gradient: " + std::string(its.singular)};
+      // Where a root is 0 no derivative of it is a number, whatever it depends on.
+      const std::string none =
+          its.timed() ? "has no gradient, or no derivative by time: " : "has no gradient: ";
+      throw ElementFault{i, its.singular.empty() || its.on_velocities ? "has no finite gradient"
+                                                                      : none + std::string(its.singular)};
     }
     throw ElementFault{i, its.on_velocities ? "has no finite derivative" : "has no finite second derivative"};
   }

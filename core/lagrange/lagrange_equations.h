@@ -3,6 +3,7 @@
 #include <dalembert/core/forces/force.h>
 #include <dalembert/core/lagrange/accelerations.h>
 #include <dalembert/core/lagrange/lagrange_terms.h>
+#include <dalembert/core/lagrange/stated_by_lagrangians.h>
 #include <dalembert/core/scene/system.h>
 
 #include <array>
@@ -58,6 +59,8 @@ struct LagrangeEquations {
   [[nodiscard]] Solved solved(const Instant& at) const;
   /// The energy function less the kinetic energy of the rotors: so that both together are the former.
   [[nodiscard]] double energy(const Instant& at) const;
+  /// Adds L and its momenta.
+  void add_values(const Instant& at, const Instant& errors, StatedByLagrangians::Values& out) const;
 };
 
 template <int N>
@@ -95,9 +98,30 @@ double LagrangeEquations<N>::energy(const Instant& at) const {
          0.5 * v.squaredNorm();
 }
 
+template <int N>
+void LagrangeEquations<N>::add_values(const Instant& at, const Instant& errors,
+                                      StatedByLagrangians::Values& out) const {
+  constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+  const auto scaled = [&](std::span<const double> of) -> Vec<N> {
+    return scale.cwiseProduct(detail::gather_inputs(*this, of));
+  };
+  const Vec<N> dq = scaled(errors.q), dv = scaled(errors.v);
+  const LagrangeTerms<N> terms = lagrangian->terms(at.t, scaled(at.q), scaled(at.v));
+  double error = rounding * std::abs(terms.L);
+  for (int k = 0; k < N; ++k) {
+    const double p = std::abs(terms.L_v[k]);
+    double of_p = rounding * p + std::abs(terms.L_vt[k]) * errors.t;
+    for (int j = 0; j < N; ++j)
+      of_p += std::abs(terms.L_vv(k, j)) * dv[j] + std::abs(terms.L_vq(k, j)) * dq[j];
+    out.momenta.push_back({terms.L_v[k], of_p});
+    error += (p + of_p) * dv[k] + std::abs(terms.L_q[k]) * dq[k];
+  }
+  out.L.push_back({terms.L, error});
+}
+
 /// Lagrange's equations among the forces of a scene.
 template <int N>
-class LagrangeBatch final : public ForceBatch {
+class LagrangeBatch final : public ForceBatch, public StatedByLagrangians {
   using Element = LagrangeEquations<N>;
 
  public:
@@ -135,6 +159,11 @@ class LagrangeBatch final : public ForceBatch {
     for_each([&](const Element& e, std::size_t) { sum += e.energy(at); });
     return sum;
   }
+  [[nodiscard]] Values lagrangians(const Instant& at, const Instant& errors) const override {
+    Values all;
+    for_each([&](const Element& e, std::size_t) { e.add_values(at, errors, all); });
+    return all;
+  }
 
   /// By central differences: only Newton's matrix reads them, whose iteration corrects what they err, and
   /// third derivatives of L would cost N times its second ones. The step is the cube root of round-off, of a
@@ -169,6 +198,8 @@ class LagrangeBatch final : public ForceBatch {
   void at_element(std::size_t i, const F& f) const {
     try {
       f(*static_cast<const Element*>(elements_[i]), i);
+    } catch (const EquationFault&) {
+      throw;  // of a constraint, whose name it has
     } catch (...) {
       detail::rethrow_as_fault(i);
     }

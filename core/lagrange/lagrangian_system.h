@@ -44,6 +44,9 @@ struct CoordinateState {
 /// determinant of the inertia has changed its sign. A motion that passes such a place with finite
 /// accelerations, as that of v^4/4 passes v = 0, may go on: `ida` as a rule passes it, `erk` stops where a
 /// stage of it comes too close to have an acceleration.
+///
+/// Where a comparison in L switches a run goes on with the same velocities. So it stops (IntegrationFailure)
+/// where a momentum L_v jumps, or L itself unless time alone decides: that is an impulse.
 template <int N>
 class LagrangianSystem {
   static_assert(N > 0 && N <= detail::most_coordinates, "a Lagrangian has 1 to 32 coordinates");
@@ -59,8 +62,9 @@ class LagrangianSystem {
                             const std::string& name = "lagrangian")
       : LagrangianSystem(state, differentiated(std::move(function)), name) {}
 
-  /// Generalized forces Q(t, q, v), a Vec<N>, which are not in L: drag, drives, friction.
-  /// Throws InvalidArgument for an empty one.
+  /// Generalized forces Q(t, q, v), a Vec<N>, which are not in L: drag, drives, friction. Their comparisons
+  /// are not seen: smooth dry friction where it reverses, as by tanh(v/v_0); a run that is held at rest by
+  /// a jump stops, if its steps would not reach the end. Throws InvalidArgument for an empty one.
   void apply(GeneralizedForce<N> force) {
     if (!force) throw InvalidArgument("Lagrangian \"" + name() + "\": a generalized force is empty");
     forces_.push_back(std::move(force));

@@ -61,7 +61,9 @@ std::pair<LagrangeTerms<N>, double> Routhian<N>::solve(double t, const Vec<N - 1
   constexpr int most_steps = 50;
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
   double rate = rate_, step = 0.0, before = std::numeric_limits<double>::infinity();
+  const std::size_t begin = Branches::next();
   for (int i = 0; i < most_steps; ++i) {
+    Branches::again(begin);
     const LagrangeTerms<N> terms = of_->terms(t, with(place_, q), with(rate, v));
     const double off = momentum_ - terms.L_v[cyclic_];
     // Of the terms that the momentum is the sum of.

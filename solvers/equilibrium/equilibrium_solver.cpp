@@ -6,6 +6,7 @@
 #include <dalembert/solvers/equilibrium/equilibrium.h>
 #include <dalembert/solvers/equilibrium/static_length.h>
 #include <dalembert/solvers/manifold/manifold.h>
+#include <dalembert/solvers/run/diagnosis.h>
 
 #include <algorithm>
 #include <cmath>
@@ -319,7 +320,15 @@ void EquilibriumSolver::refuse(const State& s, const std::string& why) const {
   name(layout.particles, static_cast<std::size_t>(layout.dimension));
   name(layout.rotors, 1);
   what << " would still be accelerated by " << std::abs(s.force[worst]) / system().masses()[worst]
-       << " there. Start closer to an equilibrium, and hold what is free to fall or to run away";
+       << " there. ";
+  const std::string jumps =
+      force_that_jumps(system(), {time(), s.q, s.v}, worst, constants.longest_descent * scales().unit(worst));
+  if (jumps.empty()) {
+    what << "Start closer to an equilibrium, and hold what is free to fall or to run away";
+  } else {
+    what << "The force of " << jumps
+         << " jumps there and drives it back from both sides: no place is in balance. Round the jump off";
+  }
   throw NoEquilibrium(what.str());
 }
 

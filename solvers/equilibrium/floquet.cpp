@@ -322,9 +322,10 @@ class Monodromy {
       return;
     }
     if (halvings == most_step_halvings)
-      throw NoEquilibrium("Floquet multipliers of scene \"" + motion_->layout->scene +
-                          "\" do not converge: its motion is not smooth at t = " +
-                          std::to_string(middle * period_) + ", or the period too long");
+      throw NoEquilibrium(
+          "Floquet multipliers of scene \"" + motion_->layout->scene +
+          "\" do not converge: its motion, or the stiffness of its forces, is not smooth at t = " +
+          std::to_string(middle * period_) + ": smooth what switches there; or the period is too long");
     refine(halves[0], halvings + 1);
     refine(halves[1], halvings + 1);
   }

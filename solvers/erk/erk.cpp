@@ -74,7 +74,8 @@ std::string ErkStepper::RungeKutta::cause() const {
   if (to.sine < constants.close_to_dependent) return "the constraints are nearly linearly dependent here";
   if (2 * stability_limited > steps && steps > 0)
     return "a force is very stiff; Stepper::ida has no such limit";
-  return "look for a discontinuous force, or ask for a looser tolerance";
+  return "look for a discontinuous force, or a constraint whose gradient jumps, or ask for a looser "
+         "tolerance";
 }
 
 /// The step to try: h, or an equal part of the way to the next output time or the end of the run, unless

@@ -101,7 +101,7 @@ std::string IdaStepper::Solver::cause() const {
   if (newton.fastest().of_forces * scales.time > stiff_rate)
     return system->forces().owner_of_stiffness(newton.fastest().stiffest) +
            " is very stiff, or a force discontinuous";
-  return "look for a discontinuous force";
+  return "look for a discontinuous force, or a constraint whose gradient jumps";
 }
 
 std::string IdaStepper::Solver::advice() const {

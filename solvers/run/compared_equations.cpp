@@ -1,14 +1,59 @@
 #include "dalembert/solvers/run/compared_equations.h"
 
 #include <dalembert/core/errors.h>
+#include <dalembert/core/lagrange/stated_by_lagrangians.h>
 #include <dalembert/solvers/base/constants.h>
+#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/linear/rows.h>
 #include <dalembert/solvers/run/sticking.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dalembert {
+
+namespace {
+
+/// What of a batch of forces is compared at an instant, on these sides.
+std::vector<Branches::Comparison> compared(const StatedByLagrangians& batch, std::size_t number,
+                                           const Instant& at, const Branches::Sides& held) {
+  Branches::Sides recorded;
+  const Branches listening(&recorded, &held);
+  Branches::enter_batch(number);
+  try {
+    (void)batch.lagrangians(at, at);
+  } catch (...) {  // what was compared until then was compared
+  }
+  return recorded[number];
+}
+
+/// Whether what has left these sides is decided by time alone: it is a number where the motion is none.
+bool decided_by_time(const StatedByLagrangians& batch, std::size_t number, const Instant& ahead,
+                     const Branches::Sides& held) {
+  const std::vector<double> none(ahead.q.size(), std::numeric_limits<double>::quiet_NaN());
+  const auto all = compared(batch, number, ahead, held),
+             timed = compared(batch, number, {ahead.t, none, none}, held);
+  bool any = false;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const double difference = all[k].difference;
+    if (all[k].side == 0 ? difference == 0.0 : !(all[k].side * difference < 0.0)) continue;
+    if (k >= timed.size() || std::isnan(timed[k].difference)) return false;
+    any = true;
+  }
+  return any;
+}
+
+using Values = std::vector<StatedByLagrangians::Value>;
+
+/// By more than errors change either.
+bool jump(const Values& before, const Values& behind) {
+  return !std::ranges::equal(before, behind, [](const auto& one, const auto& other) {
+    return std::abs(other.value - one.value) <= std::max(one.error, other.error);
+  });
+}
+
+}  // namespace
 
 ComparedEquations::ComparedEquations(const Problem& problem, const Start& start, double tolerance)
     : system_(&problem.system()),
@@ -109,6 +154,34 @@ std::optional<std::size_t> ComparedEquations::corner(const Instant& at, const Br
     if (!conditional) conditional = r;
   }
   return conditional;
+}
+
+std::optional<std::size_t> ComparedEquations::impulse(const Motion& there, const Instant& ahead,
+                                                      const Branches::Sides& before,
+                                                      const Branches::Sides& behind) const {
+  const Instant at = there.instant();
+  const double of_time = 16.0 * epsilon * std::max(std::abs(at.t), scales_.time);
+  std::vector<double> of_q(at.q.size()), of_v(at.q.size());
+  for (std::size_t i = 0; i < of_q.size(); ++i) {
+    of_q[i] = scales_.position_error(i, at.q[i], tolerance_) + std::abs(at.v[i]) * of_time;
+    of_v[i] = scales_.velocity_error(i, at.v[i], tolerance_) + std::abs(there.a[i]) * of_time;
+  }
+  const std::size_t constraints = system_->stated_batches() - system_->forces().stated();
+  const auto forces = system_->forces().plain();
+  for (std::size_t b = 0; b < forces.size(); ++b) {
+    const auto* const own = dynamic_cast<const StatedByLagrangians*>(forces[b].get());
+    if (own == nullptr) continue;
+    const std::size_t number = constraints + b;
+    const auto on = [&](const Branches::Sides& held) {
+      const Branches holding(nullptr, &held);
+      Branches::enter_batch(number);
+      return own->lagrangians(at, {of_time, of_q, of_v});
+    };
+    const auto one = on(before), other = on(behind);
+    if (jump(one.momenta, other.momenta)) return number;
+    if (jump(one.L, other.L) && !decided_by_time(*own, number, ahead, before)) return number;
+  }
+  return std::nullopt;
 }
 
 std::optional<std::string> ComparedEquations::would_stick(const Motion& there, const Branches::Sides& before,

@@ -37,6 +37,11 @@ class ComparedEquations {
   /// does: of those that always hold before those that hold only at times.
   [[nodiscard]] std::optional<std::size_t> corner(const Instant& at, const Branches::Sides& before,
                                                   const Branches::Sides& behind);
+  /// The batch of forces, by its number among all, that follow from a Lagrangian in which something jumps
+  /// that must not, see StatedByLagrangians, if one does. `ahead` is behind the switch.
+  [[nodiscard]] std::optional<std::size_t> impulse(const Motion& there, const Instant& ahead,
+                                                   const Branches::Sides& before,
+                                                   const Branches::Sides& behind) const;
   [[nodiscard]] bool holds_at_times(std::size_t row) const {
     return std::ranges::find(conditional_, row) != conditional_.end();
   }

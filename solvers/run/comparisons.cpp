@@ -308,7 +308,7 @@ std::optional<Comparisons::Switch> Comparisons::leave(TimeStepper& stepper) {
     if (!root) break;
     if (!last) taken = held_;
     Switch one = behind(*root, to - from);
-    if (corner(one) || equations_.differ(one.at, taken, one.behind)) return one;
+    if (corner(one) || impulse(one) || equations_.differ(one.at, taken, one.behind)) return one;
     if (!one.clear) passed_.push_back(margins_[root->margin]);
     from_ = std::min(to, root->t + one.ahead);
     before_last = std::exchange(held_, one.behind);
@@ -327,6 +327,20 @@ void Comparisons::refuse_corner(const Switch& one, std::size_t row) const {
           "That is an impact, which the equations do not describe; end the run here, or round it "
           "off",
       one.at.t};
+}
+
+std::optional<std::size_t> Comparisons::impulse(const Switch& one) {
+  move(one.at, one.ahead, other_);
+  return equations_.impulse(one.at, other_.instant(), held_, one.behind);
+}
+
+void Comparisons::require_no_impulse(const Switch& one) {
+  if (const auto batch = impulse(one))
+    throw StepFailure{
+        equations_.system().label_of_batch(*batch) +
+            " jumps here, or its momenta do: that is an impulse, which the equations do not "
+            "describe. Smooth the jump; or end the run here, and begin another with the velocities behind it",
+        one.at.t};
 }
 
 /// Whether the motion before the switch would return by itself: it touches where it turns, and either side

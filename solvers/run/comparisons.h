@@ -64,6 +64,8 @@ class Comparisons {
   [[nodiscard]] bool holds_at_times(std::size_t row) const { return equations_.holds_at_times(row); }
   /// Throws StepFailure for such a row.
   [[noreturn]] void refuse_corner(const Switch& one, std::size_t row) const;
+  /// Throws StepFailure where a Lagrangian makes an impulse of the switch.
+  void require_no_impulse(const Switch& one);
   /// Throws StepFailure where the motion on the other side, with the accelerations a, leads back at once
   /// (Filippov): then neither side goes on.
   void require_leaving(const Switch& one, std::span<const double> a);
@@ -103,6 +105,7 @@ class Comparisons {
   [[nodiscard]] std::optional<Bracket> first_root(std::size_t k, double until, double to);
   [[nodiscard]] std::optional<Root> first_switch(double to);
   [[nodiscard]] Switch behind(const Root& root, double step);
+  [[nodiscard]] std::optional<std::size_t> impulse(const Switch& one);
   [[nodiscard]] bool goes_wrong(const Branches::Sides& taken, double until);
   [[nodiscard]] bool turns_back(const Switch& one, double from);
 

@@ -161,6 +161,123 @@ std::string singular_here(const System& system, const Scales& scales, const Inst
   return {};  // the run is stopping: what stops it is known already
 }
 
+namespace {
+
+/// States that differ in one velocity, or in one position.
+class Beside {
+ public:
+  Beside(const Instant& at, std::size_t coordinate, bool in_velocity)
+      : t_(at.t),
+        q_(at.q.begin(), at.q.end()),
+        v_(at.v.begin(), at.v.end()),
+        x_(in_velocity ? &v_[coordinate] : &q_[coordinate]) {}
+  Beside(const Beside&) = delete;
+  Beside& operator=(const Beside&) = delete;
+
+  [[nodiscard]] double x() const { return *x_; }
+  /// With another one; up to the next call.
+  [[nodiscard]] Instant with(double x) {
+    *x_ = x;
+    return {t_, q_, v_};
+  }
+
+ private:
+  double t_;
+  std::vector<double> q_, v_;
+  double* x_;
+};
+
+/// A velocity or position of a coordinate, and its force there.
+struct Place {
+  double x, force;
+};
+
+/// Between which places, no farther than this from that of coordinate i, its force jumps from forward to
+/// backward: a smooth one changes by less and less where they are bisected. Nothing if it does not.
+std::optional<std::pair<Place, Place>> reversal(const System& system, Beside& beside, std::size_t i,
+                                                double distance) {
+  constexpr int halvings = 30;
+  auto e = system.evaluation();
+  const auto at = [&](double x) {
+    system.evaluate(beside.with(x), e);
+    return Place{x, e.force[i]};
+  };
+  const double here = beside.x();
+  Place low = at(here - distance), high = at(here + distance);
+  if (!(low.force > 0.0 && high.force < 0.0)) return std::nullopt;
+  const double all = low.force - high.force;
+  for (int k = 0; k < halvings; ++k) {
+    const Place middle = at(0.5 * (low.x + high.x));
+    (low.force - middle.force > middle.force - high.force ? high : low) = middle;
+  }
+  if (low.force - high.force > 0.5 * all) return std::pair(low, high);
+  return std::nullopt;
+}
+
+/// The force on coordinate i of a mover that changes most from one place to another.
+std::string changing_force(const System& system, Beside& beside, const Mover& mover, std::size_t i,
+                           double from, double to) {
+  const Layout& layout = *system.layout();
+  const std::vector<double> none(system.rows(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> force(mover.size);
+  const std::size_t k = i - static_cast<std::size_t>(mover.first);
+  const auto at = [&](std::size_t f, double x) {
+    return layout.applied->on(f, beside.with(x), none, mover.first, mover.mass, force) ? force[k] : 0.0;
+  };
+  double most = 0.0;
+  std::string label;
+  for (std::size_t f = 0; f < layout.forces.size(); ++f) {
+    const double change = std::abs(at(f, to) - at(f, from));
+    if (!(change > most)) continue;
+    most = change;
+    label = layout.forces[f].label();
+  }
+  return label;
+}
+
+}  // namespace
+
+std::string force_that_jumps(const System& system, const Instant& at, std::size_t coordinate,
+                             double distance) try {
+  for (const Mover& mover : movers(*system.layout())) {
+    const auto first = static_cast<std::size_t>(mover.first);
+    if (coordinate < first || coordinate >= first + mover.size) continue;
+    Beside beside(at, coordinate, false);
+    const auto jump = reversal(system, beside, coordinate, distance);
+    if (jump) return changing_force(system, beside, mover, coordinate, jump->first.x, jump->second.x);
+  }
+  return {};
+} catch (...) {
+  return {};  // it is a message that would say it
+}
+
+std::string chattering_force(const System& system, const Scales& scales, const Instant& at, double step,
+                             double tolerance) try {
+  for (const Mover& mover : movers(*system.layout())) {
+    for (std::size_t k = 0; k < mover.size; ++k) {
+      const std::size_t i = static_cast<std::size_t>(mover.first) + k;
+      const double v = at.v[i], error = scales.velocity_error(i, v, tolerance);
+      Beside beside(at, i, true);
+      const auto jump = reversal(system, beside, i, scales.velocity_error(i, v, std::sqrt(tolerance)));
+      if (!jump) continue;
+      const auto& [low, high] = *jump;
+      const double in_a_step = step * std::max(low.force, -high.force) / system.masses()[i];
+      if (std::max(low.x - v, v - high.x) > in_a_step + error) continue;
+      const std::string force = changing_force(system, beside, mover, i, low.x, high.x);
+      if (force.empty()) continue;
+      std::ostringstream text;
+      text << "the force of " << force << " jumps where " << mover.name << " has the velocity "
+           << (std::abs(low.x) > error ? low.x : 0.0)
+           << " and drives it back there from both sides, as dry friction does: it would chatter. Smooth the "
+              "jump, as by tanh of the velocity, or end the run here";
+      return text.str();
+    }
+  }
+  return {};
+} catch (...) {
+  return {};  // no reason is known: the run goes on
+}
+
 bool resolves_motion(const Scales& scales, double time) {
   return least_resolved * epsilon * std::abs(time) <= scales.time;
 }

@@ -21,6 +21,16 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// of a cone. Both are singular at that place, or nearly so.
 [[nodiscard]] std::string singular_here(const System& system, const Scales& scales, const Instant& at);
 
+/// The force that drives a coordinate back by a jump on both sides of where its velocity comes to in a step
+/// of this length: dry friction whose comparisons are not seen.
+[[nodiscard]] std::string chattering_force(const System& system, const Scales& scales, const Instant& at,
+                                           double step, double tolerance);
+
+/// The force that jumps from driving a coordinate forward to driving it backward at a position no farther
+/// away than this, its label: there is no balance between both.
+[[nodiscard]] std::string force_that_jumps(const System& system, const Instant& at, std::size_t coordinate,
+                                           double distance);
+
 /// That times so far from 0 are too coarse for the scene.
 [[nodiscard]] std::string coarse_time(const Scales& scales, double time);
 /// That the errors of steps add up to a part of the scene's length that leaves nothing of a result.

@@ -72,5 +72,14 @@ TEST_P(Fall, IntoTheApexOfAConeEndsThere) {
   }
 }
 
+/// A bead slides down into a corner that compares nothing.
+TEST_P(Fall, IntoACornerMayBeThatOfAConstraint) {
+  Scene<3> scene;
+  scene.add(UniformGravity<3>{{0.0, 0.0, -1.0}});
+  const auto bead = scene.add_particle({.mass = 2.0, .position = {-1.0, 0.0, 1.0}}, "bead");
+  scene.add(holonomic(points(bead), [](auto r) { return r.z() - sqrt(r.x() * r.x()); }), "corner");
+  EXPECT_THAT(stopped_by(scene, 1e-8, GetParam()), HasSubstr("a constraint whose gradient jumps"));
+}
+
 }  // namespace
 }  // namespace dalembert::diagnosis_test

@@ -215,6 +215,16 @@ TEST(Equilibrium, RepulsionThatDiesAwayHasNone) {
   EXPECT_THAT(refusal(pair), ThrowsMessage<NoEquilibrium>(HasSubstr("\"b\"")));
 }
 
+TEST(Equilibrium, IsNoneAtACornerOfAPotential) {
+  // V = |x| + y^2/2: wherever it starts, a force of size 1 drives it back to x = 0, where it jumps.
+  for (const double x : {0.0, 0.3}) {
+    Scene<2> scene;
+    const auto bead = scene.add_particle({.mass = 1.0, .position = {x, 0.2}}, "bead");
+    scene.add(potential(points(bead), [](auto r) { return abs(r.x()) + 0.5 * r.y() * r.y(); }), "groove");
+    EXPECT_THAT(refusal(scene), ThrowsMessage<NoEquilibrium>(HasSubstr("Potential \"groove\" jumps there")));
+  }
+}
+
 TEST(Equilibrium, NamesTheForceBeyondWhoseRangeItLies) {
   Scene<2> scene("range");
   scene.add(UniformGravity<2>{{0.0, -9.81}});

@@ -203,6 +203,19 @@ TEST(Floquet, FixedSceneHasNoMultipliers) {
 
 /// Neighbours of a vibration in |x| + x^2/2 are periodic, too: the multipliers are 1, 1. A disturbance jumps
 /// where the force does.
+TEST(Floquet, StiffnessThatSwitchesWithTimeIsRefusedAsSuch) {
+  // At rest, and so smooth: the spring is 5 and 1 by turns of 1.
+  Scene<2> scene;
+  const auto bob = scene.add_particle({.mass = 1.0});
+  scene.add(OnCurve{bob, Plane<2>{}});
+  scene.add(potential(points(bob), [](auto t, auto r) {
+    const auto since = t - 2.0 * floor(t / 2.0);
+    return 0.5 * (since < 1.0 ? 5.0 : 1.0) * r.x() * r.x();
+  }));
+  EXPECT_THAT([&] { (void)floquet(scene, 2.0); },
+              ThrowsMessage<NoEquilibrium>(HasSubstr("or the stiffness of its forces, is not smooth")));
+}
+
 TEST(Floquet, ForceThatJumpsIsRefused) {
   constexpr double a = 1.0;
   Scene<2> scene;

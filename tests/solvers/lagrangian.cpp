@@ -1,3 +1,4 @@
+#include "failure_of.h"
 #include "lagrangians.h"
 #include <dalembert/tests/both_steppers.h>
 
@@ -6,6 +7,8 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <stdexcept>
 
 namespace dalembert::lagrangian_test {
 namespace {
@@ -232,6 +235,45 @@ TEST_P(LagrangianMotions, EndWhereTheInertiaIsLostAndKeepWhatWasComputed) {
     EXPECT_GT(motion.position(motion.size() - 1)[0], 0.0);
     EXPECT_NEAR(motion.energy_function(motion.size() - 1), 4.0, 1e3 * bound);
   }
+}
+
+TEST_P(LagrangianMotions, StopWhereDryFrictionHoldsThem) {
+  // q'' = -q -+ 0.3 from rest at 1: half-periods about +-0.3, to -0.4 and -0.2, where friction holds.
+  LagrangianSystem<1> block(
+      {.position = Vec<1>(1.0)},
+      [](const auto& q, const auto& v) { return 0.5 * (v[0] * v[0] - q[0] * q[0]); }, "block");
+  block.apply([](double, const Vec<1>&, const Vec<1>& v) {
+    return Vec<1>(v[0] > 0.0 ? -0.3 : v[0] < 0.0 ? 0.3 : 0.0);
+  });
+  const auto failure = failure_of([&] { (void)simulate(block, options(20.0)); });
+  ASSERT_TRUE(failure);
+  EXPECT_THAT(failure->what(),
+              HasSubstr("the force of Lagrangian \"block\" jumps where q1 has the velocity 0 and drives"));
+  const double rests = 2.0 * std::numbers::pi;
+  EXPECT_GT(failure->time(), rests - bound);
+  const LagrangianMotion<1> motion(block, failure->trajectory<2>(), tolerance);
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const double t = motion.times()[i];
+    EXPECT_NEAR(motion.position(i)[0],
+                t < std::numbers::pi ? 0.3 + 0.7 * std::cos(t)
+                : t < rests          ? -0.3 + 0.1 * std::cos(t)
+                                     : -0.2,
+                bound);
+  }
+}
+
+TEST_P(LagrangianMotions, NameOnceAConstraintThatThrows) {
+  LagrangianSystem<2> circle({.position = {1.0, 0.0}},
+                             [](const auto& q, const auto& v) { return 0.5 * v.squaredNorm() - q[1]; });
+  circle.constrain(
+      [](const auto& t, const auto& q) {
+        if (t > 1.0) throw std::runtime_error("torn");
+        return q.squaredNorm() - 1.0;
+      },
+      "ring");
+  const auto failure = failure_of([&] { (void)simulate(circle, options()); });
+  ASSERT_TRUE(failure);
+  EXPECT_THAT(failure->what(), HasSubstr(": Holonomic \"ring\" threw \"torn\" (t = 1"));
 }
 
 TEST_P(LagrangianMotions, StopWhereTheInertiaIsLostOnTheWay) {

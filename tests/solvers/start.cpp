@@ -232,6 +232,14 @@ TEST(Start, SingularPositionIsAnErrorThatSaysSo) {
   }
 }
 
+TEST(Start, RootThatIsZeroIsSaidToHavePerhapsNoDerivativeByTime) {
+  Scene<2> scene;
+  const auto bead = scene.add_particle({.mass = 1.0}, "bead");
+  scene.add(holonomic(points(bead), [](auto t, auto r) { return r.x() - sqrt(t * t * t * t * t); }), "drive");
+  EXPECT_THAT([&] { (void)simulate(scene, {.t_end = 1.0}); },
+              ThrowsMessage<InconsistentStart>(HasSubstr("no derivative by time")));
+}
+
 TEST(Start, RedundantConstraintsAreNoSingularPosition) {
   // A parallelogram with a third crank, and a rod twice: they depend on the others wherever it is.
   Scene<2> scene("three cranks");
