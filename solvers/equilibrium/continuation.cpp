@@ -140,6 +140,20 @@ void EquilibriumCorrector::finish(const Here& here, const EquilibriumSolver::Sta
   node.vibrations = vibrations(*here.system, terms);
 }
 
+PosedSystem Corrector::pose(double p) const {
+  std::string thrown = "threw something that is no std::exception";
+  try {
+    return pose_(p);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    thrown = std::string("threw \"") + error.what() + '"';
+  } catch (...) {
+  }
+  throw InvalidScene("Branches: the function that builds the scene " + thrown +
+                     " at parameter = " + detail::text(p));
+}
+
 Eigen::VectorXd Corrector::direction(const Eigen::VectorXd& shape) const {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(shape.size() + 1);
   for (Index i = 0; i < shape.size(); ++i) x[i] = shape[i] / scale_[static_cast<std::size_t>(i)];

@@ -118,14 +118,25 @@ class SteadySearch {
     look(system_->layout()->rotors, 1);
   }
 
+  /// Of positions and velocities: forces are known only of a motion that has been found.
   [[nodiscard]] double value(const FlatKept& one, const VectorXd& q, const VectorXd& v) const {
-    FlatSample at;
-    at.time = time_;
-    at.q = flat(q);
-    at.v = flat(v);
-    const double x = one.value(at);
-    if (!std::isfinite(x)) refuse("\"" + one.name + "\" is not a finite number");
-    return x;
+    const std::size_t n = system_->coordinates(), m = system_->rows(),
+                      slots = system_->layout()->slot_coordinate.size();
+    const std::vector<double> unknown(std::max({n, m, slots}), std::numeric_limits<double>::quiet_NaN());
+    const std::span<const double> none(unknown);
+    std::string why = "is no finite number of positions and velocities, which are all that it may read";
+    try {
+      const double x = one.value({time_, flat(q), flat(v), none.first(n), none.first(m), none.first(slots),
+                                  std::numeric_limits<double>::quiet_NaN()});
+      if (std::isfinite(x)) return x;
+    } catch (const UndeterminedForce&) {
+    } catch (const std::exception& error) {
+      why = std::string("threw \"") + error.what() + '"';
+    } catch (...) {
+      why = "threw something that is no std::exception";
+    }
+    throw NoEquilibrium("Scene \"" + system_->layout()->scene + "\": \"" + one.name +
+                        "\", which is to be kept, " + why);
   }
 
   struct Known {

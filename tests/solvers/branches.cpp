@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace dalembert::branches_test {
 namespace {
@@ -249,6 +252,14 @@ TEST(Branches, RefuseOptionsAndScenesThatMakeNoSense) {
   };
   EXPECT_THAT([&] { (void)follow_branches<2>(changing, {.from = 0.0, .to = 1.0}); },
               ThrowsMessage<InvalidScene>(HasSubstr("other points")));
+  const auto thrown = [&](const std::function<Posed<2>(double)>& build, const std::string& what) {
+    EXPECT_THAT([&] { (void)follow_branches<2>(build, {.from = 0.0, .to = 1.0}); },
+                ThrowsMessage<InvalidScene>(
+                    testing::AllOf(HasSubstr("function that builds the scene"), HasSubstr(what))));
+  };
+  thrown([](double) -> Posed<2> { throw std::runtime_error("mine"); }, "\"mine\" at parameter = 0");
+  thrown([](double) -> Posed<2> { throw 3; }, "no std::exception");
+  thrown({}, "threw");
   const auto skate = [](double) {
     Scene<2> scene("skate");
     const auto blade = scene.add_particle({.mass = 1.0});

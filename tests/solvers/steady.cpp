@@ -9,7 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace dalembert::steady_test {
 namespace {
@@ -187,6 +190,32 @@ TEST(Steady, RefusesWhatDoesNotAlwaysHoldWithARemedy) {
   scene.add(coulomb(floor, Slip{block, Plane<2>{}}, 0.3), "rough");
   refused(scene, "\"rough\": where friction sticks");
   refused(scene, "leave it out to find the one without friction");
+}
+
+/// What is kept has its value before forces are known.
+TEST(Steady, NamesTheKeptQuantityThatIsNotOfPositionsAndVelocities) {
+  Scene<2> scene("ring");
+  const auto bead = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}, .velocity = {0.0, 2.0}}, "bead");
+  const auto ring = scene.add(Distance{Fixed<2>{}, bead, 1.0}, "ring");
+  using Value = std::function<double(const Sample<2>&)>;
+  const auto refused = [&](const Value& value, const std::string& why) {
+    EXPECT_THAT(
+        [&] {
+          (void)steady(scene, {.keep = {{"speed", value}}});
+        },
+        ThrowsMessage<NoEquilibrium>(testing::AllOf(HasSubstr("\"speed\""), HasSubstr(why))));
+  };
+  for (const Value& of_forces :
+       {Value([=](const auto& now) { return now.acceleration(bead).norm(); }),
+        Value([=](const auto& now) { return now.multiplier(ring); }),
+        Value([=](const auto& now) { return now.constraint_force(ring, bead).norm(); }),
+        Value([=](const auto& now) { return now.constraint_force(bead).norm(); }),
+        Value([=](const auto& now) { return now.ground_force(ring).norm(); }),
+        Value([](const auto& now) { return now.energy(); }), Value([](const auto&) { return std::nan(""); })})
+    refused(of_forces, "positions and velocities, which are all that it may read");
+  refused([](const auto&) -> double { throw std::runtime_error("mine"); }, "threw \"mine\"");
+  refused([](const auto&) -> double { throw 3; }, "no std::exception");
+  refused({}, "threw");
 }
 
 }  // namespace
