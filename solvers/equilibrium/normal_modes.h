@@ -54,6 +54,8 @@ class NormalModes {
   /// `note` is added to what `describe` says.
   NormalModes(std::shared_ptr<const Layout> layout, Modes modes, std::string note = {})
       : layout_(std::move(layout)), modes_(std::move(modes)), note_(std::move(note)) {}
+  NormalModes(const NormalModes&) = default;             ///< also of one that is moved
+  NormalModes& operator=(const NormalModes&) = default;  ///< likewise
 
   /// Of modes.
   [[nodiscard]] std::size_t size() const { return modes_.modes.size(); }

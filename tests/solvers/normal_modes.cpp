@@ -14,6 +14,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace dalembert::normal_modes_test {
@@ -574,6 +575,16 @@ TEST(NormalModes, EquilibriumOfOtherForcesOrMassesIsRefused) {
   EXPECT_NEAR(normal_modes(scene, rest).frequency(0), std::sqrt(10.0), rounding);
   scene.replace(bob, {.mass = 1.5, .position = {0.0, -1.0}});
   EXPECT_THAT([&] { (void)normal_modes(scene, rest); }, refused);
+}
+
+TEST(NormalModes, CanBeReadAfterTheyWereMoved) {
+  Scene<2> scene;
+  const auto mass = scene.add_particle({.mass = 1.0}, "mass");
+  scene.add(Spring{Fixed<2>{}, mass, 1.0});
+  auto modes = normal_modes(scene, equilibrium(scene));
+  const auto taken = std::move(modes);
+  EXPECT_EQ(modes.describe(), taken.describe());  // NOLINT(bugprone-use-after-move)
+  EXPECT_EQ(modes.shape(1, mass), taken.shape(1, mass));
 }
 
 }  // namespace
