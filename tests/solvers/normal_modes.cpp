@@ -577,6 +577,24 @@ TEST(NormalModes, EquilibriumOfOtherForcesOrMassesIsRefused) {
   EXPECT_THAT([&] { (void)normal_modes(scene, rest); }, refused);
 }
 
+/// A pendulum, hanging or upside down: s^2 = -g or g, of which the one with Re s >= 0 and Im s >= 0 is told.
+TEST(NormalModes, AreTheSameBesideAVelocityRowThatRepeatsTheRod) {
+  for (const double side : {-1.0, 1.0}) {
+    for (const bool repeated : {false, true}) {
+      Scene<2> scene("pendulum");
+      scene.add(UniformGravity<2>{{0.0, -10.0}});
+      const auto bob = scene.add_particle({.mass = 1.0, .position = {0.0, side}}, "bob");
+      scene.add(Distance{Fixed<2>{}, bob, 1.0}, "rod");
+      if (repeated) scene.add(nonholonomic(points(bob), [](auto r, auto v) { return r.dot(v); }), "rates");
+      const auto modes = normal_modes(scene, equilibrium(scene));
+      ASSERT_EQ(modes.size(), 1U) << repeated;
+      const std::complex<double> exact = std::sqrt(std::complex<double>(10.0 * side));
+      EXPECT_LT(std::abs(modes.eigenvalue(0) - exact), rounding) << side << repeated;
+      EXPECT_EQ(modes.stability(), side < 0.0 ? Stability::stable : Stability::unstable);
+    }
+  }
+}
+
 TEST(NormalModes, CanBeReadAfterTheyWereMoved) {
   Scene<2> scene;
   const auto mass = scene.add_particle({.mass = 1.0}, "mass");
