@@ -130,6 +130,9 @@ extern template class NormalModes<3>;
 /// that, with time reversed, leaves it as it is, where it has but one vibration: a disk that rolls above its
 /// critical spin stays near its path up to where that lies ("How it works" has the proof).
 ///
+/// About a steady motion it is stable also where all decays but as many motions as symmetries of the scene
+/// carry it into others alike: a circle that is shifted, seen from the frame that turns, vibrates for ever.
+///
 /// An energy that linear terms conserve proves nothing where terms of higher order feed it: x'' = -x + v^3.
 /// Where some modes do not decay, forces without a potential must do no work of velocities and have no
 /// circulation along those modes at finite displacements, up to a hundredth of the scene's length; else the

@@ -204,6 +204,8 @@ class SteadySearch {
     if (motion->rate <= roundings_of_a_sum * epsilon * least) *motion = {{q_.size(), q_.size()}, straight};
     const MatrixXd same = symmetries_.commuting(q_, y), X = symmetries_.displacements(q_, same);
     motion->symmetric = X;
+    motion->carried =
+        symmetries_.displacements(q_, MatrixXd::Identity(symmetries_.size(), symmetries_.size()));
     const MatrixXd fixing = same * dense::kernel(X, rank_threshold);
     for (Index k = 0; k < fixing.cols(); ++k) motion->fixing.push_back(symmetries_.motion(fixing.col(k)).A);
     const EquilibriumSolver balance(problem_, flat(q_), time_, RotatingFrame(*motion), 0.0, scales_.time);
