@@ -1,5 +1,7 @@
 #include "dalembert/core/lagrange/embedding.h"
 
+#include <dalembert/core/equations/differentiated.h>
+
 #include <cmath>
 
 namespace dalembert::detail {
@@ -14,6 +16,17 @@ void require_all_placed(const Layout& layout, std::span<const double> q) {
   };
   require(layout.particles, "particle");
   require(layout.rotors, "rotor");
+}
+
+void rethrow_placing(const Layout& layout, int coordinate, double t) {
+  const auto* particle = layout.particle_at(coordinate);
+  const std::string label =
+      particle != nullptr ? "particle \"" + particle->name + '"' : layout.label_of_coordinate(coordinate);
+  try {
+    rethrow_as_fault(0);
+  } catch (const ElementFault& fault) {
+    throw named(fault, "The embedding of " + label, t);
+  }
 }
 
 void require_frictionless(const System& system) {

@@ -15,6 +15,8 @@ namespace dalembert {
 namespace detail {
 /// Throws InvalidArgument, naming it, if the place of a particle or rotor is not a number.
 void require_all_placed(const Layout& layout, std::span<const double> q);
+/// Throws EquationFault, naming what was to be placed, for what the function that places it has thrown.
+[[noreturn]] void rethrow_placing(const Layout& layout, int coordinate, double t);
 /// Throws InvalidArgument if a force of the system reads multipliers.
 void require_frictionless(const System& system);
 /// Z = M a - F.
@@ -90,12 +92,17 @@ void Embedding<D, N>::write(const Layout& layout, double t, const Vec<N>& q, con
   for (const Part& part : parts_) {
     part.require(layout);
     std::array<Time, static_cast<std::size_t>(D)> r;
-    part.place(Time::input(t, 0, 1.0), along, r);
+    try {
+      part.place(Time::input(t, 0, 1.0), along, r);
+    } catch (...) {
+      detail::rethrow_placing(layout, part.first, t);
+    }
     for (int k = 0; k < part.count; ++k) {
       const auto i = static_cast<std::size_t>(part.first + k);
       const Time& x = r[static_cast<std::size_t>(k)];
       if (!std::isfinite(x.ss) || !std::isfinite(x.s) || !std::isfinite(x.value))
-        throw EquationFault("The embedding has no finite value or derivatives at t = " + detail::text(t));
+        throw EquationFault("The embedding has no finite value or derivatives of " +
+                            layout.label_of_coordinate(part.first + k) + " at t = " + detail::text(t));
       out_q[i] = x.value;
       out_v[i] = x.s;
       out_a[i] = x.ss;
@@ -140,6 +147,8 @@ class EmbeddedMotion {
   /// Throws InvalidArgument if the scene has forces that read multipliers: (1) does not determine them.
   template <int N>
   EmbeddedMotion(const Scene<D>& scene, const Embedding<D, N>& embedding, const LagrangianMotion<N>& motion);
+  EmbeddedMotion(const EmbeddedMotion&) = default;             ///< also of one that is moved
+  EmbeddedMotion& operator=(const EmbeddedMotion&) = default;  ///< likewise
 
  private:
   [[nodiscard]] std::span<const double> number(std::size_t which, std::size_t i) const;

@@ -24,6 +24,8 @@ class LagrangianMotion {
         run_(std::move(run)),
         tolerance_(tolerance),
         rank_(run_.size() > 0 ? reactions(0).rank : 0) {}
+  LagrangianMotion(const LagrangianMotion&) = default;  ///< shares its run, also of one that is moved
+  LagrangianMotion& operator=(const LagrangianMotion&) = default;  ///< shares its run
 
   /// Of samples.
   [[nodiscard]] std::size_t size() const { return run_.size(); }

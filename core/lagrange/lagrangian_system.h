@@ -61,6 +61,8 @@ class LagrangianSystem {
   explicit LagrangianSystem(const CoordinateState<N>& state, F function,
                             const std::string& name = "lagrangian")
       : LagrangianSystem(state, differentiated(std::move(function)), name) {}
+  LagrangianSystem(const LagrangianSystem&) = default;             ///< also of one that is moved
+  LagrangianSystem& operator=(const LagrangianSystem&) = default;  ///< likewise
 
   /// Generalized forces Q(t, q, v), a Vec<N>, which are not in L: drag, drives, friction. Their comparisons
   /// are not seen: smooth dry friction where it reverses, as by tanh(v/v_0); a run that is held at rest by
@@ -92,9 +94,11 @@ class LagrangianSystem {
   [[nodiscard]] const Vec<N>& scale() const { return scale_; }
   /// Of the system.
   [[nodiscard]] const std::string& name() const { return kinematics_.name(); }
-  /// Of a coordinate, counted from 0.
+  /// Of a coordinate, counted from 0. Throws InvalidArgument if there is none.
   [[nodiscard]] const std::string& name(int coordinate) const {
-    return names_.at(static_cast<std::size_t>(coordinate));
+    if (coordinate >= 0 && coordinate < N) return names_[static_cast<std::size_t>(coordinate)];
+    throw InvalidArgument("Lagrangian \"" + name() + "\" has no coordinate " + std::to_string(coordinate) +
+                          ": it has " + std::to_string(N) + ", counted from 0");
   }
   /// Its Lagrangian with derivatives.
   [[nodiscard]] const std::shared_ptr<const Lagrangian<N>>& lagrangian() const { return lagrangian_; }

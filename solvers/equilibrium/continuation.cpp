@@ -140,6 +140,20 @@ void EquilibriumCorrector::finish(const Here& here, const EquilibriumSolver::Sta
   node.vibrations = vibrations(*here.system, terms);
 }
 
+PosedSystem Corrector::pose(double p) const {
+  std::string thrown = "threw something that is no std::exception";
+  try {
+    return pose_(p);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    thrown = std::string("threw \"") + error.what() + '"';
+  } catch (...) {
+  }
+  throw InvalidScene("Branches: the function that builds the scene " + thrown +
+                     " at parameter = " + detail::text(p));
+}
+
 Eigen::VectorXd Corrector::direction(const Eigen::VectorXd& shape) const {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(shape.size() + 1);
   for (Index i = 0; i < shape.size(); ++i) x[i] = shape[i] / scale_[static_cast<std::size_t>(i)];
@@ -187,22 +201,23 @@ Eigen::VectorXd EquilibriumCorrector::slope_by_parameter(const Node& node, const
 }
 
 /// With l on the left of K's eigenvalue, (l, m) is on the left of all equations if m balances what l does
-/// across the tangent space. With nonholonomic rows fewer equations hold than what may move is free.
+/// across the tangent space. With nonholonomic rows fewer equations hold than what may move is free. K may
+/// have cancelled as a whole, so that what is left across is measured by the forces of the uncoupled part.
 bool EquilibriumCorrector::is_singular(const Node& node, Index shape) const {
   const Here here = at(parameter(node), node.x);
   if (here.system->holonomic_rows() == here.system->rows()) return true;
   const EquilibriumSolver::State s = state(here, node);
   const ActiveRows active = here.balance.rows_at(s);
-  const Eigen::MatrixXd A = linear(here, s, node, active).A;
+  const Linear all = linear(here, s, node, active);
   const auto n = static_cast<Index>(s.q.size()), m = static_cast<Index>(active.size());
   Eigen::VectorXd left(n);
   for (Index i = 0; i < n; ++i)
     left[i] = node.stiffness.duals(i, shape) / here.system->masses()[static_cast<std::size_t>(i)];
-  const Eigen::MatrixXd K = A.topLeftCorner(n, n), rows = A.block(n, 0, m, n).transpose();
+  const Eigen::MatrixXd K = all.A.topLeftCorner(n, n) * all.force, rows = all.A.block(n, 0, m, n).transpose();
   const Eigen::VectorXd across = -(K.transpose() * left);
   const Eigen::MatrixXd balance = dense::least_squares(rows, across, rank_threshold);
-  const double terms = (dense::sizes(K).transpose() * Eigen::VectorXd(left.cwiseAbs())).norm();
-  return (rows * balance - across).norm() <= std::sqrt(rank_threshold) * terms;
+  const double forces = left.cwiseAbs().dot(all.sizes.head(n));
+  return (rows * balance - across).norm() <= std::sqrt(rank_threshold) * forces;
 }
 
 /// On the eigenvectors each symmetry is z -> B z. The orbit of some z fills the sphere if it has its

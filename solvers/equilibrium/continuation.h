@@ -74,7 +74,8 @@ class Corrector {
  protected:
   Corrector(std::function<PosedSystem(double)> pose, const BranchOptions& options)
       : pose_(std::move(pose)), from_(options.from), range_(options.to - options.from) {}
-  [[nodiscard]] PosedSystem pose(double p) const { return pose_(p); }
+  /// Throws Error only, and says at which value of the parameter what else a scene's builder throws.
+  [[nodiscard]] PosedSystem pose(double p) const;
   [[nodiscard]] double value(double fraction) const { return from_ + range_ * fraction; }
 
   std::vector<double> scale_;  // of each coordinate

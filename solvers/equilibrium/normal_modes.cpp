@@ -423,19 +423,27 @@ Modes find_modes(const System& system, const Record& state, const UniformRotatio
   require_no_kink(balance, at, terms);
   std::optional<ReversibleMotion> reversible;
   if (motion != nullptr) reversible.emplace(problem, at, *motion);
-  const auto reverses = [&](std::size_t part) { return reversible && reversible->is_stable(part); };
+  std::vector<char> attracting(problem.islands().count);
+  if (motion != nullptr) attracting = attracting_parts(system, terms, *motion);
+  const auto stays = [&](std::size_t part) {
+    return attracting[part] != 0 || (reversible && reversible->is_stable(part));
+  };
   Modes found;
   if (system.coordinates() <= most_dense) {
-    found = dense_modes(system, terms, motion, reverses);
+    found = dense_modes(system, terms, motion, stays);
   } else {
     found = lowest_modes(system, terms, options.lowest);
     if (!found.modes.empty() && found.modes.back().eigenvalue == 0.0)
       leave_undecided(found, "all modes that were asked for have the eigenvalue 0: there may be more");
   }
   if (are_of_stiffness(system, terms) && system.coordinates() <= most_dense) drop_unknown(balance, at, found);
-  const auto own_part_reverses = [&](const Mode& mode) { return reverses(part_of(mode, problem.islands())); };
-  name_zeros(balance, at, motion, own_part_reverses, found);  // all that were found: the verdict is of all
-  require_no_work({problem, balance, at, terms}, reverses, found);
+  const auto own_part_stays = [&](const Mode& mode) { return stays(part_of(mode, problem.islands())); };
+  name_zeros(balance, at, motion, own_part_stays, found);  // all that were found: the verdict is of all
+  require_no_work({problem, balance, at, terms}, stays, found);
+  if (found.stability == Stability::stable && std::ranges::count(attracting, 1) > 0)
+    found.reason =
+        "every mode decays, vibrates with positive energy, or carries the motion along a symmetry of the "
+        "scene";
   if (found.stability == Stability::stable && reversible && reversible->decided())
     found.reason =
         "every mode decays, vibrates with positive energy, or stays near since the motion is its own mirror "

@@ -54,6 +54,8 @@ class NormalModes {
   /// `note` is added to what `describe` says.
   NormalModes(std::shared_ptr<const Layout> layout, Modes modes, std::string note = {})
       : layout_(std::move(layout)), modes_(std::move(modes)), note_(std::move(note)) {}
+  NormalModes(const NormalModes&) = default;             ///< also of one that is moved
+  NormalModes& operator=(const NormalModes&) = default;  ///< likewise
 
   /// Of modes.
   [[nodiscard]] std::size_t size() const { return modes_.modes.size(); }
@@ -127,6 +129,9 @@ extern template class NormalModes<3>;
 /// which the state rests will do: of a top that sleeps, in one that turns about its axis. So will a mirror
 /// that, with time reversed, leaves it as it is, where it has but one vibration: a disk that rolls above its
 /// critical spin stays near its path up to where that lies ("How it works" has the proof).
+///
+/// About a steady motion it is stable also where all decays but as many motions as symmetries of the scene
+/// carry it into others alike: a circle that is shifted, seen from the frame that turns, vibrates for ever.
 ///
 /// An energy that linear terms conserve proves nothing where terms of higher order feed it: x'' = -x + v^3.
 /// Where some modes do not decay, forces without a potential must do no work of velocities and have no

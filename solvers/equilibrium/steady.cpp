@@ -118,14 +118,25 @@ class SteadySearch {
     look(system_->layout()->rotors, 1);
   }
 
+  /// Of positions and velocities: forces are known only of a motion that has been found.
   [[nodiscard]] double value(const FlatKept& one, const VectorXd& q, const VectorXd& v) const {
-    FlatSample at;
-    at.time = time_;
-    at.q = flat(q);
-    at.v = flat(v);
-    const double x = one.value(at);
-    if (!std::isfinite(x)) refuse("\"" + one.name + "\" is not a finite number");
-    return x;
+    const std::size_t n = system_->coordinates(), m = system_->rows(),
+                      slots = system_->layout()->slot_coordinate.size();
+    const std::vector<double> unknown(std::max({n, m, slots}), std::numeric_limits<double>::quiet_NaN());
+    const std::span<const double> none(unknown);
+    std::string why = "is no finite number of positions and velocities, which are all that it may read";
+    try {
+      const double x = one.value({time_, flat(q), flat(v), none.first(n), none.first(m), none.first(slots),
+                                  std::numeric_limits<double>::quiet_NaN()});
+      if (std::isfinite(x)) return x;
+    } catch (const UndeterminedForce&) {
+    } catch (const std::exception& error) {
+      why = std::string("threw \"") + error.what() + '"';
+    } catch (...) {
+      why = "threw something that is no std::exception";
+    }
+    throw NoEquilibrium("Scene \"" + system_->layout()->scene + "\": \"" + one.name +
+                        "\", which is to be kept, " + why);
   }
 
   struct Known {
@@ -193,6 +204,8 @@ class SteadySearch {
     if (motion->rate <= roundings_of_a_sum * epsilon * least) *motion = {{q_.size(), q_.size()}, straight};
     const MatrixXd same = symmetries_.commuting(q_, y), X = symmetries_.displacements(q_, same);
     motion->symmetric = X;
+    motion->carried =
+        symmetries_.displacements(q_, MatrixXd::Identity(symmetries_.size(), symmetries_.size()));
     const MatrixXd fixing = same * dense::kernel(X, rank_threshold);
     for (Index k = 0; k < fixing.cols(); ++k) motion->fixing.push_back(symmetries_.motion(fixing.col(k)).A);
     const EquilibriumSolver balance(problem_, flat(q_), time_, RotatingFrame(*motion), 0.0, scales_.time);

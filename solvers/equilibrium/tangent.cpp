@@ -23,6 +23,19 @@ MatrixXd summed(const MatrixXd& N, const MatrixXd& X) {
 
 double largest_of(const MatrixXd& X) { return X.size() > 0 ? X.cwiseAbs().maxCoeff() : 0.0; }
 
+/// Nonholonomic rows that holonomic ones imply say nothing of their own.
+void leave_out_implied_rows(Tangent& t) {
+  const double none = t.zero_of_rows();
+  std::vector<Index> own;
+  for (Index k = 0; k < t.B.rows(); ++k) {
+    if (t.B.row(k).norm() < rank_threshold) t.B.row(k).setZero();
+    if (!t.B.row(k).isZero(0.0) || largest_of(t.E.row(k)) > none) own.push_back(k);
+  }
+  t.B = t.B(own, Eigen::all).eval();
+  t.E = t.E(own, Eigen::all).eval();
+  t.E_terms = t.E_terms(own, Eigen::all).eval();
+}
+
 Tangent tangent(const System& system, const LinearTerms& terms, std::vector<std::size_t> coordinates,
                 std::span<const std::size_t> rows) {
   const MassMetric metric(system, terms, coordinates, rows);
@@ -50,8 +63,7 @@ Tangent tangent(const System& system, const LinearTerms& terms, std::vector<std:
   t.E_terms = t.E_terms.cwiseMax(largest_of(t.E)).eval();
   if (t.symmetric) t.K = ((t.K + t.K.transpose()) / 2).eval();
   if (t.K.size() > 0 && t.K.cwiseAbs().maxCoeff() <= t.zero()) t.K.setZero();
-  for (Index k = 0; k < velocity_rows; ++k)
-    if (t.B.row(k).norm() < rank_threshold) t.B.row(k).setZero();  // dependent on holonomic rows
+  leave_out_implied_rows(t);
   return t;
 }
 

@@ -213,6 +213,23 @@ Modes dense_modes(const System& system, const LinearTerms& terms, const UniformM
   return found;
 }
 
+std::vector<char> attracting_parts(const System& system, const LinearTerms& terms,
+                                   const UniformMotion& motion) {
+  std::vector<char> found;
+  for (const Tangent& t : tangents(system, terms, &motion)) {
+    const Matrix own = motion.carried(t.coordinates, Eigen::all);
+    const Index carried = orthonormal_span(t.metric.transpose() * own).cols(),
+                states = t.K.rows() + along_velocities(t).K.rows();
+    Index decaying = 0;
+    if (carried > 0) {
+      for (const Solution& x : solutions(t).others)
+        if (x.s.real() < -x.error) decaying += x.s.imag() > 0.0 ? 2 : 1;
+    }
+    found.push_back(carried > 0 && decaying + carried == states ? 1 : 0);
+  }
+  return found;
+}
+
 std::vector<Vibration> vibrations(const System& system, const LinearTerms& terms) {
   std::vector<Vibration> found;
   for (Tangent& t : tangents(system, terms)) append_vibrations(std::move(t), found);

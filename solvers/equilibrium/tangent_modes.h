@@ -25,6 +25,13 @@ inline constexpr std::size_t most_dense = 600;
                                 const UniformMotion* motion = nullptr,
                                 const std::function<bool(std::size_t)>& stable_otherwise = {});
 
+/// Of each part whether all small motions decay but as many as symmetries carry the steady motion into
+/// others alike. These others are then the centre manifold of all that stays, and what is near comes to one
+/// of them, at the same distance for ever (reduction principle: Carr, Applications of Centre Manifold Theory,
+/// 1981).
+[[nodiscard]] std::vector<char> attracting_parts(const System& system, const LinearTerms& terms,
+                                                 const UniformMotion& motion);
+
 /// K on the tangent space (with nonholonomic rows: of what may move), of each uncoupled part separately: its
 /// real eigenvalues, increasing, their shapes u = M^-1/2 N z of |z| = 1 as columns, and the covectors that
 /// give 1 for their own shape and 0 for the others. Where circulatory forces make K unsymmetric others may be

@@ -24,6 +24,8 @@ struct UniformMotion {
   /// Symmetries u -> A u of the same kind that leave the state as it is: a top that sleeps turned about its
   /// axis and back in itself.
   std::vector<Eigen::SparseMatrix<double, Eigen::RowMajor>> fixing{};
+  /// Columns: displacements by all symmetries, which may carry them into states of another such motion.
+  Eigen::MatrixXd carried{};
 };
 
 }  // namespace dalembert

@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace dalembert::branches_test {
 namespace {
@@ -249,6 +252,14 @@ TEST(Branches, RefuseOptionsAndScenesThatMakeNoSense) {
   };
   EXPECT_THAT([&] { (void)follow_branches<2>(changing, {.from = 0.0, .to = 1.0}); },
               ThrowsMessage<InvalidScene>(HasSubstr("other points")));
+  const auto thrown = [&](const std::function<Posed<2>(double)>& build, const std::string& what) {
+    EXPECT_THAT([&] { (void)follow_branches<2>(build, {.from = 0.0, .to = 1.0}); },
+                ThrowsMessage<InvalidScene>(
+                    testing::AllOf(HasSubstr("function that builds the scene"), HasSubstr(what))));
+  };
+  thrown([](double) -> Posed<2> { throw std::runtime_error("mine"); }, "\"mine\" at parameter = 0");
+  thrown([](double) -> Posed<2> { throw 3; }, "no std::exception");
+  thrown({}, "threw");
   const auto skate = [](double) {
     Scene<2> scene("skate");
     const auto blade = scene.add_particle({.mass = 1.0});
@@ -295,6 +306,60 @@ TEST(Branches, SkateForksWhereTheSpringAlongItsBladeSoftens) {
     sides += branch.points.back().state.sample().position(blade).x();
   }
   EXPECT_NEAR(sides, 0.0, 1e2 * on_branch);
+}
+
+/// A pendulum upside down on a torsion spring of stiffness 5: 5 theta = g sin theta, two branches from g = 5.
+Posed<2> propped(double g, Particle<2>& bob, double stiffness_beside, bool repeats_the_rod) {
+  Scene<2> scene("propped");
+  bob = scene.add_particle({.mass = 1.0, .position = {0.0, 1.0}}, "bob");
+  scene.add(PointGravity{bob, 1.0, Vec<2>(0.0, -g)}, "weight");
+  scene.add(Distance{Fixed<2>{}, bob, 1.0}, "rod");
+  scene.add(potential(points(bob),
+                      [](auto r) {
+                        const auto theta = atan2(r.x(), r.y());
+                        return 2.5 * theta * theta;
+                      }),
+            "torsion spring");
+  if (repeats_the_rod)
+    scene.add(nonholonomic(points(bob), [](auto r, auto v) { return r.dot(v); }), "rod of velocities");
+  if (stiffness_beside > 0.0) {
+    const auto hub = scene.add_particle({.mass = 1.0, .position = {5.0, 0.0}}, "hub");
+    const auto wheel = scene.add_rotor({.inertia = 1.0}, "wheel");
+    scene.add(OnCurve{hub, Plane<2>{}}, "floor");
+    scene.add(Spring{Fixed<2>{{5.0, 0.0}}, hub, stiffness_beside}, "spring");
+    scene.add(nonholonomic(points(hub, wheel), [](auto, auto, auto v, auto w) { return v.x() - 0.5 * w[0]; }),
+              "rolls");
+  }
+  return {std::move(scene)};
+}
+
+TEST(Branches, ForkWhereStiffnessCancelsBesideNonholonomicConstraints) {
+  // At g = 5 nothing is left of the stiffness, and what is across it is round-off of the forces.
+  struct Beside {
+    double stiffness;
+    bool repeats_the_rod;
+  };
+  for (const auto [stiffness, repeats] : {Beside{0.0, true}, {1e-6, false}, {1.0, false}, {1e6, false}}) {
+    for (const double from : {0.7, 1.0, 2.0}) {
+      Particle<2> bob;
+      const auto diagram = follow_branches<2>([&](double g) { return propped(g, bob, stiffness, repeats); },
+                                              {.from = from, .to = 8.0});
+      ASSERT_EQ(diagram.bifurcations.size(), 1U) << stiffness << ' ' << from;
+      EXPECT_NEAR(diagram.bifurcations[0].parameter, 5.0, 10 * located);
+      EXPECT_TRUE(diagram.flutters.empty());
+      ASSERT_EQ(diagram.branches.size(), 3U);
+      double sides = 0.0;
+      for (const auto& branch : diagram.branches) {
+        for (const auto& point : branch.points) {
+          const Vec<2> r = point.state.sample().position(bob);
+          EXPECT_NEAR(5.0 * std::atan2(r.x(), r.y()), point.parameter * r.x(), 10 * on_branch);
+        }
+        sides += branch.points.back().state.sample().position(bob).x();
+      }
+      EXPECT_NEAR(sides, 0.0, on_branch);  // one to either side
+      EXPECT_GT(std::abs(diagram.branches[1].points.back().state.sample().position(bob).x()), 0.5);
+    }
+  }
 }
 
 /// A bead on a hoop of radius 1 about its vertical diameter, driven at one rate, in a frame of another.

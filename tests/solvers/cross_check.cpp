@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+#include <utility>
+
 namespace dalembert::cross_check_test {
 namespace {
 
@@ -84,6 +87,42 @@ TEST(CrossCheck, SaysWhatDoesNotFitTogether) {
   again.embed();
   again.embedding.add(stranger, [](const auto& q) { return vec(q[0], q[0]); });
   EXPECT_THROW((void)cross_check(again.scene, again.system, again.embedding, options), InvalidArgument);
+}
+
+TEST(CrossCheck, NamesWhatItsEmbeddingFailsToPlace) {
+  const auto fails = [](const auto& place, const std::string& why) {
+    Twofold pendulum;
+    pendulum.embedding.add(pendulum.bob, place);
+    EXPECT_THAT(
+        [&] {
+          (void)cross_check(pendulum.scene, pendulum.system, pendulum.embedding,
+                            {.t_end = 1.0, .samples = 3});
+        },
+        ThrowsMessage<EquationFault>(AllOf(HasSubstr("particle \"bob\""), HasSubstr(why))));
+  };
+  fails([](const auto& q) { return vec(sin(q[0]), -sqrt(q[0] - 5.0)); }, "no finite value");
+  fails(
+      [](const auto& q) {
+        if (q[0] < 5.0) throw std::runtime_error("mine");
+        return vec(sin(q[0]), -cos(q[0]));
+      },
+      "threw \"mine\"");
+  fails(
+      [](const auto& q) {
+        if (q[0] < 5.0) throw 3;
+        return vec(sin(q[0]), -cos(q[0]));
+      },
+      "no std::exception");
+}
+
+TEST(EmbeddedMotion, CanBeReadAfterItWasMoved) {
+  Twofold pendulum;
+  pendulum.embed();
+  const auto motion = simulate(pendulum.system, {.t_end = 1.0, .samples = 3});
+  EmbeddedMotion<2> first(pendulum.scene, pendulum.embedding, motion);
+  const auto taken = std::move(first);
+  EXPECT_EQ(first.constraint_force(pendulum.bob, 2),  // NOLINT(bugprone-use-after-move)
+            taken.constraint_force(pendulum.bob, 2));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace dalembert::lagrangian_systems_test {
 namespace {
@@ -100,12 +101,31 @@ TEST(LagrangianSystems, RefuseWhatMakesNoSense) {
   EXPECT_THROW(LagrangianSystem<1>({.position = Vec<1>(std::nan(""))}, free), InvalidScene);
   EXPECT_THAT([&] { LagrangianSystem<1>({}, std::shared_ptr<const Lagrangian<1>>(), "none"); },
               ThrowsMessage<InvalidScene>(HasSubstr("\"none\" has no Lagrangian")));
+  for (const int none : {-1, 1, 7}) {
+    EXPECT_THAT([&] { (void)LagrangianSystem<1>({}, free, "free").name(none); },
+                ThrowsMessage<InvalidArgument>(
+                    AllOf(HasSubstr("\"free\" has no coordinate"), HasSubstr("it has 1, counted from 0"))));
+  }
   LagrangianSystem<1> forced({}, free);
   EXPECT_THROW(forced.apply(nullptr), InvalidArgument);
   LagrangianSystem<1> off({.position = Vec<1>(1.0)}, free);
   off.constrain([](const auto& q) { return q[0] - 2.0; }, "stop");
   EXPECT_THAT([&] { (void)simulate(off, {.t_end = 1.0}); },
               ThrowsMessage<InconsistentStart>(HasSubstr("stop")));
+}
+
+TEST(LagrangianSystems, AndTheirMotionsCanBeReadAfterTheyWereMoved) {
+  LagrangianSystem<2> system(
+      {.position = Vec<2>(1.0, 2.0)},
+      [](const auto& q, const auto& v) { return 0.5 * v.squaredNorm() - q[0]; }, "falling");
+  const auto rail = system.constrain([](const auto& q) { return q[0] - q[1] + 1.0; }, "rail");
+  const LagrangianSystem<2> taken = std::move(system);
+  EXPECT_EQ(system.name(), "falling");  // NOLINT(bugprone-use-after-move)
+  EXPECT_EQ(system.cyclic(), taken.cyclic());
+  auto motion = simulate(system, {.t_end = 1.0, .samples = 2});
+  const auto kept = std::move(motion);
+  EXPECT_EQ(motion.acceleration(1), kept.acceleration(1));  // NOLINT(bugprone-use-after-move)
+  EXPECT_EQ(motion.multiplier(rail, 1), kept.multiplier(rail, 1));
 }
 
 TEST(LagrangianSystems, GiveTheirDerivativesToNewtonsMatrix) {

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace dalembert::normal_modes_test {
@@ -574,6 +575,34 @@ TEST(NormalModes, EquilibriumOfOtherForcesOrMassesIsRefused) {
   EXPECT_NEAR(normal_modes(scene, rest).frequency(0), std::sqrt(10.0), rounding);
   scene.replace(bob, {.mass = 1.5, .position = {0.0, -1.0}});
   EXPECT_THAT([&] { (void)normal_modes(scene, rest); }, refused);
+}
+
+/// A pendulum, hanging or upside down: s^2 = -g or g, of which the one with Re s >= 0 and Im s >= 0 is told.
+TEST(NormalModes, AreTheSameBesideAVelocityRowThatRepeatsTheRod) {
+  for (const double side : {-1.0, 1.0}) {
+    for (const bool repeated : {false, true}) {
+      Scene<2> scene("pendulum");
+      scene.add(UniformGravity<2>{{0.0, -10.0}});
+      const auto bob = scene.add_particle({.mass = 1.0, .position = {0.0, side}}, "bob");
+      scene.add(Distance{Fixed<2>{}, bob, 1.0}, "rod");
+      if (repeated) scene.add(nonholonomic(points(bob), [](auto r, auto v) { return r.dot(v); }), "rates");
+      const auto modes = normal_modes(scene, equilibrium(scene));
+      ASSERT_EQ(modes.size(), 1U) << repeated;
+      const std::complex<double> exact = std::sqrt(std::complex<double>(10.0 * side));
+      EXPECT_LT(std::abs(modes.eigenvalue(0) - exact), rounding) << side << repeated;
+      EXPECT_EQ(modes.stability(), side < 0.0 ? Stability::stable : Stability::unstable);
+    }
+  }
+}
+
+TEST(NormalModes, CanBeReadAfterTheyWereMoved) {
+  Scene<2> scene;
+  const auto mass = scene.add_particle({.mass = 1.0}, "mass");
+  scene.add(Spring{Fixed<2>{}, mass, 1.0});
+  auto modes = normal_modes(scene, equilibrium(scene));
+  const auto taken = std::move(modes);
+  EXPECT_EQ(modes.describe(), taken.describe());  // NOLINT(bugprone-use-after-move)
+  EXPECT_EQ(modes.shape(1, mass), taken.shape(1, mass));
 }
 
 }  // namespace

@@ -9,7 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <limits>
+#include <stdexcept>
+#include <string>
+#include <tuple>
 
 namespace dalembert::steady_test {
 namespace {
@@ -74,7 +78,8 @@ TEST(Steady, PrecessionOfATopIsARootOfItsQuadratic) {
 }
 
 /// The distance of the nearest eigenvalue.
-double off(const NormalModes<3>& modes, std::complex<double> s) {
+template <int D>
+double off(const NormalModes<D>& modes, std::complex<double> s) {
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < modes.size(); ++k)
     nearest = std::min(nearest, std::abs(modes.eigenvalue(k) - s));
@@ -187,6 +192,71 @@ TEST(Steady, RefusesWhatDoesNotAlwaysHoldWithARemedy) {
   scene.add(coulomb(floor, Slip{block, Plane<2>{}}, 0.3), "rough");
   refused(scene, "\"rough\": where friction sticks");
   refused(scene, "leave it out to find the one without friction");
+}
+
+/// A sleigh on a circle, its blade through the centre of mass: m v' = thrust(v), J w' = 1 - 2 w. A shift of
+/// the circle is seen from the frame that turns with it at w = 1/2 as a vibration that never decays.
+template <class Thrust>
+NormalModes<2> modes_of_driven_sleigh(const Thrust& thrust) {
+  Scene<2> scene("sleigh");
+  const auto body = scene.add_particle({.mass = 2.0, .velocity = {1.5, 0.0}}, "body");
+  const auto heading = scene.add_rotor({.inertia = 0.5, .angular_velocity = 0.5}, "heading");
+  scene.add(
+      nonholonomic(points(body, heading), [](auto, auto theta, auto v,
+                                             auto) { return cos(theta[0]) * v.y() - sin(theta[0]) * v.x(); }),
+      "blade");
+  scene.add(force_law(points(body, heading),
+                      [thrust](auto, auto theta, auto v, auto w) {
+                        const auto along = cos(theta[0]) * v.x() + sin(theta[0]) * v.y();
+                        const auto F = thrust(along);
+                        return std::tuple{vec(F * cos(theta[0]), F * sin(theta[0])), vec(1.0 - 2.0 * w[0])};
+                      }),
+            "thrust");
+  return normal_modes(scene, steady(scene));
+}
+
+TEST(Steady, IsStableWhereAllDecaysButShiftsOfTheWholeMotion) {
+  // thrust = 3 - 2 v: eigenvalues -2/m and -2/J.
+  const auto modes = modes_of_driven_sleigh([](auto v) { return 3.0 - 2.0 * v; });
+  EXPECT_LT(off(modes, {-1.0, 0.0}), rounding);
+  EXPECT_LT(off(modes, {-4.0, 0.0}), rounding);
+  EXPECT_LT(off(modes, {0.0, 0.5}), rounding);
+  EXPECT_EQ(modes.stability(), Stability::stable) << modes.describe();
+  EXPECT_THAT(modes.describe(), HasSubstr("carries the motion"));
+}
+
+TEST(Steady, IsNotProvedStableByShiftsWhereTheSpeedDoesNotDecay) {
+  // Nothing of (v - 3/2)^2 is linear, and from above the speed runs away.
+  const auto creeping = modes_of_driven_sleigh([](auto v) { return (v - 1.5) * (v - 1.5); });
+  EXPECT_EQ(creeping.stability(), Stability::undecided) << creeping.describe();
+  const auto growing = modes_of_driven_sleigh([](auto v) { return v - 1.5; });
+  EXPECT_EQ(growing.stability(), Stability::unstable) << growing.describe();
+}
+
+/// What is kept has its value before forces are known.
+TEST(Steady, NamesTheKeptQuantityThatIsNotOfPositionsAndVelocities) {
+  Scene<2> scene("ring");
+  const auto bead = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}, .velocity = {0.0, 2.0}}, "bead");
+  const auto ring = scene.add(Distance{Fixed<2>{}, bead, 1.0}, "ring");
+  using Value = std::function<double(const Sample<2>&)>;
+  const auto refused = [&](const Value& value, const std::string& why) {
+    EXPECT_THAT(
+        [&] {
+          (void)steady(scene, {.keep = {{"speed", value}}});
+        },
+        ThrowsMessage<NoEquilibrium>(testing::AllOf(HasSubstr("\"speed\""), HasSubstr(why))));
+  };
+  for (const Value& of_forces :
+       {Value([=](const auto& now) { return now.acceleration(bead).norm(); }),
+        Value([=](const auto& now) { return now.multiplier(ring); }),
+        Value([=](const auto& now) { return now.constraint_force(ring, bead).norm(); }),
+        Value([=](const auto& now) { return now.constraint_force(bead).norm(); }),
+        Value([=](const auto& now) { return now.ground_force(ring).norm(); }),
+        Value([](const auto& now) { return now.energy(); }), Value([](const auto&) { return std::nan(""); })})
+    refused(of_forces, "positions and velocities, which are all that it may read");
+  refused([](const auto&) -> double { throw std::runtime_error("mine"); }, "threw \"mine\"");
+  refused([](const auto&) -> double { throw 3; }, "no std::exception");
+  refused({}, "threw");
 }
 
 }  // namespace
