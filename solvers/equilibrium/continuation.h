@@ -119,6 +119,8 @@ class EquilibriumCorrector final : public Corrector {
   [[nodiscard]] Here at(double p, const Eigen::VectorXd& x) const;
   [[nodiscard]] EquilibriumSolver::State state(const Here& here, const Node& node) const;
   [[nodiscard]] Eigen::VectorXd residual(double p, const Node& node, const ActiveRows& rows) const;
+  [[nodiscard]] LinearTerms::Entries stiffness(double p, const Node& node) const;
+  [[nodiscard]] Eigen::MatrixXd sizes_of_stiffness(const Node& node) const;
   [[nodiscard]] Eigen::VectorXd slope_by_parameter(const Node& node, const ActiveRows& rows) const;
   /// (1), linearised, without the hyperplane: [R_q R_lambda R_p] in the units of x, and X^T. Forces are
   /// measured by the largest that acts, that a unit of x changes or that the range of p does; constraints by

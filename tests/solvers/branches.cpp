@@ -334,7 +334,7 @@ Posed<2> propped(double g, Particle<2>& bob, double stiffness_beside, bool repea
 }
 
 TEST(Branches, ForkWhereStiffnessCancelsBesideNonholonomicConstraints) {
-  // At g = 5 nothing is left of the stiffness, and what is across it is round-off of the forces.
+  // At g = 5 nothing is left of the stiffness, and what is across it is round-off of its terms.
   struct Beside {
     double stiffness;
     bool repeats_the_rod;
@@ -358,6 +358,33 @@ TEST(Branches, ForkWhereStiffnessCancelsBesideNonholonomicConstraints) {
       }
       EXPECT_NEAR(sides, 0.0, on_branch);  // one to either side
       EXPECT_GT(std::abs(diagram.branches[1].points.back().state.sample().position(bob).x()), 0.5);
+    }
+  }
+}
+
+TEST(Branches, OfABladeForkOnlyWhereTheyAreNotCoupledToMotionsAcrossIt) {
+  // Along the blade, x, p x + x^3 = -c y: with c = 0 forks at p = 0; else y balances any x, and only what
+  // moves is not stiff there. Something stiff in the same part says nothing of that.
+  for (const double stiff : {1.0, 1e7}) {
+    for (const double c : {0.0, 1.0}) {
+      const auto diagram = follow_branches<2>(
+          [=](double p) {
+            Scene<2> scene("blade");
+            const auto blade = scene.add_particle({.mass = 1.0}, "blade");
+            const auto beside = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}}, "beside");
+            scene.add(OnCurve{beside, Plane<2>{}});
+            scene.add(potential(points(blade, beside), [=](auto r, auto b) {
+              const auto square = r.x() * r.x(), off = b.x() - 1.0;
+              return 0.5 * p * square + 0.25 * square * square + c * r.x() * r.y() + 0.5 * r.y() * r.y() +
+                     0.5 * stiff * off * off;
+            }));
+            scene.add(nonholonomic(points(blade), [](auto, auto v) { return v.y(); }), "edge");
+            return Posed<2>{std::move(scene)};
+          },
+          {.from = 0.5, .to = -0.5});
+      EXPECT_EQ(diagram.bifurcations.size(), c == 0.0 ? 1U : 0U) << stiff;
+      EXPECT_EQ(diagram.branches.size(), c == 0.0 ? 3U : 1U) << stiff;
+      EXPECT_EQ(diagram.flutters.size(), c == 0.0 ? 0U : 1U) << stiff;
     }
   }
 }
