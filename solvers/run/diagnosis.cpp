@@ -258,7 +258,8 @@ std::string chattering_force(const System& system, const Scales& scales, const I
       const std::size_t i = static_cast<std::size_t>(mover.first) + k;
       const double v = at.v[i], error = scales.velocity_error(i, v, tolerance);
       Beside beside(at, i, true);
-      const auto jump = reversal(system, beside, i, scales.velocity_error(i, v, Accuracy(tolerance).of_forces()));
+      const auto jump =
+          reversal(system, beside, i, scales.velocity_error(i, v, Accuracy(tolerance).of_forces()));
       if (!jump) continue;
       const auto& [low, high] = *jump;
       const double in_a_step = step * std::max(low.force, -high.force) / system.masses()[i];
