@@ -3,6 +3,7 @@
 #include <dalembert/core/errors.h>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -90,10 +91,14 @@ void Child::kill_one(std::size_t which) const {
   kill(ranks.empty() ? id_ : ranks[which % ranks.size()], SIGKILL);
 }
 
-bool Child::wait() {
+bool Child::wait(int patience) {
+  pollfd end{pipe_, POLLIN, 0};
   char part[4096];
-  for (ssize_t count = 0; (count = read(pipe_, part, sizeof part)) > 0;)
-    output_.append(part, static_cast<std::size_t>(count));
+  for (ssize_t count = 1; count > 0;) {
+    if (poll(&end, 1, patience) == 0) kill_all();
+    count = read(pipe_, part, sizeof part);
+    if (count > 0) output_.append(part, static_cast<std::size_t>(count));
+  }
   int status = 0;
   waitpid(id_, &status, 0);
   id_ = 0;

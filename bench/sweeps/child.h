@@ -28,8 +28,9 @@ class Child {
   /// Ends it, and all its ranks; or one of these, and so, by mpirun, the others.
   void kill_all() const;
   void kill_one(std::size_t which) const;
-  /// Whether it ended well; `output` is then what it printed.
-  [[nodiscard]] bool wait();
+  /// Whether it ended well; `output` is then what it printed. What has said nothing for so many milliseconds
+  /// is ended, unless they are negative: mpirun may lock itself up where a rank was killed.
+  [[nodiscard]] bool wait(int patience = -1);
   [[nodiscard]] const std::string& output() const { return output_; }
 
  private:

@@ -226,7 +226,8 @@ void killed(const SweepTable& options, const Folder& folder, double whole_second
       Child child(one.arguments(file), one.ranks, Errors::hidden);
       std::this_thread::sleep_for(std::chrono::duration<double>(after(random)));
       one.name == "rank-killed" ? child.kill_one(random()) : child.kill_all();
-      [[maybe_unused]] const bool finished = child.wait();
+      constexpr int patience = 10'000;
+      const bool finished = child.wait(patience);
       wait_for(file + ".journal");
       if (std::filesystem::exists(file))
         report.expect(read_column(file, "x").size() == options.rows, "a dataset is not whole");

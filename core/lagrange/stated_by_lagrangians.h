@@ -13,11 +13,13 @@ class StatedByLagrangians {
  public:
   /// A number, and by how much errors of the state change it.
   struct Value {
-    double value, error;
+    double value;  ///< the number
+    double error;  ///< the largest change
   };
-  /// Of each Lagrangian, and of each of its coordinates.
+  /// What must not jump.
   struct Values {
-    std::vector<Value> L, momenta;
+    std::vector<Value> L;        ///< of each Lagrangian
+    std::vector<Value> momenta;  ///< of each of its coordinates, L_v
   };
   /// At an instant whose time, coordinates and velocities have these errors.
   [[nodiscard]] virtual Values lagrangians(const Instant& at, const Instant& errors) const = 0;
