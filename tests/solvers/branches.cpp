@@ -339,12 +339,13 @@ TEST(Branches, ForkWhereStiffnessCancelsBesideNonholonomicConstraints) {
     double stiffness;
     bool repeats_the_rod;
   };
-  for (const auto [stiffness, repeats] : {Beside{0.0, true}, {1e-6, false}, {1.0, false}, {1e6, false}}) {
+  for (const Beside beside : {Beside{0.0, true}, {1e-6, false}, {1.0, false}, {1e6, false}}) {
     for (const double from : {0.7, 1.0, 2.0}) {
       Particle<2> bob;
-      const auto diagram = follow_branches<2>([&](double g) { return propped(g, bob, stiffness, repeats); },
-                                              {.from = from, .to = 8.0});
-      ASSERT_EQ(diagram.bifurcations.size(), 1U) << stiffness << ' ' << from;
+      const auto diagram = follow_branches<2>(
+          [&](double g) { return propped(g, bob, beside.stiffness, beside.repeats_the_rod); },
+          {.from = from, .to = 8.0});
+      ASSERT_EQ(diagram.bifurcations.size(), 1U) << beside.stiffness << ' ' << from;
       EXPECT_NEAR(diagram.bifurcations[0].parameter, 5.0, 10 * located);
       EXPECT_TRUE(diagram.flutters.empty());
       ASSERT_EQ(diagram.branches.size(), 3U);
