@@ -107,7 +107,7 @@ struct DALEMBERT_HIDDEN Integrator::Run {
   }
 
   void count_turn() {
-    constexpr unsigned long first_look = 1024;
+    constexpr unsigned long first_look = 1024;  // from 512 or 4096 on the same runs stop
     if (++steps >= static_cast<long>(first_look) && std::has_single_bit(static_cast<unsigned long>(steps)))
       look_for_chatter();
     if (steps <= options.max_steps) return;

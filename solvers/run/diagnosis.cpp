@@ -196,7 +196,7 @@ struct Place {
 /// backward: a smooth one changes by less and less where they are bisected. Nothing if it does not.
 std::optional<std::pair<Place, Place>> reversal(const System& system, Beside& beside, std::size_t i,
                                                 double distance) {
-  constexpr int halvings = 30;
+  constexpr int halvings = 30;  // 20 and 40 tell the same apart
   auto e = system.evaluation();
   const auto at = [&](double x) {
     system.evaluate(beside.with(x), e);
