@@ -1,11 +1,18 @@
-# cmake -D compiler=<path> -D "includes=<folders>" -D source=<mistakes.cpp> -P mistakes.cmake
+# cmake -D compiler=<path> -D "includes=<folders>" -D source=<mistakes.cpp> -D folder=<to work in> -P mistakes.cmake
 #
 # Fails unless the source compiles, but not with any of its mistakes: `#ifdef MISTAKE_...  // <sentence>` must
 # put the sentence into the first ten lines of what the compiler says; the source that it quotes, as g++ 14 does
 # for every template on the way, counts with the line that it stands below.
 
 list(TRANSFORM includes PREPEND -I)
-set(compile ${compiler} -std=c++20 -fsyntax-only ${includes} ${source})
+set(compile ${compiler} -std=c++20 ${includes})
+
+# The headers, which all compilations share, are read once.
+file(STRINGS ${source} headers REGEX "^#include")
+list(JOIN headers "\n" headers)
+file(WRITE ${folder}/headers.h "${headers}\n")
+execute_process(COMMAND ${compile} -x c++-header ${folder}/headers.h -o ${folder}/headers.h.gch COMMAND_ERROR_IS_FATAL ANY)
+list(APPEND compile -fsyntax-only -include ${folder}/headers.h ${source})
 
 execute_process(COMMAND ${compile} RESULT_VARIABLE failed ERROR_VARIABLE said)
 if(failed)
