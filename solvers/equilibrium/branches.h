@@ -156,16 +156,15 @@ template <int D>
 /// has a fold at `from`, and what `equilibrium` throws there.
 template <int D, class Build>
 [[nodiscard]] Diagram<Equilibrium<D>> follow_branches(const Build& build, const BranchOptions& options) {
-  const auto pose = [&build](double parameter) {
+  std::shared_ptr<const System> last;
+  const auto pose = [&](double parameter) {
     const Posed<D> posed = build(parameter);
     const auto q = posed.scene.initial_positions();
-    return PosedSystem{std::make_shared<const System>(posed.scene.system()),
-                       {q.begin(), q.end()},
-                       posed.options.time,
-                       posed.options.turning};
+    last = std::make_shared<const System>(posed.scene.system());
+    return PosedSystem{last, {q.begin(), q.end()}, posed.options.time, posed.options.turning};
   };
   const FlatDiagram found = find_branches(pose, options);
-  return detail::read_by<D>(*build(options.to).scene.system().layout(), found);
+  return detail::read_by<D>(*last->layout(), found);
 }
 
 }  // namespace dalembert

@@ -28,20 +28,17 @@ struct PosedSteady {
 /// coordinates. Throws InvalidArgument for invalid options and what `steady` throws at `from`.
 template <int D, class Build>
 [[nodiscard]] Diagram<Equilibrium<D>> follow_steady(const Build& build, const BranchOptions& options) {
-  const auto pose = [&build](double parameter) {
+  std::shared_ptr<const System> last;
+  const auto pose = [&](double parameter) {
     const PosedSteady<D> posed = build(parameter);
     const auto q = posed.scene.initial_positions(), v = posed.scene.initial_velocities();
-    System system = posed.scene.system();
-    std::vector<FlatKept> keep = detail::flat<D>(posed.options.keep, system.layout());
-    return PosedSystem{std::make_shared<const System>(std::move(system)),
-                       {q.begin(), q.end()},
-                       posed.options.time,
-                       {},
-                       {v.begin(), v.end()},
-                       std::move(keep)};
+    last = std::make_shared<const System>(posed.scene.system());
+    std::vector<FlatKept> keep = detail::flat<D>(posed.options.keep, last->layout());
+    return PosedSystem{last, {q.begin(), q.end()}, posed.options.time,
+                       {},   {v.begin(), v.end()}, std::move(keep)};
   };
   const FlatDiagram found = find_steady_branches(pose, options);
-  return detail::read_by<D>(*build(options.to).scene.system().layout(), found);
+  return detail::read_by<D>(*last->layout(), found);
 }
 
 }  // namespace dalembert

@@ -233,6 +233,26 @@ TEST(Branches, ForkWhereverTheRangeOfTheParameterLies) {
   }
 }
 
+/// k = 1 holds a rotor at the angle P.
+TEST(Branches, EndWhereTheSceneCannotBeBuilt) {
+  Rotor rotor;
+  const auto diagram = follow_branches<2>(
+      [&](double P) {
+        if (P > 0.6) throw std::runtime_error("mine");
+        Scene<2> scene("turned");
+        rotor = scene.add_rotor({.inertia = 1.0});
+        scene.add(potential(points(rotor), [P](auto x) { return 0.5 * (x[0] - P) * (x[0] - P); }));
+        return Posed<2>{std::move(scene)};
+      },
+      {.from = 0.0, .to = 1.0});
+  ASSERT_EQ(diagram.branches.size(), 1U);
+  EXPECT_EQ(diagram.branches[0].end, BranchEnd::lost);
+  EXPECT_THAT(diagram.branches[0].why, HasSubstr("the function that builds the scene threw \"mine\""));
+  EXPECT_GT(diagram.branches[0].points.size(), 2U);
+  for (const auto& point : diagram.branches[0].points)
+    EXPECT_NEAR(point.state.sample().angle(rotor), point.parameter, 1e-12);  // linear: one step of Newton's
+}
+
 TEST(Branches, RefuseOptionsAndScenesThatMakeNoSense) {
   const auto pendulum = [](double) {
     Scene<2> scene("pendulum");

@@ -52,6 +52,22 @@ TEST_P(CertificateBy, ARestAfterInfinitelyManyImpactsHasATimeAndNoState) {
   EXPECT_LT(certificate.largest().position.error, 1e-6);  // 5e-5 with that of the last impact
 }
 
+/// Dropped from h with restitution e it leaves the floor at e sqrt(2 g h).
+TEST_P(CertificateBy, TellsTheErrorBehindAnImpact) {
+  const double g = 9.81;
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto ball = scene.add_particle({.mass = 1.0, .position = {0.0, 1.0}});
+  scene.add(unilateral(OnCurve{ball, Plane<2>{}}, {.restitution = 0.5}));
+  const auto certificate = certify(scene, {.t_end = 0.8, .tolerance = 1e-6, .stepper = GetParam()});
+  ASSERT_EQ(certificate.run().events().size(), 1U);
+  const auto upwards = [ball](const Sample<2>& now) { return now.velocity(ball).y(); };
+  const double truth = std::abs(upwards(certificate.run().sample_after(0)) - 0.5 * std::sqrt(2.0 * g));
+  EXPECT_GE(certificate.error_after(upwards, 0), 0.8 * truth);
+  EXPECT_LT(certificate.error_after(upwards, 0), 1e-6);
+  EXPECT_THROW((void)certificate.error_after(upwards, 1), InvalidArgument);
+}
+
 /// Against sin(phi/2) = k sn(K - omega0 t).
 TEST_P(CertificateBy, TellsTheErrorsOfAPendulum) {
   const models::PlanePendulum model;

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace dalembert::steady_branches_test {
@@ -108,30 +110,47 @@ TEST(SteadyBranches, TellTheSleepingTopsCriticalSpin) {
   EXPECT_TRUE(diagram.bifurcations.empty());
 }
 
-TEST(SteadyBranches, KeepWhatIsStatedAtEachValueOfTheParameter) {
-  // mex: a conical pendulum of length 1 at the depth p: Omega^2 = g/p. The speed is a poor guess.
-  Particle<3> bob;
-  const auto diagram = follow_steady<3>(
-      [&](double p) {
-        Scene<3> scene("conical");
-        scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
-        bob = scene.add_particle(
-            {.mass = 2.0, .position = {std::sqrt(1.0 - p * p), 0.0, -p}, .velocity = {0.0, 2.0, 0.0}}, "bob");
-        scene.add(Distance{Fixed<3>{}, bob, 1.0});
-        const auto here = bob;
-        return PosedSteady<3>{
-            std::move(scene),
-            {.keep = {{"height", [here](const auto& now) { return now.position(here).z(); }}}}};
-      },
-      {.from = 0.9, .to = 0.5});
-  ASSERT_EQ(diagram.branches.size(), 1U);
-  EXPECT_EQ(diagram.branches[0].end, BranchEnd::range) << diagram.branches[0].why;
-  for (const auto& point : diagram.branches[0].points) {
+/// mex: a conical pendulum of length 1 at the depth p: Omega^2 = g/p. The speed is a poor guess.
+PosedSteady<3> conical_pendulum(double p, Particle<3>& bob) {
+  Scene<3> scene("conical");
+  scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
+  bob = scene.add_particle(
+      {.mass = 2.0, .position = {std::sqrt(1.0 - p * p), 0.0, -p}, .velocity = {0.0, 2.0, 0.0}}, "bob");
+  scene.add(Distance{Fixed<3>{}, bob, 1.0});
+  return {std::move(scene), {.keep = {{"height", [bob](const auto& now) { return now.position(bob).z(); }}}}};
+}
+
+void expect_speeds_of_conical_pendulums(const Branch<Equilibrium<3>>& branch, Particle<3> bob) {
+  for (const auto& point : branch.points) {
     const double p = point.parameter;
     EXPECT_NEAR(point.state.sample().velocity(bob).norm(), std::sqrt((1.0 - p * p) * g / p), 1e-9);
   }
+}
+
+TEST(SteadyBranches, KeepWhatIsStatedAtEachValueOfTheParameter) {
+  Particle<3> bob;
+  const auto diagram =
+      follow_steady<3>([&](double p) { return conical_pendulum(p, bob); }, {.from = 0.9, .to = 0.5});
+  ASSERT_EQ(diagram.branches.size(), 1U);
+  EXPECT_EQ(diagram.branches[0].end, BranchEnd::range) << diagram.branches[0].why;
+  expect_speeds_of_conical_pendulums(diagram.branches[0], bob);
   EXPECT_TRUE(diagram.flutters.empty());
   EXPECT_TRUE(diagram.bifurcations.empty());
+}
+
+TEST(SteadyBranches, EndWhereTheSceneCannotBeBuilt) {
+  Particle<3> bob;
+  const auto diagram = follow_steady<3>(
+      [&](double p) {
+        if (p < 0.7) throw std::runtime_error("mine");
+        return conical_pendulum(p, bob);
+      },
+      {.from = 0.9, .to = 0.5});
+  ASSERT_EQ(diagram.branches.size(), 1U);
+  EXPECT_EQ(diagram.branches[0].end, BranchEnd::lost);
+  EXPECT_THAT(diagram.branches[0].why, HasSubstr("the function that builds the scene threw \"mine\""));
+  EXPECT_GT(diagram.branches[0].points.size(), 2U);
+  expect_speeds_of_conical_pendulums(diagram.branches[0], bob);
 }
 
 TEST(SteadyBranches, NeedASymmetryThatCarriesThemOn) {
