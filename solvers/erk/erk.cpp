@@ -34,13 +34,14 @@ double ErkStepper::RungeKutta::attempt(double step) {
   try {
     if (to.rows != manifold.exchanges()) find_sine(to);
     projected = close_to_singular(step);
-    run_stages(to, step, stages - 1, projected);
-    finish(to, step, next);
+    run_stages(to, step, Stages::count - 1, projected);
+    stages.finish(to, step, next);
     const bool not_smooth =
         steps == 0 ? starts_at_switch : step < constants.far_too_short * usual && switching.over == 0.0;
     const double e = error(step, not_smooth ? constants.unreliable : 1.0);
     if (e > 1.0) return e;
-    if (steps % check_interval == 0) watch_stability(step);
+    if (steps % check_interval == 0 && stages.at_limit_of_stability(step, scales))
+      stability_limited += check_interval;
     const double correction = project();
     note_sine(next);
     const double of_switch =

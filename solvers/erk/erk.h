@@ -52,6 +52,7 @@ class ErkStepper final : public TimeStepper {
 
  private:
   struct Node;
+  class Stages;
   struct RungeKutta;
   class SingularPassage;
   class FrictionSwitches;

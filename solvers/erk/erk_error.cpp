@@ -9,10 +9,6 @@ namespace dalembert {
 
 namespace {
 
-/// Steps of h rho beyond this are limited by stability: |R(iy)| exceeds 1 by a thousandth at
-/// y = 3.3, by a twentieth at 4.4, and |R(-x)| exceeds 1 at x = 5.9 (from the table of the pair).
-constexpr double stable = 3.3;
-
 /// Newton's iteration converges if over its first step the gradients change by no more than this part
 /// (Kantorovich); after a step of the method they change by the part that its error is of their radius.
 constexpr double most_turned = 0.5;
@@ -118,13 +114,13 @@ double ErkStepper::RungeKutta::weighted_norm() const {
 
 /// The sizes of the null rules of a step, and that of its error of order 7, which stays in `difference`.
 std::array<double, 4> ErkStepper::RungeKutta::estimates(double step) {
-  std::array<Four, stages> c;
-  for (std::size_t j = 0; j < stages; ++j) c[j] = {step * estimating[j][0], step * estimating[j][1]};
+  std::array<Four, Stages::count> c;
+  for (std::size_t j = 0; j < Stages::count; ++j) c[j] = {step * estimating[j][0], step * estimating[j][1]};
   Four squares{};
   for (std::size_t i = 0; i < difference.size(); ++i) {
     Four e{};
-    for (std::size_t j = 0; j < stages; ++j)
-      for (std::size_t half : {0U, 1U}) e[half] += c[j][half] * k[j][i];
+    for (std::size_t j = 0; j < Stages::count; ++j)
+      for (std::size_t half : {0U, 1U}) e[half] += c[j][half] * stages.derivatives()[j][i];
     for (std::size_t half : {0U, 1U}) squares[half] += (e[half] * weight[i]) * (e[half] * weight[i]);
     difference[i] = e[1][1];
   }
@@ -211,28 +207,8 @@ double ErkStepper::RungeKutta::project() {
 /// a fraction of the scene's size.
 double ErkStepper::RungeKutta::disagreement(double step) {
   for (std::size_t i = 0; i < difference.size(); ++i)
-    difference[i] = step * (k[stages - 1][i] - next.x[n + i]);
+    difference[i] = step * (stages.derivatives().back()[i] - next.x[n + i]);
   return tolerance * weighted_norm();
-}
-
-/// The last two stages lie at the same time; the ratio of their derivatives' difference to their
-/// own is the largest rate rho that the step has excited (Hairer, Wanner, Solving ODEs II, IV.2).
-void ErkStepper::RungeKutta::watch_stability(double step) {
-  const double T2 = scales.time * scales.time;
-  double rates = 0.0, states = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    double dq = 0.0;
-    for (std::size_t j = 0; j < stages; ++j)
-      dq += step * (pair.a[stages - 1][j] - pair.a[stages - 2][j]) * k[j][i];
-    const double dv = k[stages - 1][i] - k[stages - 2][i];
-    const double da = k[stages - 1][n + i] - k[stages - 2][n + i];
-    rates += dv * dv + T2 * da * da;
-    states += dq * dq + T2 * dv * dv;
-  }
-  const double round_off = 100.0 * epsilon * scales.length;
-  if (states > round_off * round_off && step * step * rates > stable * stable * states) {
-    stability_limited += check_interval;
-  }
 }
 
 }  // namespace dalembert

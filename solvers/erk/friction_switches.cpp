@@ -49,7 +49,7 @@ void ErkStepper::FrictionSwitches::find_side_again() {
 void ErkStepper::FrictionSwitches::check_switch(std::size_t i, double t) {
   if (!counts(i)) return;
   rk_.manifold.multipliers(multipliers_);
-  switches_.find({t, rk_.stage(i).q, rk_.stage(i).v}, multipliers_, stage_side_);
+  switches_.find({t, rk_.stages[i].q, rk_.stages[i].v}, multipliers_, stage_side_);
   passed_rest_ = passed_rest_ || switches_.slide_turned(rk_.to.side, stage_side_);
   if (switches_.same(rk_.to.side, stage_side_)) return;
   if (passed_switch_ && !switches_.same(behind_side_, stage_side_)) passed_several_ = true;

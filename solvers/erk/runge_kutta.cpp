@@ -9,11 +9,8 @@ namespace dalembert {
 
 namespace {
 
-constexpr auto& pair = verner87;
-constexpr int stages = pair.stages;
-
 /// The 13th stage serves the error estimate only.
-constexpr std::size_t last_stage_of_step = stages - 2;
+constexpr std::size_t last_stage_of_step = verner87.stages - 2;
 
 }  // namespace
 
@@ -25,8 +22,7 @@ ErkStepper::RungeKutta::RungeKutta(const Problem& problem, const Start& start, c
       tolerance(tolerance_of_a_step(Stepper::erk, options.tolerance)),
       t_end(options.t_end),
       manifold(problem, start.rows, start.scales.lengths()),
-      a(pair.a.begin(), pair.a.end()),
-      stages_after_first((stages - 1) * 3 * n),
+      stages(n),
       difference(2 * start.q.size()),
       weight(difference.size()),
       noise(start.q.size()),
@@ -46,7 +42,6 @@ ErkStepper::RungeKutta::RungeKutta(const Problem& problem, const Start& start, c
       node->x.insert(node->x.end(), part->begin(), part->end());
   }
   switching.make_room(problem, start);
-  for (std::size_t i = 1; i < k.size(); ++i) k[i] = stage(i).v.data();
   singular.remember(to.t, start.a);
   find_sine(to);
   if (!system->compliant()) return;
@@ -83,7 +78,7 @@ bool ErkStepper::RungeKutta::close_to_singular(double step) const {
 }
 
 void ErkStepper::RungeKutta::run_stage(std::size_t i, double t, bool onto_constraints) {
-  const auto [q, v, v_dot] = stage(i);
+  const auto [q, v, v_dot] = stages[i];
   require(onto_constraints ? manifold.project(t, q, v, v_dot) : manifold.accelerate({t, q, v}, v_dot));
 }
 
@@ -100,10 +95,10 @@ void ErkStepper::RungeKutta::record_comparisons_of_stage(std::size_t i, double t
 
 void ErkStepper::RungeKutta::run_stages(const Node& start, double step, std::size_t last,
                                         bool onto_constraints) {
-  k[0] = start.v().data();
+  stages.start(start);
   singular.start_step(start);
   for (std::size_t i = 1; i <= last; ++i) {
-    a[i].move(step, k, start.x.data(), stage(i).q.data(), 2 * n);
+    stages.move(i, start, step);
     const double t = start.t + pair.c[i] * step;
     if (held != nullptr && &start == &to)
       record_comparisons_of_stage(i, t, onto_constraints);
@@ -112,11 +107,6 @@ void ErkStepper::RungeKutta::run_stages(const Node& start, double step, std::siz
     singular.note_angle(i, t);
     if (&start == &to && switching.any()) switching.check_switch(i, t);
   }
-}
-
-void ErkStepper::RungeKutta::finish(const Node& start, double step, Node& end) const {
-  end.t = start.t + step;
-  b.move(step, k, start.x.data(), end.x.data(), 2 * n);
 }
 
 /// Half a step of the method itself from where the last step began; on the constraints, if on its way their
@@ -128,7 +118,7 @@ void ErkStepper::RungeKutta::find_middle() {
   const bool dips = least.sine < (1.0 - constants.changing_angle) * std::min(from.sine, to.sine);
   const bool on = projected || (dips && least.sine < constants.close_to_dependent);
   run_stages(from, half, last_stage_of_step, on);
-  finish(from, half, middle);
+  stages.finish(from, half, middle);
   require(on ? manifold.project(middle.t, middle.q(), middle.v(), middle.a())
              : manifold.accelerate(middle.instant(), middle.a()));
   has_middle = true;

@@ -2,12 +2,11 @@
 
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/hidden.h>
-#include <dalembert/solvers/erk/combination.h>
 #include <dalembert/solvers/erk/erk.h>
 #include <dalembert/solvers/erk/friction_switches.h>
 #include <dalembert/solvers/erk/node.h>
 #include <dalembert/solvers/erk/singular_passage.h>
-#include <dalembert/solvers/erk/verner.h>
+#include <dalembert/solvers/erk/stages.h>
 #include <dalembert/solvers/manifold/manifold.h>
 #include <dalembert/solvers/run/accumulated_error.h>
 
@@ -22,20 +21,11 @@ namespace DALEMBERT_HIDDEN dalembert {
 
 /// The pair and what a step of it needs.
 struct ErkStepper::RungeKutta {
-  static constexpr const ButcherTable<13>& pair = verner87;
-  static constexpr int stages = pair.stages;
+  static constexpr auto& pair = Stages::pair;
   static constexpr long check_interval = 8;  // steps
 
   RungeKutta(const Problem& problem, const Start& start, const Options& options);
 
-  struct Stage {
-    std::span<double> q, v, a;
-  };
-  /// Stage i > 0.
-  [[nodiscard]] Stage stage(std::size_t i) {
-    const auto x = std::span(stages_after_first).subspan((i - 1) * 3 * n, 3 * n);
-    return {x.first(n), x.subspan(n, n), x.subspan(2 * n, n)};
-  }
   /// Of positions and of velocities.
   [[nodiscard]] std::pair<std::span<double>, std::span<double>> halves(std::span<double> x) const {
     return {x.first(n), x.subspan(n)};
@@ -48,7 +38,6 @@ struct ErkStepper::RungeKutta {
   [[nodiscard]] bool close_to_singular(double step) const;
   void find_sine(Node& node);
   void note_sine(Node& node) const;
-  void finish(const Node& start, double step, Node& end) const;
   void find_middle();
 
   void weigh(const Node& at, double step, double allowed);
@@ -62,7 +51,6 @@ struct ErkStepper::RungeKutta {
   [[nodiscard]] double error_of_compliant_forces(std::span<const double> dq) const;
   [[nodiscard]] double project();
   [[nodiscard]] double disagreement(double step);
-  void watch_stability(double step);
 
   [[nodiscard]] double round_off_of_projection() const;
   [[nodiscard]] double attempt(double step);
@@ -79,8 +67,7 @@ struct ErkStepper::RungeKutta {
   std::vector<double> lengths;  // see Scales
   double tolerance, t_end;
   Manifold manifold;
-  std::vector<Combination<stages>> a;
-  Combination<stages> b{pair.b};
+  Stages stages;
   Node from, to;  // the last step; before the first, both are the start
   Node middle;    // of that step, if `has_middle`
   bool has_middle = false;
@@ -88,8 +75,6 @@ struct ErkStepper::RungeKutta {
   bool projected = false;     // the stages of the last attempt
   bool extrapolated = false;  // the last step passed a singular position
   Node next;                  // where a step goes until it is accepted
-  std::vector<double> stages_after_first;
-  std::array<const double*, stages> k{};
   /// Stages 4, 5 and 9 at 0.16, 0.39 and 0.90 of the step, whose comparisons are noted.
   static constexpr std::array<std::size_t, 3> noted{3, 4, 8};
   const Branches::Sides* held = nullptr;  // that the steps are taken on, if anything is compared
