@@ -109,7 +109,8 @@ void ErkStepper::step(double wanted) {
     s.accept(true);
     return s.switching.find_side_again();
   }
-  if (s.steps % RungeKutta::check_interval == 0) s.measure_noise();
+  if (s.steps % RungeKutta::check_interval == 0)
+    s.round_off.measure(s.to, *s.system, s.lengths, s.manifold, s.switching);
   double growth = constants.most_growth;
   for (;;) {
     const double step =
@@ -129,7 +130,8 @@ void ErkStepper::step(double wanted) {
       s.switching.over = 0.0;
       break;
     }
-    if (s.failures++ % RungeKutta::check_interval == 0) s.measure_noise();
+    if (s.failures++ % RungeKutta::check_interval == 0)
+      s.round_off.measure(s.to, *s.system, s.lengths, s.manifold, s.switching);
     growth = 1.0;
     s.switching.over = 0.0;
     if (s.switching.stop_short(step)) break;

@@ -53,6 +53,7 @@ class ErkStepper final : public TimeStepper {
  private:
   struct Node;
   class Stages;
+  class RoundOff;
   struct RungeKutta;
   class SingularPassage;
   class FrictionSwitches;

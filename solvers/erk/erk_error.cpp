@@ -51,44 +51,17 @@ double near_singularity(double e3, double e4, double e6) {
 
 }  // namespace
 
-/// What round-off does to the accelerations at the last node, and to positions and velocities where they are
-/// projected: all are found again after a rounding of time, positions and velocities, up or down by chance
-/// (the stochastic arithmetic of Vignes, Math. Comput. Simulation 35 (1993) 233-261). That shows what cancels
-/// in the user's own equations, too. One sample may be small by chance: earlier ones are not forgotten at
-/// once.
-void ErkStepper::RungeKutta::measure_noise() {
-  const auto rounded = [this](double x) { return x * (chance() % 2 == 0 ? 1.0 + epsilon : 1.0 - epsilon); };
-  for (std::size_t i = 0; i < n; ++i) {
-    noise_q[i] = rounded(to.q()[i]);
-    noise_v[i] = rounded(to.v()[i]);
-  }
-  const auto a = std::span(difference).first(n);
-  try {
-    if (!manifold.accelerate({rounded(to.t), noise_q, noise_v}, a)) return;
-  } catch (const EquationFault&) {
-    return;  // a rounding away from where the equations end
-  }
-  // Behind a switch the accelerations are others, and so are those without a direction.
-  if (switching.differs({to.t, noise_q, noise_v})) return;
-  for (std::size_t i = 0; i < n; ++i)
-    noise[i] = std::max(constants.step_memory * noise[i], std::abs(a[i] - to.a()[i]));
-  const double off = position_violation(*system, manifold.equations(), lengths).size,
-               off_speed = velocity_violation(*system, manifold.equations(), lengths).size;
-  noise_of_positions = std::max(constants.step_memory * noise_of_positions, off);
-  noise_of_velocities = std::max(constants.step_memory * noise_of_velocities, off_speed);
-}
-
 /// The weight of an error in each position and velocity against `allowed` at a state; of a step, below the
 /// round-off in what estimates its error, which would be the same in a shorter one, none counts.
 void ErkStepper::RungeKutta::weigh(const Node& at, double step, double allowed) {
   const double of_stages = constants.roundings_of_step * of_estimate * step;
   for (std::size_t i = 0; i < n; ++i) {
-    const double of_velocity = of_stages * noise[i];
+    const double of_velocity = of_stages * round_off.of_acceleration(i);
     const double of_projection = constants.roundings_of_step / lengths[i];
     weight[i] = 1.0 / (scales.position_error(i, at.q()[i], allowed) + of_velocity * step +
-                       of_projection * noise_of_positions);
+                       of_projection * round_off.of_positions());
     weight[n + i] = 1.0 / (scales.velocity_error(i, at.v()[i], allowed) + of_velocity +
-                           of_projection * noise_of_velocities);
+                           of_projection * round_off.of_velocities());
   }
 }
 
@@ -145,8 +118,8 @@ double ErkStepper::RungeKutta::error(double step, double doubt) {
 /// velocities are rounded, their accelerations at least so. The step, of order 8, errs by less, by its eighth
 /// root if the error constants are 1 in the scene's units, but by no less than `of_order_8` times that.
 void ErkStepper::RungeKutta::estimate(double step, double of_order_8) {
-  estimated = {.position_noise = noise_of_positions,
-               .velocity_noise = noise_of_velocities,
+  estimated = {.position_noise = round_off.of_positions(),
+               .velocity_noise = round_off.of_velocities(),
                .late = (next.t - to.t) - step};
   for (std::size_t i = 0; i < n; ++i) {
     const double length = lengths[i];
@@ -156,7 +129,8 @@ void ErkStepper::RungeKutta::estimate(double step, double of_order_8) {
     estimated.position_noise = std::max({estimated.position_noise, of_sum * std::abs(next.q()[i]),
                                          epsilon * of_stages * std::abs(next.v()[i])});
     estimated.velocity_noise =
-        std::max(estimated.velocity_noise, of_stages * std::max(noise[i], epsilon * std::abs(next.a()[i])));
+        std::max(estimated.velocity_noise,
+                 of_stages * std::max(round_off.of_acceleration(i), epsilon * std::abs(next.a()[i])));
   }
   const double of_order_7 = std::max(estimated.position / scales.length, estimated.velocity / scales.speed());
   const double less = std::max(std::pow(std::min(of_order_7, 1.0), 1.0 / pair.order), of_order_8);

@@ -25,9 +25,7 @@ ErkStepper::RungeKutta::RungeKutta(const Problem& problem, const Start& start, c
       stages(n),
       difference(2 * start.q.size()),
       weight(difference.size()),
-      noise(start.q.size()),
-      noise_q(start.q.size()),
-      noise_v(start.q.size()),
+      round_off(start.q.size()),
       covered(start.scales.extent),
       usual(constants.first_explicit_step * std::pow(options.tolerance, 1.0 / pair.order) *
             start.scales.time),

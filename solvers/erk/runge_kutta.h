@@ -5,6 +5,7 @@
 #include <dalembert/solvers/erk/erk.h>
 #include <dalembert/solvers/erk/friction_switches.h>
 #include <dalembert/solvers/erk/node.h>
+#include <dalembert/solvers/erk/round_off.h>
 #include <dalembert/solvers/erk/singular_passage.h>
 #include <dalembert/solvers/erk/stages.h>
 #include <dalembert/solvers/manifold/manifold.h>
@@ -12,7 +13,6 @@
 
 #include <array>
 #include <limits>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,7 +47,6 @@ struct ErkStepper::RungeKutta {
   [[nodiscard]] std::array<double, 4> estimates(double step);
   [[nodiscard]] double error(double step, double doubt);
   void estimate(double step, double of_order_8);
-  void measure_noise();
   [[nodiscard]] double error_of_compliant_forces(std::span<const double> dq) const;
   [[nodiscard]] double project();
   [[nodiscard]] double disagreement(double step);
@@ -79,12 +78,10 @@ struct ErkStepper::RungeKutta {
   static constexpr std::array<std::size_t, 3> noted{3, 4, 8};
   const Branches::Sides* held = nullptr;  // that the steps are taken on, if anything is compared
   std::array<Compared, noted.size()> compared;
-  bool strayed = false;                                        // at a stage that was noted, see Branches
-  std::vector<double> difference, weight;                      // of positions and velocities
-  std::vector<double> noise, noise_q, noise_v;                 // of accelerations, see measure_noise; work
-  double noise_of_positions = 0.0, noise_of_velocities = 0.0;  // of their projection, as lengths
-  StepError estimated, reached;                                // of an attempt; of the last step
-  std::minstd_rand chance;
+  bool strayed = false;                    // at a stage that was noted, see Branches
+  std::vector<double> difference, weight;  // of positions and velocities
+  RoundOff round_off;
+  StepError estimated, reached;         // of an attempt; of the last step
   std::vector<double> force_of_spring;  // per row, 0 in rigid ones; empty if all are
   PathExtent covered;                   // by the steps taken; `scales` may be those of one that is tried
   double usual;                         // step, however near the end of the run is
