@@ -54,6 +54,7 @@ class ErkStepper final : public TimeStepper {
   struct Node;
   class Stages;
   class RoundOff;
+  class StepErrors;
   struct RungeKutta;
   class SingularPassage;
   class FrictionSwitches;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dalembert {
 
@@ -12,21 +13,19 @@ namespace {
 /// The 13th stage serves the error estimate only.
 constexpr std::size_t last_stage_of_step = verner87.stages - 2;
 
+/// Newton's iteration converges if over its first step the gradients change by no more than this part
+/// (Kantorovich); after a step of the method they change by the part that its error is of their radius.
+constexpr double most_turned = 0.5;
+
 }  // namespace
 
 ErkStepper::RungeKutta::RungeKutta(const Problem& problem, const Start& start, const Options& options)
     : system(&problem.system()),
       n(start.q.size()),
-      scales(start.scales),
-      lengths(start.scales.lengths()),
-      tolerance(tolerance_of_a_step(Stepper::erk, options.tolerance)),
       t_end(options.t_end),
       manifold(problem, start.rows, start.scales.lengths()),
       stages(n),
-      difference(2 * start.q.size()),
-      weight(difference.size()),
-      round_off(start.q.size()),
-      covered(start.scales.extent),
+      errors(*system, start, options),
       usual(constants.first_explicit_step * std::pow(options.tolerance, 1.0 / pair.order) *
             start.scales.time),
       longest(longest_step(options)),
@@ -42,14 +41,6 @@ ErkStepper::RungeKutta::RungeKutta(const Problem& problem, const Start& start, c
   switching.make_room(problem, start);
   singular.remember(to.t, start.a);
   find_sine(to);
-  if (!system->compliant()) return;
-  auto e = system->evaluation();
-  system->evaluate({options.t_start, start.q, start.v}, e);
-  for (std::size_t r = 0; r < start.lambda.size(); ++r) {
-    const double impulse =
-        system->law(r).compliant() ? impulse_of_row(*system, e.w, lengths, r, scales.speed()) : 0.0;
-    force_of_spring.push_back(impulse / scales.time);
-  }
 }
 
 void ErkStepper::RungeKutta::require(bool regular) {
@@ -105,6 +96,15 @@ void ErkStepper::RungeKutta::run_stages(const Node& start, double step, std::siz
     singular.note_angle(i, t);
     if (&start == &to && switching.any()) switching.check_switch(i, t);
   }
+}
+
+/// Projects `next` onto the constraint manifold. Returns the correction over the tolerance; infinite where
+/// one step of Newton's does not say where the manifold is: a state beyond the apex of a cone is moved onto
+/// it.
+double ErkStepper::RungeKutta::project() {
+  errors.keep(next);
+  require(manifold.project(next.t, next.q(), next.v(), next.a()));
+  return manifold.turned() > most_turned ? std::numeric_limits<double>::infinity() : errors.moved(next);
 }
 
 /// Half a step of the method itself from where the last step began; on the constraints, if on its way their
