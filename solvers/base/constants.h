@@ -21,7 +21,7 @@ struct Constants {
   /// times the tolerance went wrong: over a jump of a driven point, or onto another branch.
   double most_correction = 10.0;
   /// Units of round-off that such a correction, or the estimate of a step's error, may consist of, see
-  /// ErkStepper::RungeKutta::round_off_of_projection and weigh.
+  /// ErkStepper::RungeKutta::round_off_of_projection and StepErrors::weigh.
   double roundings_of_step = 10.0;
   /// The last stage, at t + h, and the end of a step have the same derivatives up to errors. Where these move
   /// the scene in a step by more than this fraction of its size, the step has jumped over something: a centre

@@ -21,32 +21,34 @@ ErkStepper::~ErkStepper() = default;
 /// SingularExtrapolation.
 double ErkStepper::RungeKutta::round_off_of_projection() const {
   const double eps = epsilon;
-  return constants.roundings_of_step * eps / (std::max(next.sine * next.sine, eps) * tolerance);
+  return constants.roundings_of_step * eps / (std::max(next.sine * next.sine, eps) * errors.tolerance());
 }
 
 /// Tries a step into `next`. Returns its error over the tolerance; infinite, with the reason in
 /// `fault`, if the equations cannot be evaluated on its way.
 double ErkStepper::RungeKutta::attempt(double step) {
-  scales.extent = covered;
+  errors.start_attempt();
   switching.start_attempt();
   (void)Branches::strayed();
   strayed = false;
   try {
     if (to.rows != manifold.exchanges()) find_sine(to);
     projected = close_to_singular(step);
-    run_stages(to, step, stages - 1, projected);
-    finish(to, step, next);
+    run_stages(to, step, Stages::count - 1, projected);
+    stages.finish(to, step, next);
     const bool not_smooth =
         steps == 0 ? starts_at_switch : step < constants.far_too_short * usual && switching.over == 0.0;
-    const double e = error(step, not_smooth ? constants.unreliable : 1.0);
+    const StepErrors::Step tried{to, next, step, stages.derivatives()};
+    const double e = errors.error(tried, not_smooth ? constants.unreliable : 1.0, manifold.equations());
     if (e > 1.0) return e;
-    if (steps % check_interval == 0) watch_stability(step);
+    if (steps % check_interval == 0 && stages.at_limit_of_stability(step, errors.scales()))
+      stability_limited += check_interval;
     const double correction = project();
     note_sine(next);
     const double of_switch =
         strayed || Branches::strayed() ? switching.effect_of_switch(to, next, step) : 0.0;
     return std::max({e, correction / (constants.most_correction + round_off_of_projection()),
-                     disagreement(step) / constants.most_disagreement, of_switch,
+                     errors.disagreement(tried) / constants.most_disagreement, of_switch,
                      switching.error_of_switch(step)});
   } catch (const EquationFault& error) {
     fault = error.what();
@@ -55,7 +57,7 @@ double ErkStepper::RungeKutta::attempt(double step) {
 }
 
 double ErkStepper::RungeKutta::shortest() const {
-  return 16.0 * epsilon * std::max(std::abs(to.t), scales.time);
+  return 16.0 * epsilon * std::max(std::abs(to.t), errors.scales().time);
 }
 
 double ErkStepper::RungeKutta::shorter(double step, double factor) const {
@@ -68,9 +70,10 @@ double ErkStepper::RungeKutta::shorter(double step, double factor) const {
 }
 
 /// What makes steps fail however short they are, as far as the last node tells; round-off does not, see
-/// weigh.
+/// StepErrors::weigh.
 std::string ErkStepper::RungeKutta::cause() const {
-  if (const auto singular = singular_here(*system, scales, to.instant()); !singular.empty()) return singular;
+  if (const auto singular = singular_here(*system, errors.scales(), to.instant()); !singular.empty())
+    return singular;
   if (to.sine < constants.close_to_dependent) return "the constraints are nearly linearly dependent here";
   if (2 * stability_limited > steps && steps > 0)
     return "a force is very stiff; Stepper::ida has no such limit";
@@ -89,8 +92,7 @@ double ErkStepper::RungeKutta::step_towards(double wanted) const {
 /// Accepts `next` as the end of a step.
 void ErkStepper::RungeKutta::accept(bool by_extrapolation) {
   usual = std::max(next.t - to.t, constants.step_memory * usual);
-  covered = scales.extent;
-  reached = estimated;
+  errors.accept();
   ++steps;
   has_middle = false;
   extrapolated = by_extrapolation;
@@ -108,7 +110,7 @@ void ErkStepper::step(double wanted) {
     s.accept(true);
     return s.switching.find_side_again();
   }
-  if (s.steps % RungeKutta::check_interval == 0) s.measure_noise();
+  if (s.steps % RungeKutta::check_interval == 0) s.errors.measure_round_off(s.to, s.manifold, s.switching);
   double growth = constants.most_growth;
   for (;;) {
     const double step =
@@ -128,7 +130,8 @@ void ErkStepper::step(double wanted) {
       s.switching.over = 0.0;
       break;
     }
-    if (s.failures++ % RungeKutta::check_interval == 0) s.measure_noise();
+    if (s.failures++ % RungeKutta::check_interval == 0)
+      s.errors.measure_round_off(s.to, s.manifold, s.switching);
     growth = 1.0;
     s.switching.over = 0.0;
     if (s.switching.stop_short(step)) break;
@@ -136,8 +139,8 @@ void ErkStepper::step(double wanted) {
   }
   // Round-off in the sum must not leave the last part of the way short of its goal.
   const double goal = std::min(wanted, s.t_end);
-  if (std::abs(s.next.t - goal) <= converged_to * std::max(std::abs(goal), s.scales.time)) {
-    s.estimated.late += goal - s.next.t;
+  if (std::abs(s.next.t - goal) <= converged_to * std::max(std::abs(goal), s.errors.scales().time)) {
+    s.errors.put_off(goal - s.next.t);
     s.next.t = goal;
   }
   s.accept(false);
@@ -145,7 +148,7 @@ void ErkStepper::step(double wanted) {
   s.switching.go_on_behind_switch();
 }
 
-const Scales& ErkStepper::scales() const { return method_->scales; }
+const Scales& ErkStepper::scales() const { return method_->errors.scales(); }
 void ErkStepper::starts_at_switch() { method_->starts_at_switch = true; }
 void ErkStepper::hold_sides(const Branches::Sides& held) { method_->held = &held; }
 /// The last attempt may have been another step than that which was taken.
@@ -161,7 +164,7 @@ std::span<const Compared> ErkStepper::compared() const {
 }
 double ErkStepper::time() const { return method_->to.t; }
 double ErkStepper::sine() const { return method_->to.sine; }
-StepError ErkStepper::error() const { return method_->reached; }
+StepError ErkStepper::error() const { return method_->errors.reached(); }
 
 /// Velocities are the derivative of the polynomial of positions, but for its round-off, that of positions and
 /// times over h: where the cubic of velocities and accelerations at both ends is right to that, the
@@ -179,7 +182,7 @@ void ErkStepper::interpolate(double t, std::span<double> q, std::span<double> v)
   const Hermite<3> polynomial({s.from.t, s.middle.t, s.to.t}, t);
   const Hermite<3, 2> of_velocities({s.from.t, s.middle.t, s.to.t}, t);
   const Hermite<2, 2> of_ends({s.from.t, s.to.t}, t);
-  const double rounding = s.scales.rounding(s.to.q()), h = s.to.t - s.from.t,
+  const double rounding = s.errors.scales().rounding(s.to.q()), h = s.to.t - s.from.t,
                of_time = 10.0 * epsilon * std::abs(s.to.t);
   for (std::size_t i = 0; i < s.n; ++i) {
     const std::array speeds{s.from.v()[i], s.middle.v()[i], s.to.v()[i]},

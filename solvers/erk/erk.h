@@ -52,6 +52,9 @@ class ErkStepper final : public TimeStepper {
 
  private:
   struct Node;
+  class Stages;
+  class RoundOff;
+  class StepErrors;
   struct RungeKutta;
   class SingularPassage;
   class FrictionSwitches;

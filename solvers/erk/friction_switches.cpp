@@ -25,7 +25,7 @@ ErkStepper::FrictionSwitches::FrictionSwitches(RungeKutta& method, const System&
     : rk_(method), switches_(system), multipliers_(system.rows()) {}
 
 void ErkStepper::FrictionSwitches::make_room(const Problem& problem, const Start& start) {
-  if (switches_.any()) sticking_.emplace(problem, start, rk_.tolerance);
+  if (switches_.any()) sticking_.emplace(problem, start, rk_.errors.tolerance());
   short_of_ = beyond_ = rk_.to;
   for (Slope* side : {&rk_.from.side, &rk_.to.side, &rk_.middle.side, &rk_.next.side, &short_of_.side,
                       &beyond_.side, &stage_side_, &behind_side_})
@@ -49,7 +49,7 @@ void ErkStepper::FrictionSwitches::find_side_again() {
 void ErkStepper::FrictionSwitches::check_switch(std::size_t i, double t) {
   if (!counts(i)) return;
   rk_.manifold.multipliers(multipliers_);
-  switches_.find({t, rk_.stage(i).q, rk_.stage(i).v}, multipliers_, stage_side_);
+  switches_.find({t, rk_.stages[i].q, rk_.stages[i].v}, multipliers_, stage_side_);
   passed_rest_ = passed_rest_ || switches_.slide_turned(rk_.to.side, stage_side_);
   if (switches_.same(rk_.to.side, stage_side_)) return;
   if (passed_switch_ && !switches_.same(behind_side_, stage_side_)) passed_several_ = true;
@@ -78,10 +78,7 @@ bool ErkStepper::FrictionSwitches::failed_behind_switch() {
 }
 
 double ErkStepper::FrictionSwitches::effect_of_switch(const Node& a, const Node& b, double step) {
-  const auto [dq, dv] = rk_.halves(rk_.difference);
-  std::ranges::fill(dq, 0.0);
-  for (std::size_t i = 0; i < rk_.n; ++i) dv[i] = most_weight * step * (b.a()[i] - a.a()[i]);
-  return rk_.weighted_norm();
+  return rk_.errors.of_jump(most_weight * step, a, b);
 }
 
 /// That is known if all behind it lies on the side on which the step ends. So it is with a rest of what

@@ -4,35 +4,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dalembert {
 
 namespace {
 
-constexpr auto& pair = verner87;
-constexpr int stages = pair.stages;
-
 /// The 13th stage serves the error estimate only.
-constexpr std::size_t last_stage_of_step = stages - 2;
+constexpr std::size_t last_stage_of_step = verner87.stages - 2;
+
+/// Newton's iteration converges if over its first step the gradients change by no more than this part
+/// (Kantorovich); after a step of the method they change by the part that its error is of their radius.
+constexpr double most_turned = 0.5;
 
 }  // namespace
 
 ErkStepper::RungeKutta::RungeKutta(const Problem& problem, const Start& start, const Options& options)
     : system(&problem.system()),
       n(start.q.size()),
-      scales(start.scales),
-      lengths(start.scales.lengths()),
-      tolerance(tolerance_of_a_step(Stepper::erk, options.tolerance)),
       t_end(options.t_end),
       manifold(problem, start.rows, start.scales.lengths()),
-      a(pair.a.begin(), pair.a.end()),
-      stages_after_first((stages - 1) * 3 * n),
-      difference(2 * start.q.size()),
-      weight(difference.size()),
-      noise(start.q.size()),
-      noise_q(start.q.size()),
-      noise_v(start.q.size()),
-      covered(start.scales.extent),
+      stages(n),
+      errors(*system, start, options),
       usual(constants.first_explicit_step * std::pow(options.tolerance, 1.0 / pair.order) *
             start.scales.time),
       longest(longest_step(options)),
@@ -46,17 +39,8 @@ ErkStepper::RungeKutta::RungeKutta(const Problem& problem, const Start& start, c
       node->x.insert(node->x.end(), part->begin(), part->end());
   }
   switching.make_room(problem, start);
-  for (std::size_t i = 1; i < k.size(); ++i) k[i] = stage(i).v.data();
   singular.remember(to.t, start.a);
   find_sine(to);
-  if (!system->compliant()) return;
-  auto e = system->evaluation();
-  system->evaluate({options.t_start, start.q, start.v}, e);
-  for (std::size_t r = 0; r < start.lambda.size(); ++r) {
-    const double impulse =
-        system->law(r).compliant() ? impulse_of_row(*system, e.w, lengths, r, scales.speed()) : 0.0;
-    force_of_spring.push_back(impulse / scales.time);
-  }
 }
 
 void ErkStepper::RungeKutta::require(bool regular) {
@@ -83,7 +67,7 @@ bool ErkStepper::RungeKutta::close_to_singular(double step) const {
 }
 
 void ErkStepper::RungeKutta::run_stage(std::size_t i, double t, bool onto_constraints) {
-  const auto [q, v, v_dot] = stage(i);
+  const auto [q, v, v_dot] = stages[i];
   require(onto_constraints ? manifold.project(t, q, v, v_dot) : manifold.accelerate({t, q, v}, v_dot));
 }
 
@@ -100,10 +84,10 @@ void ErkStepper::RungeKutta::record_comparisons_of_stage(std::size_t i, double t
 
 void ErkStepper::RungeKutta::run_stages(const Node& start, double step, std::size_t last,
                                         bool onto_constraints) {
-  k[0] = start.v().data();
+  stages.start(start);
   singular.start_step(start);
   for (std::size_t i = 1; i <= last; ++i) {
-    a[i].move(step, k, start.x.data(), stage(i).q.data(), 2 * n);
+    stages.move(i, start, step);
     const double t = start.t + pair.c[i] * step;
     if (held != nullptr && &start == &to)
       record_comparisons_of_stage(i, t, onto_constraints);
@@ -114,9 +98,13 @@ void ErkStepper::RungeKutta::run_stages(const Node& start, double step, std::siz
   }
 }
 
-void ErkStepper::RungeKutta::finish(const Node& start, double step, Node& end) const {
-  end.t = start.t + step;
-  b.move(step, k, start.x.data(), end.x.data(), 2 * n);
+/// Projects `next` onto the constraint manifold. Returns the correction over the tolerance; infinite where
+/// one step of Newton's does not say where the manifold is: a state beyond the apex of a cone is moved onto
+/// it.
+double ErkStepper::RungeKutta::project() {
+  errors.keep(next);
+  require(manifold.project(next.t, next.q(), next.v(), next.a()));
+  return manifold.turned() > most_turned ? std::numeric_limits<double>::infinity() : errors.moved(next);
 }
 
 /// Half a step of the method itself from where the last step began; on the constraints, if on its way their
@@ -128,7 +116,7 @@ void ErkStepper::RungeKutta::find_middle() {
   const bool dips = least.sine < (1.0 - constants.changing_angle) * std::min(from.sine, to.sine);
   const bool on = projected || (dips && least.sine < constants.close_to_dependent);
   run_stages(from, half, last_stage_of_step, on);
-  finish(from, half, middle);
+  stages.finish(from, half, middle);
   require(on ? manifold.project(middle.t, middle.q(), middle.v(), middle.a())
              : manifold.accelerate(middle.instant(), middle.a()));
   has_middle = true;

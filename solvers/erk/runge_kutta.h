@@ -2,44 +2,27 @@
 
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/hidden.h>
-#include <dalembert/solvers/erk/combination.h>
 #include <dalembert/solvers/erk/erk.h>
 #include <dalembert/solvers/erk/friction_switches.h>
 #include <dalembert/solvers/erk/node.h>
 #include <dalembert/solvers/erk/singular_passage.h>
-#include <dalembert/solvers/erk/verner.h>
+#include <dalembert/solvers/erk/stages.h>
+#include <dalembert/solvers/erk/step_errors.h>
 #include <dalembert/solvers/manifold/manifold.h>
-#include <dalembert/solvers/run/accumulated_error.h>
 
 #include <array>
-#include <limits>
-#include <random>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace DALEMBERT_HIDDEN dalembert {
 
-/// The pair and what a step of it needs.
+/// Steps by the pair from node to node, and how long they are. The stages of a step, its errors, and what it
+/// may have to pass have classes of their own.
 struct ErkStepper::RungeKutta {
-  static constexpr const ButcherTable<13>& pair = verner87;
-  static constexpr int stages = pair.stages;
+  static constexpr auto& pair = Stages::pair;
   static constexpr long check_interval = 8;  // steps
 
   RungeKutta(const Problem& problem, const Start& start, const Options& options);
 
-  struct Stage {
-    std::span<double> q, v, a;
-  };
-  /// Stage i > 0.
-  [[nodiscard]] Stage stage(std::size_t i) {
-    const auto x = std::span(stages_after_first).subspan((i - 1) * 3 * n, 3 * n);
-    return {x.first(n), x.subspan(n, n), x.subspan(2 * n, n)};
-  }
-  /// Of positions and of velocities.
-  [[nodiscard]] std::pair<std::span<double>, std::span<double>> halves(std::span<double> x) const {
-    return {x.first(n), x.subspan(n)};
-  }
   static void require(bool regular);
   /// Stages 2 to `last` of a step from `start`.
   void run_stages(const Node& start, double step, std::size_t last, bool onto_constraints);
@@ -48,22 +31,9 @@ struct ErkStepper::RungeKutta {
   [[nodiscard]] bool close_to_singular(double step) const;
   void find_sine(Node& node);
   void note_sine(Node& node) const;
-  void finish(const Node& start, double step, Node& end) const;
   void find_middle();
 
-  void weigh(const Node& at, double step, double allowed);
-  void adopt(const PathExtent& extent);
-  [[nodiscard]] double root_mean(double sum) const;
-  [[nodiscard]] double weighted_norm() const;
-  [[nodiscard]] std::array<double, 4> estimates(double step);
-  [[nodiscard]] double error(double step, double doubt);
-  void estimate(double step, double of_order_8);
-  void measure_noise();
-  [[nodiscard]] double error_of_compliant_forces(std::span<const double> dq) const;
   [[nodiscard]] double project();
-  [[nodiscard]] double disagreement(double step);
-  void watch_stability(double step);
-
   [[nodiscard]] double round_off_of_projection() const;
   [[nodiscard]] double attempt(double step);
   void accept(bool by_extrapolation);
@@ -75,12 +45,10 @@ struct ErkStepper::RungeKutta {
 
   const System* system;
   std::size_t n;
-  Scales scales;
-  std::vector<double> lengths;  // see Scales
-  double tolerance, t_end;
+  double t_end;
   Manifold manifold;
-  std::vector<Combination<stages>> a;
-  Combination<stages> b{pair.b};
+  Stages stages;
+  StepErrors errors;
   Node from, to;  // the last step; before the first, both are the start
   Node middle;    // of that step, if `has_middle`
   bool has_middle = false;
@@ -88,23 +56,14 @@ struct ErkStepper::RungeKutta {
   bool projected = false;     // the stages of the last attempt
   bool extrapolated = false;  // the last step passed a singular position
   Node next;                  // where a step goes until it is accepted
-  std::vector<double> stages_after_first;
-  std::array<const double*, stages> k{};
   /// Stages 4, 5 and 9 at 0.16, 0.39 and 0.90 of the step, whose comparisons are noted.
   static constexpr std::array<std::size_t, 3> noted{3, 4, 8};
   const Branches::Sides* held = nullptr;  // that the steps are taken on, if anything is compared
   std::array<Compared, noted.size()> compared;
-  bool strayed = false;                                        // at a stage that was noted, see Branches
-  std::vector<double> difference, weight;                      // of positions and velocities
-  std::vector<double> noise, noise_q, noise_v;                 // of accelerations, see measure_noise; work
-  double noise_of_positions = 0.0, noise_of_velocities = 0.0;  // of their projection, as lengths
-  StepError estimated, reached;                                // of an attempt; of the last step
-  std::minstd_rand chance;
-  std::vector<double> force_of_spring;  // per row, 0 in rigid ones; empty if all are
-  PathExtent covered;                   // by the steps taken; `scales` may be those of one that is tried
-  double usual;                         // step, however near the end of the run is
-  double longest;                       // that is allowed
-  double h;                             // to try next
+  bool strayed = false;  // at a stage that was noted, see Branches
+  double usual;          // step, however near the end of the run is
+  double longest;        // that is allowed
+  double h;              // to try next
   long steps = 0, failures = 0, stability_limited = 0;
 
   std::string fault;  // of the last attempt that failed

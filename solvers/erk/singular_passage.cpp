@@ -137,13 +137,13 @@ bool ErkStepper::SingularPassage::passes_beside(double singular) {
   const double t = singular - beside * (singular - rk_.to.t);
   extrapolate(nodes, t, rk_.next);
   extrapolate(nodes - 1, t, rk_.middle);
-  const auto lengths = rk_.scales.lengths();
+  const auto lengths = rk_.errors.lengths();
   double error = 0.0;
   for (std::size_t i = 0; i < rk_.n; ++i)
     error = std::max(error, std::abs(rk_.next.q()[i] - rk_.middle.q()[i]) * lengths[i]);
-  const Manifold::Gap gap = rk_.manifold.gap(rk_.next.instant(), rk_.scales.length);
+  const Manifold::Gap gap = rk_.manifold.gap(rk_.next.instant(), rk_.errors.scales().length);
   if (!(gap.distance > margin_of_gap * std::max(error, gap.rounding))) return false;
-  const double unnoticed = constants.most_correction * rk_.tolerance * rk_.scales.length;
+  const double unnoticed = constants.most_correction * rk_.errors.tolerance() * rk_.errors.scales().length;
   if (gap.distance > unnoticed) return true;
   std::ostringstream what;
   what << "two branches of the motion, of which " << rk_.system->row_label(gap.row)
@@ -163,7 +163,8 @@ bool ErkStepper::SingularPassage::worth_taking(double error) {
     best_extrapolated_ = rk_.next;
     return error <= std::min(1.0, rk_.to.sine);
   }
-  if (best_extrapolation_ * rk_.tolerance > Accuracy(rk_.tolerance).of_forces()) return false;
+  if (best_extrapolation_ * rk_.errors.tolerance() > Accuracy(rk_.errors.tolerance()).of_forces())
+    return false;
   rk_.next = best_extrapolated_;
   return true;
 }
@@ -175,15 +176,12 @@ bool ErkStepper::SingularPassage::take(double singular) {
   const double beyond = std::min(2.0 * singular - rk_.to.t, rk_.t_end);
   extrapolate(nodes, beyond, rk_.next);
   extrapolate(nodes - 1, beyond, rk_.middle);
-  rk_.weigh(rk_.next, 0.0, rk_.tolerance);
-  for (std::size_t i = 0; i < rk_.difference.size(); ++i) rk_.difference[i] = rk_.next.x[i] - rk_.middle.x[i];
-  if (!worth_taking(rk_.weighted_norm())) return false;
+  if (!worth_taking(rk_.errors.distance(rk_.middle, rk_.next))) return false;
   if (rk_.next.t < rk_.t_end) {
     (void)rk_.project();
     rk_.note_sine(rk_.next);
   }
-  const double lost = rk_.tolerance * std::exchange(best_extrapolation_, none_yet);
-  rk_.estimated = {.position = lost * rk_.scales.length, .velocity = lost * rk_.scales.speed()};
+  rk_.errors.estimate_as(rk_.errors.tolerance() * std::exchange(best_extrapolation_, none_yet));
   extrapolation_nodes_ = nodes;
   next_attempt_ = not_ahead;
   if (rk_.next.t > singular) ++singular_positions_;
