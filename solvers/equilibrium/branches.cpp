@@ -122,7 +122,8 @@ class Follower {
   [[nodiscard]] std::string why_lost(const Node& last) const {
     std::ostringstream text;
     text << "beyond " << corrector_.parameter(last) << " no point was found in steps of "
-         << constants.shortest_branch_step * step_ << ": " << corrector_.why();
+         << constants.shortest_branch_step * step_ << ": "
+         << (corrector_.why().empty() ? "the nearest is further away" : corrector_.why());
     return text.str();
   }
 
@@ -159,7 +160,7 @@ class Follower {
       if (std::ranges::any_of(located_, [&](const VectorXd& x) { return same_place(x, at.x); })) continue;
       located_.push_back(at.x);
       const std::vector<Index> places = smallest(at.stiffness.values, std::max(count, together));
-      if (!corrector_.is_singular(at, places.front()))
+      if (!corrector_.is_singular(at, places.front(), a, b))
         found_.flutters.push_back(point(at));
       else if (turns)
         found_.folds.push_back(point(at));

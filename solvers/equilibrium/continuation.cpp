@@ -200,30 +200,21 @@ Eigen::VectorXd EquilibriumCorrector::slope_by_parameter(const Node& node, const
   return (residual(value(after), node, rows) - residual(value(before), node, rows)) / (after - before);
 }
 
-LinearTerms::Entries EquilibriumCorrector::stiffness(double p, const Node& node) const {
-  const Here here = at(p, node.x);
-  const EquilibriumSolver::State s = state(here, node);
-  return linear_terms(*here.system, here.balance.frame(), {here.balance.time(), s.q, s.v}, s.lambda)
-      .stiffness;
-}
-
-/// What K sums, without signs, and what the range of p changes of it: K itself may have cancelled.
+/// What K sums, without signs, in the units of x.
 Eigen::MatrixXd EquilibriumCorrector::sizes_of_stiffness(const Node& node) const {
-  const double h = constants.parameter_difference, fraction = node.fraction(),
-               before = std::max(fraction - h, 0.0), after = std::min(fraction + h, 1.0);
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(std::ssize(scale_), std::ssize(scale_)), change = sums;
-  const auto add = [this](Eigen::MatrixXd& to, const auto& entry, double value) {
-    to(static_cast<Index>(entry.row()), static_cast<Index>(entry.col())) += value * scale_[entry.col()];
-  };
-  for (const auto& k : stiffness(parameter(node), node)) add(sums, k, std::abs(k.value()));
-  for (const auto& k : stiffness(value(after), node)) add(change, k, k.value() / (after - before));
-  for (const auto& k : stiffness(value(before), node)) add(change, k, -k.value() / (after - before));
-  return sums + change.cwiseAbs();
+  const Here here = at(parameter(node), node.x);
+  const EquilibriumSolver::State s = state(here, node);
+  Eigen::MatrixXd sizes = Eigen::MatrixXd::Zero(std::ssize(s.q), std::ssize(s.q));
+  for (const auto& k :
+       linear_terms(*here.system, here.balance.frame(), {here.balance.time(), s.q, s.v}, s.lambda).stiffness)
+    sizes(static_cast<Index>(k.row()), static_cast<Index>(k.col())) += std::abs(k.value()) * scale_[k.col()];
+  return sizes;
 }
 
 /// With l on the left of K's eigenvalue, (l, m) is on the left of all equations if m balances what l does
-/// across the tangent space. With nonholonomic rows fewer equations hold than what may move is free.
-bool EquilibriumCorrector::is_singular(const Node& node, Index shape) const {
+/// across the tangent space. With nonholonomic rows fewer equations hold than what may move is free. At the
+/// point K itself may have cancelled: what is left is measured by K at both ends of the step, too.
+bool EquilibriumCorrector::is_singular(const Node& node, Index shape, const Node& a, const Node& b) const {
   const Here here = at(parameter(node), node.x);
   if (here.system->holonomic_rows() == here.system->rows()) return true;
   const EquilibriumSolver::State s = state(here, node);
@@ -236,7 +227,8 @@ bool EquilibriumCorrector::is_singular(const Node& node, Index shape) const {
   const Eigen::MatrixXd K = all.A.topLeftCorner(n, n) * all.force, rows = all.A.block(n, 0, m, n).transpose();
   const Eigen::VectorXd across = -(K.transpose() * left);
   const Eigen::MatrixXd balance = dense::least_squares(rows, across, rank_threshold);
-  const double terms = (sizes_of_stiffness(node).transpose() * Eigen::VectorXd(left.cwiseAbs())).norm();
+  const Eigen::MatrixXd sizes = sizes_of_stiffness(a) + sizes_of_stiffness(node) + sizes_of_stiffness(b);
+  const double terms = (sizes.transpose() * Eigen::VectorXd(left.cwiseAbs())).norm();
   return (rows * balance - across).norm() <= std::sqrt(rank_threshold) * terms;
 }
 

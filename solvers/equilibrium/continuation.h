@@ -54,9 +54,10 @@ class Corrector {
   /// By how much the parameter changes along the branch per unit across a hyperplane, at a point that is not
   /// singular.
   [[nodiscard]] virtual double parameter_slope(const Node& node, const Eigen::VectorXd& normal) const = 0;
-  /// Whether an eigenvector of K of eigenvalue 0 leads to other equilibria: not where the equations are
-  /// regular, and only what nonholonomic rows let move is not stiff.
-  [[nodiscard]] virtual bool is_singular(const Node& node, Eigen::Index shape) const = 0;
+  /// Whether an eigenvector of K, whose eigenvalue vanishes at a node between a and b, leads to other
+  /// equilibria: not where the equations are regular, and only what nonholonomic rows let move is not stiff.
+  [[nodiscard]] virtual bool is_singular(const Node& node, Eigen::Index shape, const Node& a,
+                                         const Node& b) const = 0;
   /// Eigenvectors of K by their places, which symmetries that leave the point as it is carry into each other.
   struct Orbit {
     std::vector<Eigen::Index> shapes;
@@ -105,7 +106,8 @@ class EquilibriumCorrector final : public Corrector {
   [[nodiscard]] bool lasts(const Node& node) const override;
   [[nodiscard]] std::optional<Eigen::VectorXd> tangent(const Node& node) const override;
   [[nodiscard]] double parameter_slope(const Node& node, const Eigen::VectorXd& normal) const override;
-  [[nodiscard]] bool is_singular(const Node& node, Eigen::Index shape) const override;
+  [[nodiscard]] bool is_singular(const Node& node, Eigen::Index shape, const Node& a,
+                                 const Node& b) const override;
   [[nodiscard]] std::vector<Orbit> orbits(const Node& node,
                                           const std::vector<Eigen::Index>& shapes) const override;
 
@@ -119,7 +121,6 @@ class EquilibriumCorrector final : public Corrector {
   [[nodiscard]] Here at(double p, const Eigen::VectorXd& x) const;
   [[nodiscard]] EquilibriumSolver::State state(const Here& here, const Node& node) const;
   [[nodiscard]] Eigen::VectorXd residual(double p, const Node& node, const ActiveRows& rows) const;
-  [[nodiscard]] LinearTerms::Entries stiffness(double p, const Node& node) const;
   [[nodiscard]] Eigen::MatrixXd sizes_of_stiffness(const Node& node) const;
   [[nodiscard]] Eigen::VectorXd slope_by_parameter(const Node& node, const ActiveRows& rows) const;
   /// (1), linearised, without the hyperplane: [R_q R_lambda R_p] in the units of x, and X^T. Forces are

@@ -20,7 +20,9 @@ class SteadyCorrector final : public Corrector {
   [[nodiscard]] std::optional<Eigen::VectorXd> tangent(const Node& node) const override;
   [[nodiscard]] double parameter_slope(const Node&, const Eigen::VectorXd&) const override { return 1.0; }
   /// Eigenvalues of K decide nothing here.
-  [[nodiscard]] bool is_singular(const Node&, Eigen::Index) const override { return false; }
+  [[nodiscard]] bool is_singular(const Node&, Eigen::Index, const Node&, const Node&) const override {
+    return false;
+  }
 
  private:
   [[nodiscard]] Node point(double fraction, std::span<const double> beside) const;

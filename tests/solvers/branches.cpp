@@ -8,8 +8,10 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace dalembert::branches_test {
 namespace {
@@ -233,26 +235,6 @@ TEST(Branches, ForkWhereverTheRangeOfTheParameterLies) {
   }
 }
 
-/// k = 1 holds a rotor at the angle P.
-TEST(Branches, EndWhereTheSceneCannotBeBuilt) {
-  Rotor rotor;
-  const auto diagram = follow_branches<2>(
-      [&](double P) {
-        if (P > 0.6) throw std::runtime_error("mine");
-        Scene<2> scene("turned");
-        rotor = scene.add_rotor({.inertia = 1.0});
-        scene.add(potential(points(rotor), [P](auto x) { return 0.5 * (x[0] - P) * (x[0] - P); }));
-        return Posed<2>{std::move(scene)};
-      },
-      {.from = 0.0, .to = 1.0});
-  ASSERT_EQ(diagram.branches.size(), 1U);
-  EXPECT_EQ(diagram.branches[0].end, BranchEnd::lost);
-  EXPECT_THAT(diagram.branches[0].why, HasSubstr("the function that builds the scene threw \"mine\""));
-  EXPECT_GT(diagram.branches[0].points.size(), 2U);
-  for (const auto& point : diagram.branches[0].points)
-    EXPECT_NEAR(point.state.sample().angle(rotor), point.parameter, 1e-12);  // linear: one step of Newton's
-}
-
 TEST(Branches, RefuseOptionsAndScenesThatMakeNoSense) {
   const auto pendulum = [](double) {
     Scene<2> scene("pendulum");
@@ -379,6 +361,59 @@ TEST(Branches, ForkWhereStiffnessCancelsBesideNonholonomicConstraints) {
       }
       EXPECT_NEAR(sides, 0.0, on_branch);  // one to either side
       EXPECT_GT(std::abs(diagram.branches[1].points.back().state.sample().position(bob).x()), 0.5);
+    }
+  }
+}
+
+/// A top on two bars of stiffness 1 from (-1, 0) and (1, 0), of length L0 without a load, which is dead: the
+/// stiffness does not depend on it. Beside it a sledge, which nothing couples.
+Posed<2> truss_beside_a_sledge(double load, double height, bool rail) {
+  Scene<2> scene("truss");
+  const auto top = scene.add_particle({.mass = 1.0, .position = {0.0, height}}, "top");
+  scene.add(potential(points(top), [=](auto r) {
+    const double L0 = std::hypot(1.0, height);
+    const auto right = sqrt((r.x() - 1.0) * (r.x() - 1.0) + r.y() * r.y()) - L0,
+               left = sqrt((r.x() + 1.0) * (r.x() + 1.0) + r.y() * r.y()) - L0;
+    return 0.5 * right * right + 0.5 * left * left + load * r.y();
+  }));
+  const auto sledge = scene.add_particle({.mass = 1.0, .position = {5.0, 0.0}}, "sledge");
+  scene.add(nonholonomic(points(sledge), [](auto, auto v) { return v.y(); }), "edge");
+  if (rail) scene.add(OnCurve{sledge, Plane<2>{}}, "rail");
+  return {std::move(scene)};
+}
+
+/// Where bars of length L no longer hold the top sideways, 1 - L0/L + L0/L^3 = 0, by bisection from below.
+double not_held_sideways(double L0, double low, double high) {
+  const auto stiffness = [L0](double L) { return 1.0 - L0 / L + L0 / (L * L * L); };
+  const bool held = stiffness(low) > 0.0;
+  while (std::midpoint(low, high) != low && std::midpoint(low, high) != high)
+    ((stiffness(std::midpoint(low, high)) > 0.0) == held ? low : high) = std::midpoint(low, high);
+  return low;
+}
+
+TEST(Branches, FoldUnderADeadLoadBesideNonholonomicConstraints) {
+  // von Mises: in the middle P = 2 y (L0/L - 1), L^2 = 1 + y^2, which is greatest at L = L0^(1/3).
+  for (const double height : {0.5, 3.0}) {
+    const double L0 = std::hypot(1.0, height);
+    const auto load = [L0](double L) { return 2.0 * std::sqrt(L * L - 1.0) * (L0 / L - 1.0); };
+    for (const bool rail : {false, true}) {
+      for (const double step : {0.02, 0.002}) {
+        const auto diagram =
+            follow_branches<2>([=](double P) { return truss_beside_a_sledge(P, height, rail); },
+                               {.from = 0.0, .to = height > 1.0 ? 2.6 : 0.2, .step = step});
+        ASSERT_EQ(diagram.folds.size(), 1U) << height << ' ' << rail << ' ' << step;
+        EXPECT_NEAR(diagram.folds[0].parameter, load(std::cbrt(L0)), 10 * located);
+        EXPECT_TRUE(diagram.flutters.empty());
+        std::vector<double> forks;
+        for (const auto& fork : diagram.bifurcations) forks.push_back(fork.parameter);
+        if (height < 1.0) {
+          EXPECT_THAT(forks, testing::IsEmpty());
+        } else {
+          EXPECT_THAT(forks, testing::UnorderedElementsAre(
+                                 testing::DoubleNear(load(not_held_sideways(L0, 1.0, 1.5)), 10 * located),
+                                 testing::DoubleNear(load(not_held_sideways(L0, 2.0, 4.0)), 10 * located)));
+        }
+      }
     }
   }
 }
