@@ -42,7 +42,9 @@ class Contacts {
   /// Goes on with these equations, whose parameters may differ, at a state that may too: returns what touches
   /// there. Throws StepFailure where a gap is negative, naming the contact.
   [[nodiscard]] std::vector<std::size_t> replace_system(std::shared_ptr<const System> stated,
-                                                        const Instant& at);
+                                                        const Instant& at, const Joining& joining);
+  /// The numbers in the layout of those that are open at a state and with equations that a change leaves.
+  [[nodiscard]] std::vector<std::size_t> open_in(const System& stated, const Instant& at) const;
   void adopt(const Scales& scales) {
     known_.scales = scales;
     forget_instant();  // it was measured by the old ones

@@ -280,8 +280,9 @@ Start restart_with_constraints(const Problem& problem, const Start& before, doub
   return start;
 }
 
-std::vector<double> project_impulsively_onto(const Problem& problem, const Scales& scales, double t,
-                                             std::span<double> q, std::span<double> v, double known) {
+std::vector<double> project_impulsively_onto(const Problem& problem, const Problem& held,
+                                             const Scales& scales, double t, std::span<double> q,
+                                             std::span<double> v, double known) {
   const System& system = problem.system();
   const auto lengths = scales.lengths();
   auto e = system.evaluation();
@@ -297,7 +298,8 @@ std::vector<double> project_impulsively_onto(const Problem& problem, const Scale
   if (violation.size > least * scales.length)
     refuse(violation, " comes into force where it does not hold: it is violated by ");
   // Impulses are those of the state that goes on: to move it behind them would turn what they act on.
-  move_onto(problem, scales, t, q, v, known, e);
+  evaluate_relaxed(held.system(), {t, q, v}, e);
+  move_onto(held, scales, t, q, v, known, e);
   evaluate_relaxed(system, {t, q, v}, e);
   std::vector<double> impulses(system.rows()), a(q.size()), lambda(system.rows());
   double fastest = scales.speed();
