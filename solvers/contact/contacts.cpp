@@ -228,10 +228,8 @@ std::vector<std::size_t> Contacts::open_in(const System& stated, const Instant& 
   Gaps gaps(stated);
   gaps.find(stated, known_.scales, at);
   std::vector<std::size_t> open;
-  for (ContactState c : contacts_) {
-    c.sign = stated.conditions().of[c.number].contact->sign();
+  for (const ContactState& c : contacts_)
     if (!c.closed || std::abs(gaps.gap(c)) > left_closed(c, known_)) open.push_back(c.number);
-  }
   return open;
 }
 
@@ -252,8 +250,10 @@ std::vector<std::size_t> Contacts::replace_system(std::shared_ptr<const System> 
     if (gap < -allowed) refuse(*stated_, contacts_, {i}, at.t, "a change of the scene leaves it violated");
     const double unit = known_.scales.speed() * c.gradient, given = before.rate(c);
     const bool moves = std::abs(given) > known_.accuracy.of_velocities() * unit;
-    c.moved = c.closed && (moves || std::abs(gaps_.rate(c) - given) > joining.known * unit);
+    const bool jerked = std::abs(gaps_.rate(c) - given) > joining.known * unit;
+    c.moved = c.closed && (moves || jerked);
     if (gap <= allowed) {
+      if (jerked) c.arrives = c.closed && !moves ? 0.0 : std::min(given, 0.0);
       if (!c.closed) touching.push_back(i);
     } else if (c.closed) {
       c.closed = c.moved = false;

@@ -20,9 +20,10 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///   impact:        P >= 0,       U+ + e U- >= 0,   P (U+ + e U-) = 0    (Newton; Moreau for several) (1)
 ///   acceleration:  lambda >= 0,  dU/dt >= 0,       lambda dU/dt = 0                                      (2)
 ///
-/// over the touching contacts, P the impulses, U+ - U- and dU/dt by Coupling. Both are solved exactly, and
-/// have a unique U+ and dU/dt. Energy changes by sum (1 - e) U- P / 2 <= 0. A contact with dU/dt = 0 by (2)
-/// is closed: it is in force, like any other constraint, until its force changes its sign.
+/// over the touching contacts, P the impulses, U+ - U- and dU/dt by Coupling. (Where a joint is imposed at
+/// the same time U- is the rate before its impulse too: of this no part bounces.) Both are solved exactly,
+/// and have a unique U+ and dU/dt. Energy changes by sum (1 - e) U- P / 2 <= 0. A contact with dU/dt = 0 by
+/// (2) is closed: it is in force, like any other constraint, until its force changes its sign.
 ///
 /// Each island of the scene has its own (1) and (2); only those where something happens are looked at.
 /// Where impacts accumulate, contacts come to rest, see ContactImpacts.

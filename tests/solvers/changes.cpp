@@ -329,6 +329,37 @@ TEST_P(Changes, JointsKeepClosedContactsClosed) {
   }
 }
 
+TEST_P(Changes, ImposedJointsBounceNothingThatRests) {
+  // A ball slides at 2 on a floor of restitution 0.8 where a rod to a pivot 1 below comes into force, as far
+  // to its side. What the floor takes up of the rod's impulse was no approach before: U- = 0, so U+ = 0, and
+  // all stops. Struck down at 1 just then it leaves the floor at 0.8, and the rod turns it: Moreau's law for
+  // both.
+  for (const double down : {0.0, 1.0}) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto ball = scene.add_particle({.mass = 1.0, .velocity = {2.0, 0.0}}, "ball");
+    const auto floor = scene.add(unilateral(OnCurve{ball, Plane<2>{}}, {.restitution = 0.8}), "floor");
+    const auto rod = scene.add(Distance{Fixed<2>{{0.0, -1.0}}, ball, std::sqrt(2.0)}, "rod");
+    scene.release(rod);
+    const Event<2> taut{
+        "taut", [=](const auto& now) { return now.position(ball).x() - 1.0; }, Crossing::rising, false,
+        [=](Scene<2>& its) {
+          const Vec<2> here(its.initial_positions()[0], its.initial_positions()[1]);
+          if (down > 0.0)
+            its.replace(ball, ParticleState<2>{.mass = 1.0, .position = here, .velocity = {2.0, -down}});
+          its.impose(rod);
+        }};
+    const auto run = simulate(scene, options(0.6), {taut});
+    const double up = 0.8 * down;
+    // Speeds err by a part of the scene's, which is below 3; impulses by up to 2 sqrt(2) of that.
+    const double error = 3.0 * error_of(run);
+    EXPECT_NEAR(run.sample_after(0).velocity(ball).x(), -up, error);
+    EXPECT_NEAR(run.sample_after(0).velocity(ball).y(), up, error);
+    EXPECT_NEAR(run.impulse(rod, 0), -(2.0 + up) * std::sqrt(2.0), 3.0 * error);
+    EXPECT_NEAR(run.impulse(floor, 0), 2.0 + up + up + down, 3.0 * error);
+  }
+}
+
 TEST_P(Changes, ReleasedStopLetsTheBodyFall) {
   // Stopped on its way down a ball falls on, through where it was stopped.
   const Reflected its(0.0);
