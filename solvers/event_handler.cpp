@@ -221,15 +221,21 @@ Change EventHandler::change_scene(const EventRecord& due, const FlatSample& at,
   return change;
 }
 
-/// What an event has changed, put onto the constraints by impulses.
+/// What an event has changed, put onto the constraints by impulses. The positions keep to the contacts that
+/// stay closed: a joint that holds to the run's accuracy would lift them off, or press them in.
 Change EventHandler::put_onto(const FlatEvent::Changed& next, const FlatSample& at,
                               const Integration& integration) {
-  const Problem always(next.system->without(next.system->conditions().conditional_constraints()));
+  auto not_held = next.system->conditions().conditional_constraints();
+  const Problem always(next.system->without(not_held));
   std::vector<double> q = next.q, v = next.v;
-  const auto impulses = project_impulsively_onto(always, integration.scales(at.time), at.time, q, v,
-                                                 integration.accuracy(at.time));
+  if (conditional_ != nullptr) not_held = conditional_->not_held(*next.system, {at.time, q, v});
+  const Problem held(next.system->without(not_held));
+  const double known = integration.accuracy(at.time);
+  const auto impulses =
+      project_impulsively_onto(always, held, integration.scales(at.time), at.time, q, v, known);
   Change change{.v = v, .impulses = std::vector<double>(at.lambda.size()), .q = q, .system = next.system};
-  if (conditional_ != nullptr) change = conditional_->replace_system(next.system, {at.time, q, v}, impulses);
+  if (conditional_ != nullptr)
+    change = conditional_->replace_system(next.system, {at.time, q, v}, impulses, {next.v, known});
   for (std::size_t r = 0; r < impulses.size(); ++r) change.impulses[r] += impulses[r];
   return change;
 }

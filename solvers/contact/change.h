@@ -5,6 +5,7 @@
 #include <dalembert/solvers/base/hidden.h>
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace DALEMBERT_HIDDEN dalembert {
@@ -16,6 +17,13 @@ struct Change {
   std::vector<EventRecord> events{};    ///< what is listed, with the numbers of constraints in the layout
   std::vector<double> q{};              ///< the positions, which an event of the user's may set
   std::shared_ptr<const System> system{};  ///< with the constraints that are in force from there on
+};
+
+/// The impulses of joints that a change imposes: the velocities before them; and to what these are right, a
+/// part of the scene's speed. What is at rest to that moves by no impulse.
+struct Joining {
+  std::span<const double> v;
+  double known;
 };
 
 }  // namespace dalembert

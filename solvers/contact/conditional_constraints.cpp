@@ -75,16 +75,24 @@ std::optional<std::size_t> ConditionalConstraints::fallen(const FlatSample& behi
 }
 
 Change ConditionalConstraints::resolve_jump(const Instant& at) {
-  const auto touching = contacts_.replace_system(contacts_.stated(), at);
+  const auto touching = contacts_.replace_system(contacts_.stated(), at, {at.v, 0.0});
   return resolve_friction(contacts_.resolve(at, touching), at);
 }
 
+std::vector<std::size_t> ConditionalConstraints::not_held(const System& stated, const Instant& at) const {
+  std::vector<std::size_t> all = stated.conditions().frictional_constraints();
+  const auto open = contacts_.open_in(stated, at);
+  all.insert(all.end(), open.begin(), open.end());
+  return all;
+}
+
 Change ConditionalConstraints::replace_system(const std::shared_ptr<const System>& stated, const Instant& at,
-                                              std::span<const double> impulses) {
+                                              std::span<const double> impulses, const Joining& joining) {
   friction_.replace_system(stated, at);
   friction_.require_no_impulse(impulses, at);
   const auto touching = contacts_.replace_system(
-      std::make_shared<const System>(stated->without(stated->conditions().frictional_constraints())), at);
+      std::make_shared<const System>(stated->without(stated->conditions().frictional_constraints())), at,
+      joining);
   return resolve_friction(contacts_.resolve(at, touching), at);
 }
 

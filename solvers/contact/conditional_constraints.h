@@ -56,10 +56,13 @@ class ConditionalConstraints {
   [[nodiscard]] Change resolve_jump(const Instant& at);
   /// See Contacts.
   [[nodiscard]] std::optional<std::size_t> approaching() const { return contacts_.approaching(); }
+  /// By their numbers, what does not hold the positions of a state that a change of the scene leaves, with
+  /// its equations: friction, and the contacts that are open there.
+  [[nodiscard]] std::vector<std::size_t> not_held(const System& stated, const Instant& at) const;
   /// Goes on from a given state, reached by impulses, with equations whose parameters may differ. Throws
   /// likewise.
   [[nodiscard]] Change replace_system(const std::shared_ptr<const System>& stated, const Instant& at,
-                                      std::span<const double> impulses);
+                                      std::span<const double> impulses, const Joining& joining);
   /// The scales of the run, where they differ from those of the constraints that always hold.
   void adopt(const Scales& scales);
   /// See DryFriction.

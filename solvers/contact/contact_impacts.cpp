@@ -35,13 +35,15 @@ void ContactImpacts::solve(const Coupling& coupling, const std::vector<std::size
   VectorXd P = VectorXd::Zero(U.size());
   for (const auto& island : coupling.islands()) {
     const VectorXd before = U(island);
-    if (before.minCoeff() >= 0.0) continue;
     const auto its = those_at(island, touching);
     const auto contact = [&](Index i) -> const ContactState& {
       return (*contacts_)[its[static_cast<std::size_t>(i)]];
     };
-    VectorXd q = before;
-    for (Index i = 0; i < q.size(); ++i) q[i] *= 1.0 + contact(i).restitution;
+    VectorXd rebound(before.size());
+    for (Index i = 0; i < rebound.size(); ++i)
+      rebound[i] = -contact(i).restitution * contact(i).arrives.value_or(before[i]);
+    const VectorXd q = before - rebound;
+    if (q.minCoeff() >= 0.0) continue;
     const Eigen::MatrixXd S = coupled(coupling, island, known_->scales, rounding_);
     auto p = complementary_solution(S, q);
     if (!p)
@@ -49,15 +51,14 @@ void ContactImpacts::solve(const Coupling& coupling, const std::vector<std::size
              "no impulses end their approach; the constraints drive them against each other");
     VectorXd after = before + S * *p;
     const VectorXd unit = units(S), missed = q + S * *p;
-    const double largest = before.cwiseProduct(unit).cwiseAbs().maxCoeff();
+    const double largest = before.cwiseAbs().cwiseMax(rebound.cwiseAbs()).cwiseProduct(unit).maxCoeff();
     clear_round_off(after, unit, largest);
     Coupling::Places struck;
     for (Index i = 0; i < after.size(); ++i) {
       // Of contacts that share an impact each is struck that leaves with -e U-, whatever its share is.
-      const double rebound = before[i] - q[i];
-      const bool shares = before[i] < 0.0 && std::abs(after[i] - rebound) * unit[i] <= round_off() * largest;
+      const bool shares = q[i] < 0.0 && std::abs(after[i] - rebound[i]) * unit[i] <= round_off() * largest;
       if (!((*p)[i] > 0.0) && !shares) continue;
-      after[i] = rebound;
+      after[i] = rebound[i];
       struck.push_back(i);
       change.events.push_back({contact(i).number, at_.t, EventKind::struck});
     }

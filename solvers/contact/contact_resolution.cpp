@@ -50,8 +50,12 @@ void ContactResolution::resolve(std::vector<std::size_t> touching, bool known_ro
   touching_ = std::move(touching);
   couple(at_);
   find_rates(known_roughly);
-  if (U_.minCoeff() < 0.0) strike();
-  for (ContactState& c : *contacts_) c.moved = false;
+  const auto arrives = [](const ContactState& c) { return c.arrives.value_or(0.0) < 0.0; };
+  if (U_.minCoeff() < 0.0 || std::ranges::any_of(*contacts_, arrives)) strike();
+  for (ContactState& c : *contacts_) {
+    c.moved = false;
+    c.arrives.reset();
+  }
   if (known_roughly) join_slow();
   const Coupling::Places resting = open_separating();
   ContactAccelerations accelerations(*stated_, *contacts_, *known_, after());

@@ -16,6 +16,15 @@
 
 namespace dalembert {
 
+namespace {
+
+/// The gap up to which a change of the scene leaves a contact closed.
+double left_closed(const ContactState& contact, const ContactAccuracy& known) {
+  return start_tolerance * known.scales.length * contact.gradient;
+}
+
+}  // namespace
+
 Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, double tolerance,
                    const Instant& start, double duration, bool friction)
     : stated_(std::move(stated)),
@@ -215,21 +224,36 @@ void Contacts::require_separation(const FlatSample& now) const {
   require_open_at_rest(*stated_, contacts_, known_, gaps_, now);
 }
 
-std::vector<std::size_t> Contacts::replace_system(std::shared_ptr<const System> stated, const Instant& at) {
+std::vector<std::size_t> Contacts::open_in(const System& stated, const Instant& at) const {
+  Gaps gaps(stated);
+  gaps.find(stated, known_.scales, at);
+  std::vector<std::size_t> open;
+  for (const ContactState& c : contacts_)
+    if (!c.closed || std::abs(gaps.gap(c)) > left_closed(c, known_)) open.push_back(c.number);
+  return open;
+}
+
+std::vector<std::size_t> Contacts::replace_system(std::shared_ptr<const System> stated, const Instant& at,
+                                                  const Joining& joining) {
   stated_ = std::move(stated);
   system_.reset();
   find_gaps(at);
+  Gaps before(*stated_);
+  before.find(*stated_, known_.scales, {at.t, at.q, joining.v});
   std::vector<std::size_t> touching;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     ContactState& c = contacts_[i];
     const Contact& law = *stated_->conditions().of[c.number].contact;
     c.restitution = law.restitution;
     c.sign = law.sign();
-    const double gap = gaps_.gap(c), allowed = start_tolerance * known_.scales.length * c.gradient;
+    const double gap = gaps_.gap(c), allowed = left_closed(c, known_);
     if (gap < -allowed) refuse(*stated_, contacts_, {i}, at.t, "a change of the scene leaves it violated");
-    c.moved = c.closed &&
-              std::abs(gaps_.rate(c)) > known_.accuracy.of_velocities() * known_.scales.speed() * c.gradient;
+    const double unit = known_.scales.speed() * c.gradient, given = before.rate(c);
+    const bool moves = std::abs(given) > known_.accuracy.of_velocities() * unit;
+    const bool jerked = std::abs(gaps_.rate(c) - given) > joining.known * unit;
+    c.moved = c.closed && (moves || jerked);
     if (gap <= allowed) {
+      if (jerked) c.arrives = c.closed && !moves ? 0.0 : std::min(given, 0.0);
       if (!c.closed) touching.push_back(i);
     } else if (c.closed) {
       c.closed = c.moved = false;

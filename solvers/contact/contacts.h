@@ -20,9 +20,10 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///   impact:        P >= 0,       U+ + e U- >= 0,   P (U+ + e U-) = 0    (Newton; Moreau for several) (1)
 ///   acceleration:  lambda >= 0,  dU/dt >= 0,       lambda dU/dt = 0                                      (2)
 ///
-/// over the touching contacts, P the impulses, U+ - U- and dU/dt by Coupling. Both are solved exactly, and
-/// have a unique U+ and dU/dt. Energy changes by sum (1 - e) U- P / 2 <= 0. A contact with dU/dt = 0 by (2)
-/// is closed: it is in force, like any other constraint, until its force changes its sign.
+/// over the touching contacts, P the impulses, U+ - U- and dU/dt by Coupling. (Where a joint is imposed at
+/// the same time U- is the rate before its impulse too: of this no part bounces.) Both are solved exactly,
+/// and have a unique U+ and dU/dt. Energy changes by sum (1 - e) U- P / 2 <= 0. A contact with dU/dt = 0 by
+/// (2) is closed: it is in force, like any other constraint, until its force changes its sign.
 ///
 /// Each island of the scene has its own (1) and (2); only those where something happens are looked at.
 /// Where impacts accumulate, contacts come to rest, see ContactImpacts.
@@ -42,7 +43,9 @@ class Contacts {
   /// Goes on with these equations, whose parameters may differ, at a state that may too: returns what touches
   /// there. Throws StepFailure where a gap is negative, naming the contact.
   [[nodiscard]] std::vector<std::size_t> replace_system(std::shared_ptr<const System> stated,
-                                                        const Instant& at);
+                                                        const Instant& at, const Joining& joining);
+  /// The numbers in the layout of those that are open at a state and with equations that a change leaves.
+  [[nodiscard]] std::vector<std::size_t> open_in(const System& stated, const Instant& at) const;
   void adopt(const Scales& scales) {
     known_.scales = scales;
     forget_instant();  // it was measured by the old ones

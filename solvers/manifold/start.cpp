@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <sstream>
 
 namespace dalembert {
@@ -108,12 +109,29 @@ std::vector<double> forced_by_each(const System& system, const System::Evaluatio
   return a;
 }
 
+/// What roundings of velocities up to this speed leave of the terms of a row's bias, psi_q v, at most: where
+/// all move alike these may cancel, each far larger than v^2/L, as those of a short blade do.
+double rounding_of_biases(const System& system, const Instant& at, double speed, std::span<const double> w,
+                          std::span<const double> lengths) {
+  auto slopes = system.linearisation();
+  system.linearise_constraints(at, std::vector<double>(system.rows()), slopes);
+  double largest = 0.0;
+  for (std::size_t r = 0; r < system.rows(); ++r) {
+    if (!system.in_force(r)) continue;
+    double terms = 0.0;
+    for (const std::size_t k : system.row(r))
+      terms += std::abs(slopes.psi_q[k]) * speed / lengths[system.w_columns()[k]];
+    largest = std::max(largest, terms / gradient_length(system, w, lengths, r));
+  }
+  return converged_to * largest;
+}
+
 /// Dropped rows follow from the others in position and velocity once they hold at the start. In
 /// acceleration they must agree too: two drives of one point may coincide and yet contradict each other.
 ///
 /// Where nothing moves, whatever speeds were given, or all move alike, the terms are round-off and agree in
-/// nothing: they are known to the round-off of a term of those speeds, v^2/L. A row's terms are divided by
-/// the length of its gradient: they are accelerations.
+/// nothing: they are known to the round-off of a term of those speeds, v^2/L, or of its own. A row's terms
+/// are divided by the length of its gradient: they are accelerations.
 ///
 /// Accelerations are known to the round-off of the largest that a force gives, also where all forces cancel:
 /// those of springs at their natural lengths are the round-off of these, and so is each of their sums.
@@ -138,8 +156,15 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
       residual[r] += term;
     }
   }
-  for (std::size_t r = 0; r < residual.size(); ++r) {
-    if (system.law(r).compliant() || std::abs(residual[r]) <= 1e-6 * scale + rounding) continue;
+  double known = 1e-6 * scale + rounding;
+  const auto contradicts = [&](std::size_t r) {
+    return !system.law(r).compliant() && std::abs(residual[r]) > known;
+  };
+  const auto rows = std::views::iota(std::size_t{0}, residual.size());
+  if (std::ranges::none_of(rows, contradicts)) return;
+  known += rounding_of_biases(system, {t, start.q, start.v}, speed * start.scales.length, w, lengths);
+  for (const std::size_t r : rows) {
+    if (!contradicts(r)) continue;
     throw InconsistentStart(
         system.row_label(r) +
         " contradicts the other constraints: no accelerations satisfy all of them; remove or "
@@ -280,8 +305,9 @@ Start restart_with_constraints(const Problem& problem, const Start& before, doub
   return start;
 }
 
-std::vector<double> project_impulsively_onto(const Problem& problem, const Scales& scales, double t,
-                                             std::span<double> q, std::span<double> v, double known) {
+std::vector<double> project_impulsively_onto(const Problem& problem, const Problem& held,
+                                             const Scales& scales, double t, std::span<double> q,
+                                             std::span<double> v, double known) {
   const System& system = problem.system();
   const auto lengths = scales.lengths();
   auto e = system.evaluation();
@@ -297,7 +323,8 @@ std::vector<double> project_impulsively_onto(const Problem& problem, const Scale
   if (violation.size > least * scales.length)
     refuse(violation, " comes into force where it does not hold: it is violated by ");
   // Impulses are those of the state that goes on: to move it behind them would turn what they act on.
-  move_onto(problem, scales, t, q, v, known, e);
+  evaluate_relaxed(held.system(), {t, q, v}, e);
+  move_onto(held, scales, t, q, v, known, e);
   evaluate_relaxed(system, {t, q, v}, e);
   std::vector<double> impulses(system.rows()), a(q.size()), lambda(system.rows());
   double fastest = scales.speed();

@@ -35,11 +35,12 @@ struct Start {
                                              double known);
 
 /// Projects the velocities onto the constraints of the system that goes on from a given state, in the scales
-/// of a run, and the positions, which are right to `known`, a part of the scene's length; the impulses that
-/// this takes, one per row. Throws StepFailure where the positions do not satisfy them, naming the
-/// constraint; EquationFault.
-[[nodiscard]] std::vector<double> project_impulsively_onto(const Problem& problem, const Scales& scales,
-                                                           double t, std::span<double> q, std::span<double> v,
+/// of a run, and the positions, which are right to `known`, a part of the scene's length, onto those `held`:
+/// these, and closed contacts; the impulses that this takes, one per row. Throws StepFailure where the
+/// positions do not satisfy them, naming the constraint; EquationFault.
+[[nodiscard]] std::vector<double> project_impulsively_onto(const Problem& problem, const Problem& held,
+                                                           const Scales& scales, double t,
+                                                           std::span<double> q, std::span<double> v,
                                                            double known);
 
 /// A start from a state during a run that began with `before`, in its scales: put onto the

@@ -287,6 +287,79 @@ TEST_P(Changes, ChatteringChangesAreErrors) {
   }
 }
 
+/// A block on a one-sided floor, of any restitution and smooth by Coulomb's law, swings on a spring of length
+/// 1 and stiffness 20; where it turns for the third time, at x = 1.3, an oblique rod comes into force to a
+/// pivot 1 below the floor, or above it.
+struct TiedDown {
+  static constexpr double mass = 1.0, stiffness = 20.0, start = 1.3;
+  Scene<2> scene{"tied down"};
+  Particle<2> block = scene.add_particle({.mass = mass, .position = {start, 0.0}}, "block");
+  Constraint<1> floor = scene.add(unilateral(OnCurve{block, Plane<2>{}}, {.restitution = 0.9}), "floor");
+  Constraint<1> rod;
+  double turns = 6.0 * M_PI / std::sqrt(stiffness / mass);
+
+  explicit TiedDown(double pivot) {
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    scene.add(coulomb(floor, Slip{block, Plane<2>{}}, 0.0), "smooth");
+    scene.add(Spring{Fixed<2>{}, block, stiffness, 1.0});
+    rod = scene.add(Distance{Fixed<2>{{0.0, pivot}}, block, std::hypot(start, 1.0)}, "rod");
+    scene.release(rod);
+  }
+  [[nodiscard]] Event<2> ties() const {
+    return {"ties", [at = turns](const auto& now) { return now.time() - at; }, Crossing::rising, false,
+            [rod = rod](Scene<2>& its) { its.impose(rod); }};
+  }
+};
+
+TEST_P(Changes, JointsKeepClosedContactsClosed) {
+  // The rod takes up the spring, R = k (x - 1) L/x, and the floor m g and the rod's upright part, R/L. By the
+  // run's own error in x the rod misses the block then: it moves along the floor, neither off it nor into
+  // it. The forces change by less than 2 k for each unit of x, which errs by 1.3 times what the run says.
+  for (const double pivot : {-1.0, 1.0}) {
+    const TiedDown its(pivot);
+    const auto run = simulate(its.scene, options(its.turns + 0.5), {its.ties()});
+    ASSERT_EQ(run.events().size(), 1U) << pivot;
+    EXPECT_NEAR(run.sample_after(0).position(its.block).y(), 0.0, 1e-13);
+    const double pull = its.stiffness * (its.start - 1.0) / its.start,
+                 error = 2.6 * its.stiffness * error_of(run);
+    for (const auto& now : {run.sample_after(0), run.sample(10)}) {
+      EXPECT_NEAR(now.multiplier(its.floor), its.mass * g + pivot * pull, error) << pivot;
+      EXPECT_NEAR(now.multiplier(its.rod), pull * std::hypot(its.start, 1.0), error) << pivot;
+    }
+  }
+}
+
+TEST_P(Changes, ImposedJointsBounceNothingThatRests) {
+  // A ball slides at 2 on a floor of restitution 0.8 where a rod to a pivot 1 below comes into force, as far
+  // to its side. What the floor takes up of the rod's impulse was no approach before: U- = 0, so U+ = 0, and
+  // all stops. Struck down at 1 just then it leaves the floor at 0.8, and the rod turns it: Moreau's law for
+  // both.
+  for (const double down : {0.0, 1.0}) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto ball = scene.add_particle({.mass = 1.0, .velocity = {2.0, 0.0}}, "ball");
+    const auto floor = scene.add(unilateral(OnCurve{ball, Plane<2>{}}, {.restitution = 0.8}), "floor");
+    const auto rod = scene.add(Distance{Fixed<2>{{0.0, -1.0}}, ball, std::sqrt(2.0)}, "rod");
+    scene.release(rod);
+    const Event<2> taut{
+        "taut", [=](const auto& now) { return now.position(ball).x() - 1.0; }, Crossing::rising, false,
+        [=](Scene<2>& its) {
+          const Vec<2> here(its.initial_positions()[0], its.initial_positions()[1]);
+          if (down > 0.0)
+            its.replace(ball, ParticleState<2>{.mass = 1.0, .position = here, .velocity = {2.0, -down}});
+          its.impose(rod);
+        }};
+    const auto run = simulate(scene, options(0.6), {taut});
+    const double up = 0.8 * down;
+    // Speeds err by a part of the scene's, which is below 3; impulses by up to 2 sqrt(2) of that.
+    const double error = 3.0 * error_of(run);
+    EXPECT_NEAR(run.sample_after(0).velocity(ball).x(), -up, error);
+    EXPECT_NEAR(run.sample_after(0).velocity(ball).y(), up, error);
+    EXPECT_NEAR(run.impulse(rod, 0), -(2.0 + up) * std::sqrt(2.0), 3.0 * error);
+    EXPECT_NEAR(run.impulse(floor, 0), 2.0 + up + up + down, 3.0 * error);
+  }
+}
+
 TEST_P(Changes, ReleasedStopLetsTheBodyFall) {
   // Stopped on its way down a ball falls on, through where it was stopped.
   const Reflected its(0.0);

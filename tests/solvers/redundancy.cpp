@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 namespace dalembert::redundancy_test {
 namespace {
 
@@ -111,6 +113,30 @@ TEST_F(TwinRods, ContradictionIsRefusedWhateverTheScaleOfAnEquation) {
     EXPECT_THAT([&] { (void)simulate(scaled, {.t_end = 1.0}); },
                 ThrowsMessage<InconsistentStart>(HasSubstr("accelerations")))
         << scale;
+  }
+}
+
+TEST(Blades, StraightAheadWithoutForcesAgreeToRoundOff) {
+  // Three blades along one line let a sleigh glide straight on. No force gives their accelerations a size:
+  // what they disagree by is the round-off of the speeds over the distance of the blades, far below the size
+  // of the scene.
+  constexpr double speed = 1.7;
+  for (const double apart : {0.3, 0.03}) {
+    for (int i = 0; i < 40; ++i) {
+      const double angle = 0.155 * i + 0.01;
+      const Vec<2> ahead(std::cos(angle), std::sin(angle));
+      Scene<2> scene;
+      const auto sleigh = add_body(
+          scene, BodyState<2>{.mass = 2.0, .inertia = 0.5, .angle = angle, .velocity = speed * ahead},
+          "sleigh");
+      const auto rear = sleigh.point({-apart, 0.0}), front = sleigh.point({apart, 0.0});
+      scene.add(KnifeEdge{rear, rear, sleigh.centre()});
+      scene.add(KnifeEdge{front, rear, sleigh.centre()});
+      scene.add(KnifeEdge{sleigh.centre(), rear, front});
+      const auto run = simulate(scene, {.t_end = 0.5, .samples = 2});
+      EXPECT_NEAR((run.position(sleigh.centre(), 1) - 0.5 * speed * ahead).norm(), 0.0, 1e-6)
+          << apart << ' ' << angle;
+    }
   }
 }
 
