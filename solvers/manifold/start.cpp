@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <sstream>
 
 namespace dalembert {
@@ -156,20 +155,20 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
       residual[r] += term;
     }
   }
-  double known = 1e-6 * scale + rounding;
-  const auto contradicts = [&](std::size_t r) {
-    return !system.law(r).compliant() && std::abs(residual[r]) > known;
+  const auto first_beyond = [&](double known) {
+    std::size_t r = 0;
+    while (r < residual.size() && (system.law(r).compliant() || std::abs(residual[r]) <= known)) ++r;
+    return r;
   };
-  const auto rows = std::views::iota(std::size_t{0}, residual.size());
-  if (std::ranges::none_of(rows, contradicts)) return;
-  known += rounding_of_biases(system, {t, start.q, start.v}, speed * start.scales.length, w, lengths);
-  for (const std::size_t r : rows) {
-    if (!contradicts(r)) continue;
-    throw InconsistentStart(
-        system.row_label(r) +
-        " contradicts the other constraints: no accelerations satisfy all of them; remove or "
-        "correct one of those that act on the same particles");
-  }
+  const double known = 1e-6 * scale + rounding;
+  if (first_beyond(known) == residual.size()) return;
+  const std::size_t r = first_beyond(
+      known + rounding_of_biases(system, {t, start.q, start.v}, speed * start.scales.length, w, lengths));
+  if (r == residual.size()) return;
+  throw InconsistentStart(
+      system.row_label(r) +
+      " contradicts the other constraints: no accelerations satisfy all of them; remove or "
+      "correct one of those that act on the same particles");
 }
 
 /// The speed that the scene has, or that its forces give it over its own length.
