@@ -12,10 +12,15 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///   r_(k+1) - rho = rho (r_k - rho),
 ///
 /// as they do where forces and restitution vary smoothly. Early intervals give the limit as well as that
-/// holds, late ones as well as times are known: the best estimate is the one that changed least.
+/// holds, late ones as well as times are known: the best estimate is the one that changed least. It is of one
+/// series: one that later impacts contradict, by more than both are known, ends where forces, or restitution,
+/// have changed, and so does one whose limit an impact has passed.
 class Accumulation {
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
  public:
-  void add(double t);
+  /// One whose time is known to this error; of an unknown one it is taken for the same series.
+  void add(double t, double error = infinity);
   /// Time between the last two impacts, and the last one.
   [[nodiscard]] double interval() const { return interval_; }
   [[nodiscard]] double last() const { return last_; }
@@ -26,11 +31,12 @@ class Accumulation {
   [[nodiscard]] double uncertainty() const { return change_; }
 
  private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  [[nodiscard]] bool contradicts(double error_of_estimate) const;
 
   double last_ = -infinity, interval_ = infinity;
   double ratio_ = infinity;  // of the last two intervals
   double left_ = infinity;
+  double rho_ = 0.0;                                                   // of the best estimate
   double estimate_ = infinity, limit_ = infinity, change_ = infinity;  // the last, the best, and its change
 };
 

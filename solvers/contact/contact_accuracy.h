@@ -26,6 +26,10 @@ struct ContactAccuracy {
   [[nodiscard]] double own_acceleration(const ContactState& contact) const;
   /// The error of a step in a gap.
   [[nodiscard]] double error_of_gap(const ContactState& contact) const;
+  /// By how much a gap that changes at this rate may differ from 0 where it was found to close: by that, by
+  /// the rounding of the positions that it was found from and is read from, or by that of the time.
+  [[nodiscard]] double error_where_closed(const ContactState& contact, double rounding, double t,
+                                          double rate) const;
 };
 
 }  // namespace dalembert

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace dalembert {
@@ -80,6 +81,18 @@ ContactState& ContactImpacts::contact_of(const EventRecord& event) const {
   return *std::ranges::lower_bound(*contacts_, event.source, {}, &ContactState::number);
 }
 
+/// Of the time of this impact: what the fastest of all that share it tells.
+double ContactImpacts::error_of_time(const Change& change, std::size_t island, const Gaps& gaps) const {
+  double error = std::numeric_limits<double>::infinity();
+  for (const EventRecord& impact : change.events) {
+    const ContactState& c = contact_of(impact);
+    const double rate = gaps.rate(c);
+    if (c.island != island || rate == 0.0) continue;
+    error = std::min(error, known_->error_where_closed(c, gaps.rounding(), at_.t, rate) / std::abs(rate));
+  }
+  return error;
+}
+
 std::vector<ContactImpacts::Limit> ContactImpacts::note(const Change& change, const Gaps& gaps) {
   const double t = at_.t;
   std::vector<Limit> limits;
@@ -87,7 +100,8 @@ std::vector<ContactImpacts::Limit> ContactImpacts::note(const Change& change, co
   for (const EventRecord& impact : change.events) {
     ContactState& c = contact_of(impact);
     Accumulation& impacts = c.impacts;
-    impacts.add(t);
+    if (c.moved) impacts = {};  // its rest has ended
+    impacts.add(t, error_of_time(change, c.island, gaps));
     const double speed = std::abs(gaps.rate(c));
     const bool ends = (c.closed && !c.moved) || speed <= known_->still(c) || hops_end(c, speed);
     if (!ends) bouncing.insert(c.island);

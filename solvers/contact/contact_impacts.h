@@ -46,6 +46,7 @@ class ContactImpacts {
 
  private:
   [[nodiscard]] ContactState& contact_of(const EventRecord& event) const;
+  [[nodiscard]] double error_of_time(const Change& change, std::size_t island, const Gaps& gaps) const;
   [[nodiscard]] bool hops_end(const ContactState& contact, double speed) const;
 
   const System* stated_;

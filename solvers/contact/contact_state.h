@@ -29,9 +29,10 @@ struct ContactState {
   double gap_at_opening = 0.0;  ///< at most 0: round-off of times and positions
   bool parted = true;           ///< since then the gap has exceeded the error of a step
   Accumulation impacts{};
-  double gradient = 1.0;  ///< its length at the start
+  double gradient = 1.0;  ///< its length at the start, in the unit of the gap by now
 
   void open(double t, double rate, double gap) {
+    if (closed && impacts.last() < t) impacts = {};  // it rested: those that follow are others
     closed = parted = false;
     opened_at = t;
     rate_at_opening = rate;

@@ -1,6 +1,5 @@
 #include "dalembert/solvers/contact/contacts.h"
 
-#include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/contact/contact_accelerations.h>
 #include <dalembert/solvers/contact/contact_law.h>
@@ -212,8 +211,8 @@ void Contacts::require_open(const FlatSample& now) {
     const double gap = gaps_.gap(c);
     if (c.closed && c.sign * now.lambda[c.row] > no_pull(c, now)) c.accepted = 0.0;  // it is pressed now
     c.parted = c.parted || gap > known_.error_of_gap(c);
-    const double of_time = 8.0 * epsilon * std::abs(now.time * gaps_.rate(c));
-    if (c.closed || gap >= -known_.error_of_gap(c) - of_time) continue;
+    const double error = known_.error_where_closed(c, gaps_.rounding(), now.time, gaps_.rate(c));
+    if (c.closed || gap >= -error) continue;
     throw StepFailure{
         stated_->row_label(c.row) + " was penetrated: at none of the times examined was it closed", now.time};
   }
@@ -235,6 +234,7 @@ std::vector<std::size_t> Contacts::open_in(const System& stated, const Instant& 
 
 std::vector<std::size_t> Contacts::replace_system(std::shared_ptr<const System> stated, const Instant& at,
                                                   const Joining& joining) {
+  if (stated != stated_) replace_equations(contacts_, *stated_, *stated, known_.scales, at);
   stated_ = std::move(stated);
   system_.reset();
   find_gaps(at);
@@ -258,6 +258,7 @@ std::vector<std::size_t> Contacts::replace_system(std::shared_ptr<const System> 
     } else if (c.closed) {
       c.closed = c.moved = false;
       c.opened_at.reset();
+      c.impacts = {};
     }
   }
   rebuild_system();

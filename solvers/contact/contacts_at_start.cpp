@@ -94,4 +94,17 @@ ContactsAtStart find_contacts(const System& stated, const Scales& scales, const 
   return found;
 }
 
+void replace_equations(std::vector<ContactState>& contacts, const System& before, const System& stated,
+                       const Scales& scales, const Instant& at) {
+  const Islands all = islands(stated);
+  const auto old_gradients = contact_gradients(before, at, scales.lengths()),
+             gradients = contact_gradients(stated, at, scales.lengths());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    ContactState& c = contacts[i];
+    c.island = all.of_row(stated, c.row);
+    // Both of one place: a gap that is no distance keeps its unit, wherever the change finds it.
+    if (old_gradients[i] > 0.0 && gradients[i] > 0.0) c.gradient *= gradients[i] / old_gradients[i];
+  }
+}
+
 }  // namespace dalembert

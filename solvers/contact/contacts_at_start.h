@@ -20,5 +20,8 @@ struct ContactsAtStart {
 /// With the gaps of the start. Throws InconsistentStart where one is negative.
 [[nodiscard]] ContactsAtStart find_contacts(const System& stated, const Scales& scales, const Instant& start,
                                             const Gaps& gaps);
+/// Goes on with other equations, at an instant: what they couple, and how fast gaps grow, may differ.
+void replace_equations(std::vector<ContactState>& contacts, const System& before, const System& stated,
+                       const Scales& scales, const Instant& at);
 
 }  // namespace dalembert

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace dalembert::changes_test {
 namespace {
@@ -159,6 +160,65 @@ TEST_P(Changes, KickWhatRestsOnAFloor) {
     EXPECT_EQ(run.events()[k + 2].kind, EventKind::struck);
     EXPECT_NEAR(run.events()[k + 2].time, t + 2.0 / g, bound);
     EXPECT_NEAR(run.impulse(floor, k + 2), 1.0, bound);
+  }
+}
+
+TEST_P(Changes, ImpactReachesWhatAReplacedRodHolds) {
+  // A rod from A to B holds C instead, on a floor below a guide. A turns about C, at 2, against a ceiling at
+  // an angle of 30 degrees, P = 2 v/cos 30: the rod's share P sin 30 presses C down by P sin^2 30.
+  constexpr double G = 10.0, v = 2.0;
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -G}});
+  const auto A = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}}, "A"),
+             B = scene.add_particle({.mass = 1.0, .position = {2.0, 0.0}}, "B"),
+             C = scene.add_particle({.mass = 5.0}, "C");
+  scene.add(force_law(points(A), [](auto, auto r, auto) { return vec(0.0 * r.x(), 0.0 * r.y() + G); }));
+  scene.add(holonomic(points(C), [](auto r) { return r.x(); }), "guide");
+  scene.add(unilateral(OnCurve{B, Plane<2>{}}));
+  const auto floor = scene.add(unilateral(OnCurve{C, Plane<2>{}}), "floor"),
+             ceiling = scene.add(
+                 unilateral(OnCurve{A, Plane<2>{{0.0, 0.5}, {0.0, -1.0}}}, {.restitution = 1.0}), "ceiling");
+  const auto rod = scene.add(Distance{A, B, 1.0}, "rod");
+  const Event<2> move{
+      "move", [](const auto& now) { return now.time() - 0.1; }, Crossing::rising, false,
+      [=](Scene<2>& s) {
+        s.replace(rod, Distance{A, C, 1.0});
+        s.replace(A, ParticleState<2>{.mass = 1.0, .position = {1.0, 0.0}, .velocity = {0.0, v}});
+      }};
+  const auto run = simulate(scene, options(0.8), {move});
+  const double P = 2.0 * v / std::cos(std::numbers::pi / 6.0);
+  std::size_t struck = 0;
+  for (std::size_t k = 0; k < run.events().size(); ++k) {
+    const EventRecord& it = run.events()[k];
+    if (it.kind != EventKind::struck || it.source != static_cast<std::size_t>(ceiling.index)) continue;
+    ++struck;
+    EXPECT_NEAR(it.time, 0.1 + std::numbers::pi / 6.0 / v, bound);
+    EXPECT_NEAR(run.impulse(ceiling, k), P, bound);
+    EXPECT_NEAR(run.impulse(floor, k), 0.25 * P, bound);
+  }
+  EXPECT_EQ(struck, 1U);
+  EXPECT_NEAR(run.position(C, 10).norm(), 0.0, bound);
+}
+
+TEST_P(Changes, GapIsRestatedInAnotherUnit) {
+  // Of the same floor: a ball that falls from 1 meets it at sqrt(2/g), and rests three times as late.
+  const double first = std::sqrt(2.0 / g);
+  const auto ground = [](const Particle<2>& ball, double unit) {
+    return unilateral(holonomic(points(ball), [unit](auto r) { return r.y() / unit; }), {.restitution = 0.5});
+  };
+  for (const double unit : {1e-6, 1e6}) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto ball = scene.add_particle({.mass = 1.0, .position = {0.0, 1.0}});
+    const auto floor = scene.add(ground(ball, 1.0), "floor");
+    const Event<2> restate{"restate", [](const auto& now) { return now.time() - 0.2; }, Crossing::rising,
+                           false, [=](Scene<2>& s) { s.replace(floor, ground(ball, unit)); }};
+    const auto run = simulate(scene, options(2.0), {restate});
+    ASSERT_EQ(run.events()[1].kind, EventKind::struck);
+    EXPECT_NEAR(run.events()[1].time, first, bound);
+    EXPECT_NEAR(run.impulse(floor, 1) / unit, 1.5 * g * first, bound);
+    EXPECT_EQ(run.events().back().kind, EventKind::rested);
+    EXPECT_NEAR(run.events().back().time, 3.0 * first, bound);
   }
 }
 

@@ -63,6 +63,77 @@ TEST_P(Impacts, AccumulatingImpactsEndInRestAtTheirLimit) {
   }
 }
 
+/// Where a ball is between impacts, and what follows.
+struct Hop {
+  double t, y, v;  // upwards
+
+  /// After its next impact, the ball pulled down by G.
+  [[nodiscard]] Hop next(double G, double e) const {
+    const double u = std::sqrt(v * v + 2.0 * G * y);
+    return {t + (v + u) / G, 0.0, e * u};
+  }
+  /// From an impact on.
+  [[nodiscard]] Hop at(double time, double G) const {
+    const double s = time - t;
+    return {time, v * s - 0.5 * G * s * s, v - G * s};
+  }
+  [[nodiscard]] double rest(double G, double e) const {
+    const Hop first = next(G, e);
+    return first.t + 2.0 * first.v / (G * (1.0 - e));
+  }
+};
+
+/// How well impacts tell the time of rest, where each is known to the tolerance: its derivatives by the last
+/// four of them, where D_k/D_(k-1) = e, see Accumulation.
+double error_of_rest(double e) {
+  const double lost = 1.0 - e;
+  return tolerance * (1.0 + 2.0 * e / lost + 2.0 * e * (1.0 + e) / (lost * lost * lost));
+}
+
+TEST_P(Impacts, RestIsTheLimitUnderTheForcesThatItEndsIn) {
+  // Before they change the impacts tend to another limit, at 4.06.
+  constexpr double e = 0.8, change = 3.0, less = 0.2, G = 20.0 * g;
+  Hop hop = Hop{0.0, 1.0, 0.0}.next(g, e);
+  while (hop.next(g, e).t < change) hop = hop.next(g, e);
+  hop = hop.at(change, g);
+  const auto rest_of = [](const Trajectory<2>& run) {
+    EXPECT_EQ(run.events().back().kind, EventKind::rested);
+    return run.events().back().time;
+  };
+  Ball pressed(e);
+  pressed.scene.add(force_law(points(pressed.ball), [](auto t, auto r, auto) {
+    return vec(0.0 * r.x(), t > 3.0 ? 0.0 * r.y() - 2.0 * 19.0 * g : 0.0 * r.y());
+  }));
+  EXPECT_NEAR(rest_of(simulate(pressed.scene, options(5.0))), hop.rest(G, e), error_of_rest(e));
+
+  Scene<2> soft;
+  soft.add(UniformGravity<2>{{0.0, -g}});
+  const auto ball = soft.add_particle({.mass = 2.0, .position = {0.0, 1.0}});
+  const auto plate = soft.add(unilateral(OnCurve{ball, Plane<2>{}}, {.restitution = e}));
+  const Event<2> soften{"soften", [](const auto& now) { return now.time() - 3.0; }, Crossing::rising, false,
+                        [=](Scene<2>& s) {
+                          s.replace(plate, unilateral(OnCurve{ball, Plane<2>{}}, {.restitution = less}));
+                        }};
+  EXPECT_NEAR(rest_of(simulate(soft, options(5.0), {soften})), hop.rest(g, less), error_of_rest(e));
+}
+
+TEST_P(Impacts, RestAfterALiftIsTheLimitOfTheImpactsBehindIt) {
+  // It rests at 1.35, rises by g from 2 to 2.5, and falls again.
+  constexpr double e = 0.5, lift = 0.5;
+  Ball scene(e);
+  scene.scene.add(force_law(points(scene.ball), [](auto t, auto r, auto) {
+    return vec(0.0 * r.x(), t > 2.0 && t < 2.5 ? 0.0 * r.y() + 2.0 * 2.0 * g : 0.0 * r.y());
+  }));
+  const double second = Hop{2.0 + lift, 0.5 * g * lift * lift, g * lift}.rest(g, e);
+  const auto run = simulate(scene.scene, options(6.0));
+  std::vector<double> rests;
+  for (const EventRecord& it : run.events())
+    if (it.kind == EventKind::rested) rests.push_back(it.time);
+  ASSERT_EQ(rests.size(), 2U);
+  EXPECT_NEAR(rests[0], scene.first * (1.0 + e) / (1.0 - e), error_of_rest(e));
+  EXPECT_NEAR(rests[1], second, error_of_rest(e));
+}
+
 TEST_P(Impacts, RestOfOneBallLeavesAnotherBouncing) {
   // One of restitution 1/2 rests three times its fall after the start. Near to that, at the loose tolerance
   // within its last bounces, an elastic one lands far from it: that keeps its energy.
