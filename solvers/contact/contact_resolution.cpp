@@ -17,7 +17,9 @@ namespace {
 /// Of what an impact has left so slowly that it has not parted from the surface again: by no more than this
 /// hop is it not known when.
 void come_to_rest(ContactState& contact, double t, Change& change) {
-  const double hop = t - contact.impacts.last(), limit = contact.impacts.limit();
+  const double hop = t - contact.impacts.last();
+  contact.impacts.add(t);
+  const double limit = contact.impacts.limit();
   change.events.push_back({contact.number, std::isfinite(limit) ? limit : t, EventKind::rested, hop});
 }
 
