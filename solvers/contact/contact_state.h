@@ -32,7 +32,6 @@ struct ContactState {
   double gradient = 1.0;  ///< its length at the start, in the unit of the gap by now
 
   void open(double t, double rate, double gap) {
-    if (closed && impacts.last() < t) impacts = {};  // it rested: those that follow are others
     closed = parted = false;
     opened_at = t;
     rate_at_opening = rate;
