@@ -225,11 +225,12 @@ Change EventHandler::change_scene(const EventRecord& due, const FlatSample& at,
 /// stay closed: a joint that holds to the run's accuracy would lift them off, or press them in.
 Change EventHandler::put_onto(const FlatEvent::Changed& next, const FlatSample& at,
                               const Integration& integration) {
-  auto not_held = next.system->conditions().conditional_constraints();
-  const Problem always(next.system->without(not_held));
+  const Problem always(next.system->without(next.system->conditions().conditional_constraints()));
   std::vector<double> q = next.q, v = next.v;
-  if (conditional_ != nullptr) not_held = conditional_->not_held(*next.system, {at.time, q, v});
-  const Problem held(next.system->without(not_held));
+  const Problem held =
+      conditional_ == nullptr
+          ? always
+          : Problem(next.system->without(conditional_->not_held(*next.system, {at.time, q, v})));
   const double known = integration.accuracy(at.time);
   const auto impulses =
       project_impulsively_onto(always, held, integration.scales(at.time), at.time, q, v, known);

@@ -356,7 +356,7 @@ struct TiedDown {
   Particle<2> block = scene.add_particle({.mass = mass, .position = {start, 0.0}}, "block");
   Constraint<1> floor = scene.add(unilateral(OnCurve{block, Plane<2>{}}, {.restitution = 0.9}), "floor");
   Constraint<1> rod;
-  double turns = 6.0 * M_PI / std::sqrt(stiffness / mass);
+  double turns = 6.0 * std::numbers::pi / std::sqrt(stiffness / mass);
 
   explicit TiedDown(double pivot) {
     scene.add(UniformGravity<2>{{0.0, -g}});
