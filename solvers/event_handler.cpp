@@ -1,5 +1,6 @@
 #include "dalembert/solvers/event_handler.h"
 
+#include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/contact/round_off.h>
 #include <dalembert/solvers/manifold/start.h>
@@ -231,7 +232,7 @@ Change EventHandler::put_onto(const FlatEvent::Changed& next, const FlatSample& 
       conditional_ == nullptr
           ? always
           : Problem(next.system->without(conditional_->not_held(*next.system, {at.time, q, v})));
-  const double known = integration.accuracy(at.time);
+  const double known = true_over_estimated * integration.accuracy(at.time);
   const auto impulses =
       project_impulsively_onto(always, held, integration.scales(at.time), at.time, q, v, known);
   Change change{.v = v, .impulses = std::vector<double>(at.lambda.size()), .q = q, .system = next.system};

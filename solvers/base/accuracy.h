@@ -14,6 +14,9 @@ inline constexpr double start_tolerance = 1e-8;
 /// What Newton's iteration leaves when it has converged, relative: some fifty roundings.
 inline constexpr double converged_to = 1e-14;
 
+/// The most that a true error is of the accumulated estimate of all steps, see core/README.md.
+inline constexpr double true_over_estimated = 12.0;
+
 /// How exactly a run at a tolerance knows what. Each is a part of the scene's own unit: its length, its time,
 /// its speed (see Scales), the largest force beside it.
 ///

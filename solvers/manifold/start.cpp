@@ -185,6 +185,10 @@ void require_satisfied(const System& system, const Violation& left, const System
          "check lengths and fixed points, or start closer to the intended configuration");
 }
 
+/// Rows are told apart only as well as a state is known: rows that depend on each other on the constraints do
+/// so only roughly nearby, and must not be solved against each other.
+double roughly_dependent(double known) { return std::max(rank_threshold, std::min(known, 1e-3)); }
+
 void start_positions(const Problem& problem, Start& start, const System::Evaluation& e,
                      const Options& options) {
   const System& system = problem.system();
@@ -196,10 +200,8 @@ void start_positions(const Problem& problem, Start& start, const System::Evaluat
     refuse(system, given, e, Level::position, options.t_start, "is violated by the initial positions",
            "correct the positions, or set the option assemble to have them moved");
   }
-  // Rows are told apart only as well as the given state is known: rows that depend on each other on
-  // the constraints do so only roughly nearby, and must not be solved against each other.
-  const double known = std::max(rank_threshold, std::min(10.0 * given.size / L, 1e-3));
-  Manifold manifold(problem, independent_rows(system, e.w, known), lengths);
+  Manifold manifold(problem, independent_rows(system, e.w, roughly_dependent(10.0 * given.size / L)),
+                    lengths);
   const Violation left = manifold.project_positions(options.t_start, start.q, start.v, converged_to * L);
   require_satisfied(system, left, manifold.equations(), Level::position, bound, options.t_start);
 }
@@ -281,8 +283,7 @@ namespace {
 /// Moves positions that are right to `known` onto the constraints. `e` is what was evaluated at them.
 void move_onto(const Problem& problem, const Scales& scales, double t, std::span<double> q,
                std::span<const double> v, double known, const System::Evaluation& e) {
-  Manifold(problem, independent_rows(problem.system(), e.w, std::max(rank_threshold, known)),
-           scales.lengths())
+  Manifold(problem, independent_rows(problem.system(), e.w, roughly_dependent(known)), scales.lengths())
       .project_positions(t, q, v, converged_to * scales.length);
 }
 
