@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <compare>
 #include <cstddef>
 #include <utility>
@@ -106,8 +105,8 @@ class Branches {
     next_ = next;
     if (recorded_ == nullptr || batch_ >= recorded_->size()) return;
     auto& recorded = (*recorded_)[batch_];
-    recorded.erase(recorded.begin() + static_cast<std::ptrdiff_t>(std::min(next, recorded.size())),
-                   recorded.end());
+    if (next < recorded.size())
+      recorded.erase(recorded.begin() + static_cast<std::ptrdiff_t>(next), recorded.end());
   }
   [[nodiscard]] const Comparison* own() const {
     if (held_ == nullptr || batch_ >= held_->size() || next_ >= (*held_)[batch_].size()) return nullptr;

@@ -3,7 +3,6 @@
 #include <dalembert/core/autodiff/functions.h>
 #include <dalembert/core/points/points.h>
 
-#include <algorithm>
 #include <array>
 #include <span>
 #include <tuple>

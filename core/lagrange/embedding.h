@@ -88,7 +88,7 @@ void Embedding<D, N>::write(const Layout& layout, double t, const Vec<N>& q, con
     along[k] = Time::input(q[k], 0, v[k]);
     along[k].ss = a[k];
   }
-  std::ranges::fill(out_q, std::numeric_limits<double>::quiet_NaN());
+  for (double& r : out_q) r = std::numeric_limits<double>::quiet_NaN();
   for (const Part& part : parts_) {
     part.require(layout);
     std::array<Time, static_cast<std::size_t>(D)> r;

@@ -221,9 +221,9 @@ class LagrangeBatch final : public ForceBatch, public StatedByLagrangians {
   }
   /// A velocity of the size of those there are, or that the force gives over a unit.
   [[nodiscard]] static double typical_speed(const Element& e, std::size_t i, const Instant& at) {
-    const double size = std::max(detail::gather_inputs(e, at.v).cwiseAbs().maxCoeff(),
-                                 std::sqrt(force_of(e, i, at).cwiseAbs().maxCoeff()));
-    return size > 0.0 ? size : 1.0;
+    const double own = detail::gather_inputs(e, at.v).cwiseAbs().maxCoeff(),
+                 given = std::sqrt(force_of(e, i, at).cwiseAbs().maxCoeff());
+    return own > given ? own : given > 0.0 ? given : 1.0;
   }
 
   Elements elements_{type_};

@@ -111,6 +111,8 @@ class LagrangianSystem {
   /// constraints. L is evaluated with such a coordinate NaN, and no comparison may depend on it, here and
   /// now and at t = 0 and 1. Whether it is so elsewhere, a reduced system asks wherever it comes.
   [[nodiscard]] std::vector<int> cyclic() const;
+  /// Whether a coordinate is one of them.
+  [[nodiscard]] bool is_cyclic(int k) const;
 
   /// Its equations, and the scene of rotors that moves by them from a time on, angles q/scale. For
   /// `simulate`: its constraints exert nothing (see LagrangeEquations), and anything else added to it acts on
@@ -200,13 +202,18 @@ Scene<2> LagrangianSystem<N>::rotor_scene(double t_start) const {
 
 template <int N>
 std::vector<int> LagrangianSystem<N>::cyclic() const {
-  const auto independent = [this](int k, double t) {
-    return detail::independent_of(*lagrangian_, k, t, position(), velocity());
-  };
   std::vector<int> found;
   for (int k = 0; k < N; ++k)
-    if (independent(k, 0.0) && independent(k, 1.0)) found.push_back(k);
+    if (is_cyclic(k)) found.push_back(k);
   return found;
+}
+
+template <int N>
+bool LagrangianSystem<N>::is_cyclic(int k) const {
+  const auto independent_at = [&](double t) {
+    return detail::independent_of(*lagrangian_, k, t, position(), velocity());
+  };
+  return independent_at(0.0) && independent_at(1.0);
 }
 
 }  // namespace dalembert

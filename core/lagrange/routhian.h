@@ -2,7 +2,6 @@
 
 #include <dalembert/core/lagrange/lagrangian_system.h>
 
-#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -123,7 +122,7 @@ template <int N>
     throw InvalidArgument("Lagrangian \"" + system.name() + "\" has no coordinate " +
                           std::to_string(coordinate) + "; they are counted from 0");
   const std::string label = "Coordinate \"" + system.name(coordinate) + "\" of \"" + system.name() + '"';
-  if (!std::ranges::count(system.cyclic(), coordinate))
+  if (!system.is_cyclic(coordinate))
     throw InvalidArgument(label + " is not cyclic: the Lagrangian depends on it");
   if (system.constrained() || system.forced())
     throw InvalidArgument(label +

@@ -2,7 +2,6 @@
 
 #include <dalembert/core/points/points.h>
 
-#include <algorithm>
 #include <array>
 #include <span>
 
@@ -44,7 +43,9 @@ struct BodyPoint {
   [[nodiscard]] std::array<int, static_cast<std::size_t>(coordinates)> reads() const {
     std::array<int, static_cast<std::size_t>(coordinates)> all{};
     auto next = all.begin();
-    for (const auto& particle : particles) next = std::ranges::copy(particle.reads(), next).out;
+    for (const auto& particle : particles) {
+      for (const int number : particle.reads()) *next++ = number;
+    }
     return all;
   }
 };

@@ -7,7 +7,6 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -18,7 +17,7 @@ namespace dalembert {
 template <int N>
 [[nodiscard]] std::array<int, static_cast<std::size_t>(N)> consecutive(int first) {
   std::array<int, static_cast<std::size_t>(N)> all{};
-  std::iota(all.begin(), all.end(), first);
+  for (int& number : all) number = first++;
   return all;
 }
 

@@ -5,7 +5,6 @@
 #include <dalembert/solvers/certificate/two_runs.h>
 #include <dalembert/solvers/simulation.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -71,8 +70,8 @@ class Certificate {
   /// Of the velocity of a point [speed].
   template <Point P>
   [[nodiscard]] double velocity_error(const P& point, std::size_t i) const {
-    return std::max(error([&](const Sample<D>& now) { return now.velocity(point); }, i),
-                    at(i).of_states * runs_.speed());
+    return larger(error([&](const Sample<D>& now) { return now.velocity(point); }, i),
+                  at(i).of_states * runs_.speed());
   }
   /// Of the angle of a rotor [rad].
   [[nodiscard]] double angle_error(Rotor rotor, std::size_t i) const {
@@ -80,15 +79,15 @@ class Certificate {
   }
   /// Of its rate [rad / time].
   [[nodiscard]] double angular_velocity_error(Rotor rotor, std::size_t i) const {
-    return std::max(error([&](const Sample<D>& now) { return now.angular_velocity(rotor); }, i),
-                    at(i).of_states * runs_.speed() / runs_.length());
+    return larger(error([&](const Sample<D>& now) { return now.angular_velocity(rotor); }, i),
+                  at(i).of_states * runs_.speed() / runs_.length());
   }
   /// Of a multiplier, of several the norm [force].
   template <int Rows>
   [[nodiscard]] double multiplier_error(Constraint<Rows> constraint, std::size_t i) const {
     const double none = 0.0;
-    return std::max(error([&](const Sample<D>& now) { return now.multiplier(constraint); }, i),
-                    runs_.error(none, runs_.largest_force(), at(i)));
+    return larger(error([&](const Sample<D>& now) { return now.multiplier(constraint); }, i),
+                  runs_.error(none, runs_.largest_force(), at(i)));
   }
   /// On a particle or a body.
   template <int Rows, class Body>
@@ -151,8 +150,8 @@ class Certificate {
   [[nodiscard]] double error_of_position(const Quantity& quantity, double unit, std::size_t i) const {
     Certainty its = at(i);
     if (its.doubt == Doubt::at_a_jump) its.doubt = Doubt::none;  // positions do not jump
-    return std::max(compare(quantity, run_.sample(i), reference_, &Trajectory<D>::sample, its),
-                    its.of_states * unit);
+    return larger(compare(quantity, run_.sample(i), reference_, &Trajectory<D>::sample, its),
+                  its.of_states * unit);
   }
   template <class Quantity>
   [[nodiscard]] double compare(const Quantity& quantity, const Sample<D>& own, const Trajectory<D>& reference,

@@ -2,7 +2,6 @@
 
 #include <dalembert/core/results/trajectory.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -22,6 +21,9 @@ enum class Doubt {
   no_counterpart,  ///< the more accurate run did not get there
   breaks_a_law     ///< one of the runs breaks a law of mechanics, see Audit
 };
+
+/// <algorithm> would take longer to compile than all of a first scene's equations.
+[[nodiscard]] inline double larger(double a, double b) { return a < b ? b : a; }
 
 /// What the difference of the two at one instant tells.
 struct Certainty {
@@ -74,7 +76,7 @@ class TwoRuns {
   /// The same of a position [length] or velocity, for which `unit` is the scene's length or speed.
   [[nodiscard]] double error_of_state(double difference, double magnitude, double unit,
                                       const Certainty& its) const {
-    return std::max(error(difference, magnitude, its), its.of_states * unit);
+    return larger(error(difference, magnitude, its), its.of_states * unit);
   }
   /// Of the scene [length].
   [[nodiscard]] double length() const { return length_; }

@@ -5,8 +5,7 @@
 #include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/mass_metric.h>
-
-#include <Eigen/SparseLU>
+#include <dalembert/solvers/linear/complex_lu.h>
 
 #include <algorithm>
 #include <cmath>
@@ -220,7 +219,7 @@ double norm_in_mass_metric(const LinearTerms::Entries& entries, const Vector& ro
 /// The equations as they stand, of x = (u, y), in complex numbers.
 class Equations {
  public:
-  using Matrix = Eigen::SparseMatrix<Complex, 0, Index>;
+  using Matrix = ComplexLU::Matrix;
 
   Equations(const System& system, const LinearTerms& terms, QuadraticInverse& S)
       : S_(&S),
@@ -234,20 +233,21 @@ class Equations {
         k_(norm_in_mass_metric(terms.stiffness, S.root())) {
     M_.head(n_) = S.root().cwiseAbs2().cast<Complex>();
     C_.setFromTriplets(terms.damping.begin(), terms.damping.end());
-    std::vector<Eigen::Triplet<Complex, Index>> entries;
+    std::vector<Eigen::Triplet<Complex>> entries;
     for (const auto& k : terms.stiffness)
-      entries.emplace_back(static_cast<Index>(k.row()), static_cast<Index>(k.col()), k.value());
+      entries.emplace_back(static_cast<int>(k.row()), static_cast<int>(k.col()), k.value());
     for (Index a = 0; a < lengths_.size(); ++a) {
       const std::size_t r = S.rows().rows[static_cast<std::size_t>(a)];
+      const int own = static_cast<int>(n_ + a);
       double square = 0.0;
       for (const std::size_t k : system.row(r)) {
-        const auto j = static_cast<Index>(system.w_columns()[k]);
-        entries.emplace_back(j, n_ + a, -terms.w[k]);
-        entries.emplace_back(n_ + a, j, terms.w[k]);
+        const auto j = static_cast<int>(system.w_columns()[k]);
+        entries.emplace_back(j, own, -terms.w[k]);
+        entries.emplace_back(own, j, terms.w[k]);
         square += std::pow(terms.w[k] / S.root()[j], 2);
       }
       compliance_[a] = system.law(r).compliance;
-      entries.emplace_back(n_ + a, n_ + a, compliance_[a]);
+      entries.emplace_back(own, own, compliance_[a]);
       lengths_[a] = std::sqrt(square);
     }
     K_.setFromTriplets(entries.begin(), entries.end());
@@ -306,8 +306,8 @@ class Equations {
   }
   /// Newton's method on Q(s) z = 0 and z of its length: inverse iteration. False where Q is exactly singular.
   void improve(Complex& s, Eigen::VectorXcd& z) const {
-    Eigen::SparseLU<Matrix> lu(at(s));
-    if (lu.info() != Eigen::Success) return;
+    const ComplexLU lu(at(s));
+    if (!lu.regular()) return;
     const Eigen::VectorXcd next = lu.solve(slope(s, z));
     const Eigen::VectorXcd own = M_.cwiseProduct(z);
     s -= own.dot(z) / own.dot(next);
@@ -317,11 +317,11 @@ class Equations {
     // So that Q is regular. Inverse iteration does not depend on it: a hundred times more or less is the
     // same.
     constexpr double beside = 1e-10;
-    const Eigen::SparseLU<Matrix> lu(Matrix(at(s * (1.0 + beside)).adjoint()));
-    if (lu.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+    const ComplexLU lu(at(s * (1.0 + beside)));
+    if (!lu.regular()) return std::numeric_limits<double>::infinity();
     Eigen::VectorXcd v = M_.cwiseProduct(z);
     for (int twice = 0; twice < 2; ++twice) {
-      v = lu.solve(v);
+      v = lu.solve_adjoint(v);
       v /= size_of(v);
       if (twice == 0) v = M_.cwiseProduct(v).eval();
     }

@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Some hundred roundings.
-constexpr double rounding = 1e-13;
+constexpr double hundred_roundings = 1e-13;
 
 /// z of (1), lambda in the units of the bounds.
 VectorXd least_largest(const MatrixXd& A, const VectorXd& a, const std::vector<Index>& first) {
@@ -75,7 +75,7 @@ MatrixXd FrictionShares::leave_to_others(const MatrixXd& N, std::vector<Rough>& 
   if (rows.empty()) return N;
   const MatrixXd A = N(rows, Eigen::all);
   lambda -= N * dense::least_squares(A, lambda(rows), rank_threshold);
-  if (lambda(rows).norm() <= rounding * lambda.norm()) lambda(rows).setZero();
+  if (lambda(rows).norm() <= hundred_roundings * lambda.norm()) lambda(rows).setZero();
   return N * dense::kernel(A, rank_threshold);
 }
 

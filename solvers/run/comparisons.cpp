@@ -16,7 +16,7 @@ namespace dalembert {
 
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::infinity();
+constexpr double infinitely_far = std::numeric_limits<double>::infinity();
 /// A difference so many times that at the switch is no round-off of it.
 constexpr double clearly = 8.0;
 constexpr std::size_t most_parts_of_step = 4096;
@@ -110,9 +110,9 @@ int Comparisons::side_of(const Margin& of, const Branches::Sides& recorded) {
 
 /// How far what was recorded is from leaving its side: negative behind.
 double Comparisons::margin(const Margin& of, const Branches::Sides& recorded) {
-  if (of.batch >= recorded.size() || of.comparison >= recorded[of.batch].size()) return unknown;
+  if (of.batch >= recorded.size() || of.comparison >= recorded[of.batch].size()) return infinitely_far;
   const double difference = recorded[of.batch][of.comparison].difference;
-  if (std::isnan(difference)) return unknown;
+  if (std::isnan(difference)) return infinitely_far;
   return of.side == 0 ? (difference == 0.0 ? 1.0 : -1.0) : of.side * difference;
 }
 
@@ -129,7 +129,7 @@ bool Comparisons::hear_step(double t, bool sketched) {
 }
 
 void Comparisons::find_margins(double t, bool sketched, std::vector<double>& all) {
-  all.assign(margins_.size(), unknown);
+  all.assign(margins_.size(), infinitely_far);
   if (!hear_step(t, sketched)) return;
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = margin(margins_[k], recorded_);
 }
@@ -228,7 +228,8 @@ std::optional<Comparisons::Root> Comparisons::first_switch(double to) {
 /// The margin of a motion that goes on with its own accelerations.
 double Comparisons::margin_ahead(std::size_t k, const Motion& from, double ahead) {
   move(from, ahead, other_);
-  return equations_.record(other_.instant(), &held_, recorded_) ? margin(margins_[k], recorded_) : -unknown;
+  return equations_.record(other_.instant(), &held_, recorded_) ? margin(margins_[k], recorded_)
+                                                                : -infinitely_far;
 }
 
 /// What roundings of the coordinates make of a margin.
@@ -255,7 +256,8 @@ Comparisons::Switch Comparisons::behind(const Root& root, double step) {
   Switch one{};
   one.margin = root.margin;
   one.step = step;
-  one.distance = hear_step(root.t, false) ? std::abs(margin(margins_[root.margin], recorded_)) : unknown;
+  one.distance =
+      hear_step(root.t, false) ? std::abs(margin(margins_[root.margin], recorded_)) : infinitely_far;
   one.at = motion_;
   if (!equations_.accelerate(one.at, held_)) throw linearly_dependent(root.t);
   one.distance = std::max(one.distance, rounding(root.margin, one.at));
