@@ -1,8 +1,12 @@
 #include "dalembert/solvers/equilibrium/linear_terms.h"
 
+#include <dalembert/core/analysis/islands.h>
 #include <dalembert/core/errors.h>
+#include <dalembert/solvers/base/numbers.h>
+#include <dalembert/solvers/equilibrium/mass_metric.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace dalembert {
@@ -50,6 +54,30 @@ void add_rotating(const System& system, const RotatingFrame& frame, LinearTerms&
   }
 }
 
+/// With 0 for what is round-off of the forces of its uncoupled part, in the metric of the masses: that
+/// spreads to all rows there.
+std::vector<double> told_from_round_off(const System& system, const System::Evaluation& e,
+                                        std::span<const double> lambda, double known) {
+  const Islands parts = islands(system);
+  const auto columns = system.w_columns();
+  const auto masses = system.masses();
+  std::vector<double> forces(masses.size()), squares(parts.count), told(lambda.begin(), lambda.end());
+  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] = std::abs(e.force[i]);
+  for (std::size_t r = 0; r < told.size(); ++r)
+    for (const std::size_t k : system.row(r)) forces[columns[k]] += std::abs(lambda[r] * e.w[k]);
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    squares[parts.of_coordinate[i]] += forces[i] * forces[i] / masses[i];
+  for (std::size_t r = 0; r < told.size(); ++r) {
+    double own = 0.0;
+    for (const std::size_t k : system.row(r)) {
+      const double force = lambda[r] * e.w[k];
+      own += force * force / masses[columns[k]];
+    }
+    if (std::sqrt(own) <= known * std::sqrt(squares[parts.of_row(system, r)])) told[r] = 0.0;
+  }
+  return told;
+}
+
 std::vector<LuPattern::Entry> tangent_entries(const System& system, const ActiveRows& rows,
                                               const LinearTerms& terms) {
   const std::size_t n = system.coordinates();
@@ -84,12 +112,13 @@ std::shared_ptr<const Pattern> pattern_of(const System& system, const ActiveRows
 }  // namespace
 
 LinearTerms linear_terms(const System& system, const RotatingFrame& frame, const Instant& at,
-                         std::span<const double> lambda) {
+                         std::span<const double> lambda, double roundings) {
   auto e = system.evaluation();
   system.evaluate(at, e);
   auto slopes = system.linearisation();
-  system.linearise(at, lambda, slopes);
-  LinearTerms terms{{}, {}, std::move(e.w), std::move(slopes.psi_q)};
+  const double known = roundings_of_a_sum * epsilon * roundings;
+  system.linearise(at, told_from_round_off(system, e, lambda, known), slopes);
+  LinearTerms terms{{}, {}, std::move(e.w), std::move(slopes.psi_q), roundings};
   for (std::size_t k = 0; k < slopes.stiffness.size(); ++k) {
     const auto [row, column] = system.stiffness_pattern()[k];
     append(terms.stiffness, row, column, -slopes.stiffness[k]);

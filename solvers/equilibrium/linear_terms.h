@@ -33,9 +33,10 @@ struct LinearTerms {
   double roundings = 1.0;
 };
 
-/// Throws EquationFault.
+/// A multiplier that is round-off of the forces counts as 0: where nothing else is stiff, its curvature would
+/// be taken for a stiffness. Throws EquationFault.
 [[nodiscard]] LinearTerms linear_terms(const System& system, const RotatingFrame& frame, const Instant& at,
-                                       std::span<const double> lambda);
+                                       std::span<const double> lambda, double roundings = 1.0);
 
 /// [ K + s M  -W^T ]
 /// [ W         c   ]   of some rows, factored.

@@ -20,11 +20,14 @@ std::vector<Index> places(std::size_t all, std::span<const std::size_t> coordina
   return place;
 }
 
-MatrixXd scaled(const LinearTerms::Entries& entries, std::span<const Index> place, const VectorXd& root) {
+/// `read` reads a number of the entries: as it is, or its size.
+MatrixXd scaled(
+    const LinearTerms::Entries& entries, std::span<const Index> place, const VectorXd& root,
+    double (*read)(double) = [](double x) { return x; }) {
   MatrixXd dense = MatrixXd::Zero(root.size(), root.size());
   for (const auto& entry : entries) {
     const Index i = place[entry.row()], j = place[entry.col()];
-    if (i >= 0 && j >= 0) dense(i, j) += entry.value() * root[i] * root[j];
+    if (i >= 0 && j >= 0) dense(i, j) += read(entry.value()) * root[i] * root[j];
   }
   return dense;
 }
@@ -48,13 +51,16 @@ MassMetric::MassMetric(const System& system, const LinearTerms& terms,
   for (std::size_t k = 0; k < coordinates.size(); ++k)
     root[static_cast<Index>(k)] = 1.0 / std::sqrt(system.masses()[coordinates[k]]);
   K = scaled(terms.stiffness, place, root);
+  K_terms = scaled(terms.stiffness, place, root, [](double x) { return std::abs(x); });
   C = scaled(terms.damping, place, root);
   W = E = MatrixXd::Zero(static_cast<Index>(rows.size()), root.size());
   Index rigid = 0;
   for (const std::size_t r : rows) {
     const VectorXd w = scaled_row(system, terms.w, r, place, root);
     if (system.law(r).compliant()) {
-      K += w * (w / system.law(r).compliance).transpose();
+      const MatrixXd spring = w * (w / system.law(r).compliance).transpose();
+      K += spring;
+      K_terms += spring.cwiseAbs();
       continue;
     }
     const double length = w.norm();

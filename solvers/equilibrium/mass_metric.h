@@ -22,6 +22,8 @@ inline constexpr double roundings_of_a_sum = 1e3;
 struct MassMetric {
   Eigen::VectorXd root;  ///< M^-1/2
   Eigen::MatrixXd K, C, W, E;
+  Eigen::MatrixXd
+      K_terms;  ///< what K sums, without signs: weight or load may balance centrifugal forces in it
   Eigen::Index holonomic = 0;
 
   MassMetric(const System& system, const LinearTerms& terms, std::span<const std::size_t> coordinates,

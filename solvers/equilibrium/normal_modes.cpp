@@ -417,8 +417,9 @@ Modes find_modes(const System& system, const Record& state, const UniformRotatio
              : EquilibriumSolver(problem, at.q, at.time, turning, length);
   require_equilibrium(problem.islands(), balance, at);
   require_smooth(system, at);
-  LinearTerms terms = linear_terms(system, balance.frame(), {at.time, at.q, at.v}, at.lambda);
-  terms.roundings = balance.scales().roundings_of_difference(at.q);
+  const double roundings = balance.scales().roundings_of_difference(at.q);
+  const LinearTerms terms =
+      linear_terms(system, balance.frame(), {at.time, at.q, at.v}, at.lambda, roundings);
   require_constant(system, balance, at, terms);
   require_no_kink(balance, at, terms);
   std::optional<ReversibleMotion> reversible;

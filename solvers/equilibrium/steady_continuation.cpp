@@ -39,9 +39,8 @@ Node SteadyCorrector::point(double fraction, std::span<const double> beside) con
   node.x[static_cast<Eigen::Index>(n)] = fraction;
   node.lambda.assign(at.lambda.begin(), at.lambda.end());
   node.state = {found.state, {}, found.motion};
-  LinearTerms terms =
-      linear_terms(*posed.system, RotatingFrame(*found.motion), {at.time, at.q, at.v}, at.lambda);
-  terms.roundings = scales_.roundings_of_difference(at.q);
+  const LinearTerms terms = linear_terms(*posed.system, RotatingFrame(*found.motion), {at.time, at.q, at.v},
+                                         at.lambda, scales_.roundings_of_difference(at.q));
   node.vibrations = all_vibrations(*posed.system, terms, *found.motion);
   node.stiffness.least = node.vibrations.empty() ? 0.0 : -node.vibrations.front().s.real();
   return node;

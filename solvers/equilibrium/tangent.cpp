@@ -55,7 +55,7 @@ Tangent tangent(const System& system, const LinearTerms& terms, std::vector<std:
             E * N,
             skew.isZero(0.0),
             metric.root.cwiseInverse().asDiagonal() * N,
-            summed(N, metric.K),
+            summed(N, metric.K_terms),
             dense::sizes(E) * dense::sizes(N),
             terms.roundings};
   // What a force sums by itself is not seen: nothing is known better than to round-off of the largest.

@@ -605,5 +605,45 @@ TEST(NormalModes, CanBeReadAfterTheyWereMoved) {
   EXPECT_EQ(modes.shape(1, mass), taken.shape(1, mass));
 }
 
+/// A uniform ball of radius R at rest on a rough table that turns at a rate of its own.
+NormalModes<3> modes_of_ball_on_table(double R, double drag, double rate) {
+  constexpr double m = 2.0;
+  const double I = 0.4 * m * R * R;
+  Scene<3> scene("ball");
+  scene.add(UniformGravity<3>{{0.0, 0.0, -9.81}});
+  const auto ball = add_body(scene, {.mass = m, .inertia = {I, I, I}, .centre = {0.0, 0.0, R}}, "ball");
+  scene.add(OnSurface{ball.centre(), Plane<3>{.point = {0.0, 0.0, R}, .normal = {0.0, 0.0, 1.0}}}, "table");
+  const auto x = ball.point({1.0, 0.0, 0.0}), y = ball.point({0.0, 1.0, 0.0}),
+             z = ball.point({0.0, 0.0, 1.0});
+  const auto rolls = [=](auto c, auto a, auto b, auto d, auto vc, auto va, auto vb, auto vd) {
+    const auto w = (0.5 * ((a - c).cross(va - vc) + (b - c).cross(vb - vc) + (d - c).cross(vd - vc))).eval();
+    return vec(vc.x() - R * w.y() + rate * c.y(), vc.y() + R * w.x() - rate * c.x());
+  };
+  scene.add(nonholonomic(points(ball.centre(), x, y, z), rolls), "rolls");
+  if (drag > 0.0) scene.add(LinearDrag{ball.centre(), drag});
+  return normal_modes(scene, equilibrium(scene));
+}
+
+TEST(NormalModes, BallAtRestOnARoughPlaneIsSlowedByDragAlone) {
+  // 1.4 m v' = -c v, and neither its place nor its attitude matters. The load of the plane leaves round-off
+  // in the forces of rolling, which is no stiffness.
+  for (const double drag : {1e-6, 1e-3, 0.1}) {
+    const auto modes = modes_of_ball_on_table(0.5, drag, 0.0);
+    ASSERT_EQ(modes.size(), 7U);
+    for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(modes.eigenvalue(k), 0.0) << drag;
+    for (std::size_t k = 5; k < 7; ++k)
+      EXPECT_LT(std::abs(modes.eigenvalue(k) + drag / 2.8), rounding * drag) << drag;
+    EXPECT_EQ(modes.stability(), Stability::stable) << modes.describe();
+  }
+}
+
+TEST(NormalModes, BallOnATurntableGoesRoundAtTwoSeventhsOfItsRate) {
+  // v' = 2/7 Omega x v. As it is held by no energy, that it does not grow is not proven.
+  const auto modes = modes_of_ball_on_table(0.5, 0.0, 1.0);
+  for (std::size_t k = 0; k + 1 < modes.size(); ++k) EXPECT_EQ(modes.eigenvalue(k), 0.0);
+  EXPECT_NEAR(modes.frequency(modes.size() - 1), 2.0 / 7.0, rounding);
+  EXPECT_EQ(modes.stability(), Stability::undecided) << modes.describe();
+}
+
 }  // namespace
 }  // namespace dalembert::normal_modes_test
