@@ -112,7 +112,12 @@ std::vector<SharedContact> FrictionShares::contacts(std::span<const char> unique
         unique[static_cast<std::size_t>(r.pressing_row)] && std::ranges::find(own, char{0}) == own.end();
     if (alone) continue;
     const auto same = std::ranges::find(pushing, r.pressing_row, &SharedContact::pressing_row);
-    const double sign = lambda[r.pressing_row] < 0.0 ? -1.0 : 1.0;
+    double sign = 0.0;
+    if (same != pushing.end()) {
+      sign = same->sign;
+    } else if (unique[static_cast<std::size_t>(r.pressing_row)]) {
+      sign = lambda[r.pressing_row] < 0.0 ? -1.0 : 1.0;
+    }
     SharedContact& its =
         same == pushing.end() || same->rows > 0
             ? pushing.emplace_back(SharedContact{.pressing_row = r.pressing_row, .sign = sign})

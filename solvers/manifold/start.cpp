@@ -171,16 +171,56 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
       "correct one of those that act on the same particles");
 }
 
+/// The largest acceleration that constraints which move by themselves demand of what is at rest, as a drive.
+double driven_acceleration(const System& system, const Instant& at, std::span<const double> w,
+                           std::span<const double> lengths) {
+  const std::vector<double> at_rest(at.v.size());
+  std::vector<double> bias(system.rows());
+  system.bias({at.t, at.q, at_rest}, bias);
+  double largest = 0.0;
+  for (std::size_t r = 0; r < bias.size(); ++r) {
+    if (!system.in_force(r) || bias[r] == 0.0) continue;
+    largest = std::max(largest, std::abs(bias[r]) / gradient_length(system, w, lengths, r));
+  }
+  return largest;
+}
+
+/// What roundings of the positions leave of a row's equation for velocities, psi_q dq, at most.
+double rounding_of_rates(const System& system, const Instant& at, std::span<const double> w,
+                         const Scales& scales) {
+  const auto lengths = scales.lengths();
+  auto slopes = system.linearisation();
+  system.linearise_constraints(at, std::vector<double>(system.rows()), slopes);
+  double largest = 0.0;
+  for (std::size_t r = 0; r < system.rows(); ++r) {
+    if (!system.in_force(r)) continue;
+    double terms = 0.0;
+    for (const std::size_t k : system.row(r))
+      terms += std::abs(slopes.psi_q[k]) / lengths[system.w_columns()[k]];
+    if (terms > 0.0) largest = std::max(largest, terms / gradient_length(system, w, lengths, r));
+  }
+  return largest * scales.rounding(at.q);
+}
+
 /// The speed that the scene has, or that its forces give it over its own length.
 double speed_of(const System& system, const System::Evaluation& e, const Start& start) {
   const double forced = std::sqrt(start.scales.largest(forced_acceleration(system, e)));
   return std::max(start.scales.largest(start.v), forced) * start.scales.length;
 }
 
+/// Whether rows miss their velocities by more than counts as satisfied. What starts from rest without forces
+/// has no speed but that which drives give it over its length, and is known to the roundings of positions.
+bool misses(const System& system, const Violation& by, const System::Evaluation& e, const Start& start,
+            double t) {
+  const Instant at{t, start.q, start.v};
+  if (by.size <= start_tolerance * speed_of(system, e, start)) return false;
+  const double L = start.scales.length, a = driven_acceleration(system, at, e.w, start.scales.lengths());
+  return !(by.size <= start_tolerance * std::sqrt(a * L) + rounding_of_rates(system, at, e.w, start.scales));
+}
+
 /// After projection: what is left is a contradiction.
-void require_satisfied(const System& system, const Violation& left, const System::Evaluation& e, Level level,
-                       double bound, double t) {
-  if (left.size <= bound) return;
+[[noreturn]] void refuse_contradiction(const System& system, const Violation& left,
+                                       const System::Evaluation& e, Level level, double t) {
   refuse(system, left, e, level, t, "cannot be satisfied together with the other constraints",
          "check lengths and fixed points, or start closer to the intended configuration");
 }
@@ -203,13 +243,14 @@ void start_positions(const Problem& problem, Start& start, const System::Evaluat
   Manifold manifold(problem, independent_rows(system, e.w, roughly_dependent(10.0 * given.size / L)),
                     lengths);
   const Violation left = manifold.project_positions(options.t_start, start.q, start.v, converged_to * L);
-  require_satisfied(system, left, manifold.equations(), Level::position, bound, options.t_start);
+  if (!(left.size <= bound))
+    refuse_contradiction(system, left, manifold.equations(), Level::position, options.t_start);
 }
 
 void start_velocities(const System& system, const Start& start, const System::Evaluation& e,
                       const Options& options) {
   const Violation given = velocity_violation(system, e, start.scales.lengths());
-  if (given.size > start_tolerance * speed_of(system, e, start) && !options.assemble) {
+  if (!options.assemble && misses(system, given, e, start, options.t_start)) {
     refuse(system, given, e, Level::velocity, options.t_start, "is violated by the initial velocities",
            "correct the velocities, or set the option assemble to have them changed");
   }
@@ -266,8 +307,8 @@ Start consistent_start(const Problem& problem, std::span<const double> q, std::s
       std::ranges::fill(start.v, 0.0);  // the constraints took away all but round-off of what was given
       violation = left();
     }
-    require_satisfied(system, violation, manifold.equations(), Level::velocity,
-                      start_tolerance * speed_of(system, manifold.equations(), start), t);
+    if (misses(system, violation, manifold.equations(), start, t))
+      refuse_contradiction(system, violation, manifold.equations(), Level::velocity, t);
     require_regular(problem, start, t);
     require_consistent_accelerations(system, manifold, start, v, t);
     start.scales.time = time_scale(system, manifold.equations(), start, duration);

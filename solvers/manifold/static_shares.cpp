@@ -67,6 +67,10 @@ class Shares {
     return largest;
   }
 
+  [[nodiscard]] bool pulls(std::size_t i, const VectorXd& x) const {
+    return S_0_[i] + S_[i].dot(x) < -rank_threshold;
+  }
+
   /// The least part of x by which friction is no more than rho times its bounds; all of it for what pulls.
   [[nodiscard]] double part_of(const VectorXd& x, double rho) const {
     double part = 0.0;
@@ -168,21 +172,54 @@ class Shares {
   std::vector<MatrixXd> T_;
 };
 
+/// Where friction is furthest from its bounds with given signs of normal forces; rho is infinite where what
+/// is one-sided among `stated` would pull.
+struct Furthest {
+  double rho = std::numeric_limits<double>::infinity();
+  VectorXd change = {};  // of lambda
+};
+
+Furthest furthest(const MatrixXd& N, const std::vector<SharedContact>& contacts,
+                  const std::vector<SharedContact>& stated, const Eigen::Ref<const VectorXd>& lambda) {
+  Shares shares(N, contacts, lambda);
+  if (shares.any()) shares.hold_idle(N);
+  if (!shares.any()) return {};
+  const auto [x, m] = shares.statical();
+  const double least = shares.largest_part(x);
+  const double part = m > 0.0 && least < 1.0 ? shares.part_of(x, 0.5 * (1.0 + least)) : 1.0;
+  Furthest its{least, part * shares.change(x)};
+  for (std::size_t i = 0; i < stated.size(); ++i)
+    if (stated[i].sign != 0.0 && shares.pulls(i, x)) its.rho = std::numeric_limits<double>::infinity();
+  return its;
+}
+
 }  // namespace
 
 void share_statically(const MatrixXd& N, const std::vector<SharedContact>& contacts,
                       Eigen::Ref<VectorXd> lambda) {
-  Shares shares(N, contacts, lambda);
-  if (!shares.any()) return;
-  const VectorXd none = VectorXd::Zero(shares.unknowns());
-  const double rho = shares.largest_part(none);
-  if (rho <= moderate) return;
-  shares.hold_idle(N);
-  if (!shares.any()) return;
-  const auto [x, m] = shares.statical();
-  const double least = shares.largest_part(x);
-  const double part = m > 0.0 && least < 1.0 ? shares.part_of(x, 0.5 * (1.0 + least)) : 1.0;
-  lambda += part * shares.change(x);
+  auto signs = contacts;
+  std::vector<std::size_t> either;
+  for (std::size_t i = 0; i < signs.size(); ++i) {
+    if (signs[i].sign != 0.0) continue;
+    signs[i].sign = lambda[signs[i].pressing_row] < 0.0 ? -1.0 : 1.0;
+    either.push_back(i);
+  }
+  const Shares shares(N, signs, lambda);
+  if (!shares.any() || shares.largest_part(VectorXd::Zero(shares.unknowns())) <= moderate) return;
+  Furthest best = furthest(N, signs, contacts, lambda);
+  for (bool better = true; std::exchange(better, false);) {
+    for (const std::size_t i : either) {
+      if (best.rho <= moderate) break;
+      signs[i].sign = -signs[i].sign;
+      if (auto other = furthest(N, signs, contacts, lambda); other.rho < best.rho) {
+        best = std::move(other);
+        better = true;
+      } else {
+        signs[i].sign = -signs[i].sign;
+      }
+    }
+  }
+  if (best.change.size() > 0) lambda += best.change;
 }
 
 }  // namespace dalembert

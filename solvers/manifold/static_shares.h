@@ -12,7 +12,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// within its bound. Rows of lambda; no friction if `rows` is 0.
 struct SharedContact {
   Eigen::Index pressing_row, row = 0, rows = 0;
-  double sign = 1.0;  // of the multiplier that pushes
+  double sign = 1.0;  // of the multiplier that pushes; 0: either, and the motion does not determine which
   double mu = 0.0;    // of rest
 };
 
@@ -25,6 +25,10 @@ struct SharedContact {
 /// S_i, this goes on from lambda_0 towards z* until rho is no more than the mean of rho(z*) and 1: shares are
 /// those of least norm where these are far from their bounds, vary continuously, and reach a bound where
 /// m = 0, at the time when something begins to slide.
+///
+/// What holds both ways presses with either sign, and (1) is one program for each choice of these. It is
+/// first that of lambda_0; where that leaves rho(z*) above 1/2, those signs are changed, one by one, that
+/// make it smaller: shares jump there, before anything reaches a bound that it need not.
 ///
 /// Where contacts can be wedged, pressing each other without a load, (1) would hold up whatever touches them:
 /// there those that carry nothing in lambda_0 stay without a force.

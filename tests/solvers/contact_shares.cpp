@@ -181,6 +181,41 @@ TEST_P(ContactShares, LadderSlidesWhereBothEndsReachTheirBounds) {
     }
 }
 
+// A ladder of weight 40 between a floor and a wall that hold both ways, its foot pulled away by 5 t. Both
+// ends slide as soon as both are at their bounds: N_floor + mu_wall N_wall = 40, about the foot N_wall (tan +
+// mu_wall) = 20, and 5 t = mu_floor N_floor - N_wall. By the forces of least norm the wall pulls.
+TEST_P(ContactShares, LadderSlidesAtTheSameTimeWhereFloorAndWallHoldBothWays) {
+  constexpr double mu_floor = 0.4, mu_wall = 0.3, angle = 1.1;
+  const double N_wall = 20.0 / (std::tan(angle) + mu_wall), N_floor = 40.0 - mu_wall * N_wall;
+  const double slides = (mu_floor * N_floor - N_wall) / 5.0;
+  const Vec<2> low(3.0 * std::cos(angle), 0.0), high(0.0, 3.0 * std::sin(angle));
+  Scene<2> scene("ladder");
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto body =
+      add_body(scene, BodyState<2>{.mass = 4.0, .inertia = 3.0, .centre = 0.5 * (low + high)}, "ladder");
+  const auto foot = body.point_at(low), top = body.point_at(high);
+  const Plane<2> wall{.normal = {1.0, 0.0}};
+  const auto floors = scene.add(OnCurve{foot, Plane<2>{}}), walls = scene.add(OnCurve{top, wall});
+  const auto on_floor = scene.add(coulomb(floors, Slip{foot, Plane<2>{}}, mu_floor));
+  const auto on_wall = scene.add(coulomb(walls, Slip{top, wall}, mu_wall));
+  scene.add(
+      force_law(points(foot), [](auto t, auto r, auto) { return vec(5.0 * t + 0.0 * r.x(), 0.0 * r.x()); }));
+  Options own = options(slides + 0.01, 2);
+  own.times = {0.0, 1e-9, 0.5 * slides, 0.9 * slides, 0.96 * slides, slides - 1e-5};
+  const auto run = simulate(scene, own);
+  ASSERT_EQ(run.events().size(), 2u);
+  for (const EventRecord& one : run.events()) {
+    EXPECT_EQ(one.kind, EventKind::slides);
+    EXPECT_NEAR(one.time, slides, 10.0 * rounding);  // of a force of 15, at a rate of 5
+  }
+  for (std::size_t i = 0; i < own.times.size(); ++i) {
+    EXPECT_FALSE(run.is_unique(walls, i));
+    EXPECT_LE(std::abs(run.multiplier(on_floor, i)), mu_floor * std::abs(run.multiplier(floors, i)));
+    EXPECT_LE(std::abs(run.multiplier(on_wall, i)), mu_wall * std::abs(run.multiplier(walls, i)) + rounding);
+  }
+  EXPECT_NEAR(run.multiplier(on_wall, 0), run.multiplier(on_wall, 1), 1e-6);  // at first they are continuous
+}
+
 /// A body of weight 10 on three legs at different heights, pulled at its centre by 10 t.
 struct Stand {
   Scene<2> scene{"stand"};

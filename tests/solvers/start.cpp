@@ -113,6 +113,41 @@ TEST(Start, WithinRoundedNumbersIsAccepted) {
 }
 
 // In such a time the bead moves by centimetres, but its place on the Earth is known to a nanometre only.
+// sin(pi) in double precision is 1.2e-16: so a drive that begins at rest moves by its own round-off.
+TEST(Start, RoundOffOfADriveThatBeginsAtRestIsNotHeldAgainstIt) {
+  const double pi = std::acos(-1.0);
+  Scene<2> scene;
+  const auto hand = driven([pi](auto t) { return vec(0.1 * cos(2.0 * t + pi), 0.0 * t); });
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {0.9, 0.0}});
+  scene.add(Distance{hand, bob, 1.0}, "rod");
+  const auto run = simulate(scene, {.t_end = 1.0, .samples = 2});
+  EXPECT_NEAR(run.position(bob, 1).x(), 1.0 - 0.1 * std::cos(2.0), 1e-6);  // of 0.2 at a tolerance of 1e-6
+}
+
+TEST(Start, ADriveIsKnownByWhatItAcceleratesBy) {
+  const auto starts = [](double speed) {
+    Scene<2> scene;
+    const auto hand = driven([speed](auto t) { return vec(0.5 * t * t + speed * t, 0.0 * t); });
+    const auto bob = scene.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
+    scene.add(Distance{hand, bob, 1.0}, "rod");
+    (void)simulate(scene, {.t_end = 0.1, .samples = 2});
+  };
+  starts(1e-9);  // of sqrt(a L) = 1: what is below 1e-8 counts as satisfied
+  EXPECT_THAT([&] { starts(1e-7); }, ThrowsMessage<InconsistentStart>(HasSubstr("speed of 1e-07")));
+}
+
+// The row asks for a speed of twice the distance from a line, which a particle on it misses by its rounding.
+TEST(Start, RoundOffOfAPositionIsNotHeldAgainstARowThatReadsIt) {
+  const auto starts_at = [](double y) {
+    Scene<2> scene;
+    const auto p = scene.add_particle({.mass = 1.0, .position = {0.3, y}});
+    scene.add(nonholonomic(points(p), [](auto r, auto v) { return v.x() - 2.0 * r.y(); }), "row");
+    (void)simulate(scene, {.t_end = 0.1, .samples = 2});
+  };
+  starts_at(epsilon * 0.3);
+  EXPECT_THAT([&] { starts_at(100.0 * epsilon); }, ThrowsMessage<InconsistentStart>(HasSubstr("\"row\"")));
+}
+
 TEST(Start, RoundOffOfALargePositionIsNotHeldAgainstAShortRun) {
   constexpr double radius = 6.4e6;
   Scene<3> scene;
