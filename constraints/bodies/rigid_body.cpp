@@ -66,8 +66,6 @@ Vec<3> turning(const BodyState<3>& s, const Vec<3>& arm) { return s.angular_velo
 
 template <int D>
 BodyPoint<D> RigidBody<D>::point(const Vec<D>& local) const {
-  if (!local.allFinite())
-    throw InvalidArgument("A point of a body has coordinates that are no finite numbers");
   BodyPoint<D> p{particles, {}};
   if constexpr (D == 2) {
     // centre + x e + y (e turned left), e = (p_2 - p_1)/(2 rho)
