@@ -2,6 +2,7 @@
 
 #include <dalembert/constraints/bodies/equimomental.h>
 #include <dalembert/constraints/bodies/orthonormal.h>
+#include <dalembert/core/errors.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +25,8 @@ void check(const LaminaState& s, const std::string& name) {
 }  // namespace
 
 BodyPoint<3, 3> Lamina::point(const Vec<2>& local) const {
+  if (!local.allFinite())
+    throw InvalidArgument("A point of a lamina has coordinates that are no finite numbers");
   const Vec<3> w = Equimomental<2>(arms).weights(local);
   BodyPoint<3, 3> p{particles, {}};
   for (int i = 0; i < 3; ++i)

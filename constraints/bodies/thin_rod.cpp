@@ -1,5 +1,7 @@
 #include "dalembert/constraints/bodies/thin_rod.h"
 
+#include <dalembert/core/errors.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -19,6 +21,8 @@ V between(const V& start, const V& end, double fraction) {
 
 template <int D>
 BodyPoint<D, 2> ThinRod<D>::point(double fraction) const {
+  if (!std::isfinite(fraction))
+    throw InvalidArgument("A point of a thin rod is at a fraction that is no finite number");
   const double weight = 0.5 + (fraction - 0.5) / (2.0 * arm);  // of the particle near the end
   BodyPoint<D, 2> p{particles, {}};
   for (int k = 0; k < D; ++k) {

@@ -5,11 +5,11 @@
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/contact/round_off.h>
 #include <dalembert/solvers/run/chebyshev.h>
-#include <dalembert/solvers/run/roundings.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace dalembert {
 
@@ -30,6 +30,7 @@ EventWatch::EventWatch(std::vector<FlatEvent> events, OfContacts of_contacts, co
     : events_(std::move(events)),
       of_contacts_(std::move(of_contacts)),
       accuracy_(tolerance),
+      rounded_(layout),
       largest_(events_.size()),
       units_(events_.size()),
       largest_before_(events_.size()),
@@ -50,21 +51,19 @@ EventWatch::EventWatch(std::vector<FlatEvent> events, OfContacts of_contacts, co
 std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
   from_ = beginning.start.time;
   asked_for_ = beginning.positive;
+  time_ = beginning.time;
   resolved_ = beginning.timed ? events_.size() : asked_for_;
   at_from_.clear();
   rate_at_from_.clear();
-  side_.clear();
+  auto never_left = [was = std::exchange(side_, {})](std::size_t e) { return was.empty() || was[e] == 0; };
   leaves_.assign(events_.size(), from_);
   std::vector<Found> jumped;
   for (std::size_t e = 0; e < events_.size(); ++e) {
     int before = 0;
     if (e < asked_for_) {
       forget_behind(e, from_);
-      if (beginning.before != nullptr) {
-        before = first_side(e, value(e, *beginning.before));
-      } else {
-        units_[e] = size_of_terms(e, beginning.start);
-      }
+      if (never_left(e)) units_[e] = std::max(units_[e], size_of_terms(e, beginning.start));
+      if (beginning.before != nullptr) before = first_side(e, value(e, *beginning.before));
     } else {
       largest_[e] = 0.0;
       units_[e] = of_contacts_.unit(e, beginning.start.time);
@@ -83,21 +82,26 @@ std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
 }
 
 /// How large the terms are whose sum a function is, where that is round-off of them, as |r| - L of what a rod
-/// of length L holds; else 0.
+/// of length L holds, or its rate; else 0.
 double EventWatch::size_of_terms(std::size_t event, const FlatSample& at) {
   const auto& function = events_[event].function;
-  std::vector<double> q(at.q.size());
-  FlatSample beside = at;
-  beside.q = q;
   try {
     const double here = function(at);
+    rounded_.measure(at, time_);
     double most = 0.0;
-    round_by_turns(at.q, q, [&] { most = std::max(most, std::abs(function(beside) - here)); });
+    for (const std::size_t turns : {1U, 2U, 3U})
+      most = std::max(most, std::abs(function(rounded_.by_turns(turns)) - here));
     const double size = most / epsilon;
     return std::abs(here) <= round_off() * size ? size : 0.0;
-  } catch (...) {  // at the start itself `value` will say so
+  } catch (...) {  // at the place itself `value` will say so
     return 0.0;
   }
+}
+
+/// What has never left 0 may be round-off of terms that were smaller before.
+void EventWatch::measure_what_stays(std::size_t event, const FlatSample& at, double value) {
+  if (event < asked_for_ && side_[event] == 0 && value != 0.0)
+    units_[event] = std::max(units_[event], size_of_terms(event, at));
 }
 
 std::optional<std::size_t> EventWatch::triggered_at_start(std::size_t first, std::size_t count) const {
@@ -337,12 +341,16 @@ std::vector<EventWatch::Found> EventWatch::locate(const Step& step) {
     for (std::size_t e = 0; e < events_.size(); ++e) {
       all[e].whole.nodes.push_back(t);
       all[e].whole.values.push_back(value(e, at));
+      measure_what_stays(e, at, all[e].whole.values.back());
       if (rates && e >= asked_for_) all[e].rates.push_back(of_contacts_.rate(e, at));
     }
   }
   for (const double t : resolved_ > 0 ? check_times(from_, step.to, degree) : std::vector<double>{}) {
     const FlatSample at = step.read(t);
-    for (std::size_t e = 0; e < resolved_; ++e) all[e].at_checks.push_back(value(e, at));
+    for (std::size_t e = 0; e < resolved_; ++e) {
+      all[e].at_checks.push_back(value(e, at));
+      measure_what_stays(e, at, all[e].at_checks.back());
+    }
   }
   std::vector<Found> found;
   for (std::size_t e = 0; e < events_.size(); ++e) {

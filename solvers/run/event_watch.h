@@ -5,6 +5,7 @@
 #include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/run/interpolant.h>
+#include <dalembert/solvers/run/rounded_sample.h>
 
 #include <algorithm>
 #include <functional>
@@ -93,6 +94,7 @@ class EventWatch {
   /// What its values are measured by.
   [[nodiscard]] double size(std::size_t event) const { return std::max(largest_[event], units_[event]); }
   [[nodiscard]] double size_of_terms(std::size_t event, const FlatSample& at);
+  void measure_what_stays(std::size_t event, const FlatSample& at, double value);
   [[nodiscard]] int first_side(std::size_t event, double value) const;
   /// How a function leaves the 0 that it begins with.
   struct Departure {
@@ -124,6 +126,8 @@ class EventWatch {
   std::vector<FlatEvent> events_;
   OfContacts of_contacts_;
   Accuracy accuracy_;
+  RoundedSample rounded_;
+  double time_ = 0.0;  ///< of the scene
   double from_ = 0.0;
   std::size_t asked_for_ = 0;             ///< the first of them; behind are those of contacts
   std::size_t resolved_ = 0;              ///< the first of them may be faster than the motion

@@ -112,5 +112,18 @@ TEST(BodiesOfTakenNames, LeaveTheSceneAsItWas) {
   }
 }
 
+TEST(PlaceOfLaminaOrRod, OfNoFiniteNumberIsRefused) {
+  Scene<2> plane;
+  Scene<3> space;
+  const auto rod =
+      add_thin_rod(plane, ThinRodState<2>{.mass = 1.0, .start = {0.0, 0.0}, .end = {1.0, 0.0}}, "rod");
+  const auto plate = add_lamina(space, LaminaState{.mass = 1.0, .inertia = {1.0, 1.0}}, "plate");
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW((void)rod.point(bad), InvalidArgument);
+    EXPECT_THROW((void)plate.point({0.0, bad}), InvalidArgument);
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::rigid_body_test

@@ -313,5 +313,47 @@ TEST_P(Events, ForceThatJumpsWhereNothingMovesCrosses) {
   EXPECT_NEAR(run.events()[1].time, 2.3, bound);
 }
 
+/// Constraints keep these functions 0 from the start, at 0 coordinates and multipliers as well: no event, at
+/// whatever time round-off takes a sign.
+TEST_P(Events, WhatConstraintsKeepAt0DoesNotCross) {
+  const auto expect_none = [&](const Scene<2>& scene,
+                               const std::function<double(const Sample<2>&)>& function) {
+    const auto run = simulate(scene, options(3.0), {{.name = "never", .function = function, .ends = true}});
+    EXPECT_TRUE(run.events().empty());
+    EXPECT_EQ(run.times().back(), 3.0);
+  };
+  {
+    Scene<2> circle;
+    const auto bead = circle.add_particle({.mass = 1.0, .position = {1.0, 0.0}, .velocity = {0.0, 1.0}});
+    circle.add(Distance{Fixed<2>{}, bead, 1.0});
+    expect_none(circle, [=](const Sample<2>& now) { return now.position(bead).dot(now.velocity(bead)); });
+  }
+  {
+    Scene<2> gear;
+    gear.add_particle({.mass = 1.0});
+    const auto a = gear.add_rotor({.inertia = 1.0}), b = gear.add_rotor({.inertia = 0.3});
+    gear.add(holonomic(points(a, b), [](auto x, auto y) { return 3.0 * x[0] - y[0]; }));
+    gear.add(Torque{a, 0.4});
+    expect_none(
+        gear, [=](const Sample<2>& now) { return 3.0 * now.angular_velocity(a) - now.angular_velocity(b); });
+  }
+  for (const double speed : {0.0, 1.0}) {
+    Scene<2> line;
+    const auto bead = line.add_particle({.mass = 1.0, .velocity = {0.8 * speed, 0.6 * speed}});
+    line.add(OnCurve{bead, Plane<2>{{0.0, 0.0}, {-0.6, 0.8}}});
+    line.add(UniformGravity<2>{{0.0, -9.81}});
+    expect_none(line, [=](const Sample<2>& now) {
+      return -0.6 * now.velocity(bead).x() + 0.8 * now.velocity(bead).y();
+    });
+  }
+  {
+    Scene<2> unloaded;
+    const auto bead = unloaded.add_particle({.mass = 1.0, .velocity = {0.8, 0.6}});
+    const auto line = unloaded.add(OnCurve{bead, Plane<2>{{0.0, 0.0}, {-0.6, 0.8}}});
+    unloaded.add(LinearDrag{bead, 0.3});
+    expect_none(unloaded, [=](const Sample<2>& now) { return now.multiplier(line); });
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::events_test
