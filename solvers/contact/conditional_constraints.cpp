@@ -47,8 +47,8 @@ void ConditionalConstraints::find_modes(const Instant& at, std::optional<std::si
 
 /// What contacts did, and its effect on friction, of which a switching function may have triggered it.
 Change ConditionalConstraints::resolve_friction(Change change, const Instant& at,
-                                                std::optional<std::size_t> triggered) {
-  friction_.require_no_impulse(change.impulses, at);
+                                                std::optional<std::size_t> triggered, double at_rest) {
+  friction_.require_no_impulse(change.impulses, at, at_rest);
   change.q.assign(at.q.begin(), at.q.end());
   find_modes({at.t, at.q, change.v}, triggered, change);
   return change;
@@ -93,7 +93,7 @@ Change ConditionalConstraints::replace_system(const std::shared_ptr<const System
   const auto touching = contacts_.replace_system(
       std::make_shared<const System>(stated->without(stated->conditions().frictional_constraints())), at,
       joining);
-  return resolve_friction(contacts_.resolve(at, touching), at);
+  return resolve_friction(contacts_.resolve(at, touching, joining.known), at, {}, joining.known);
 }
 
 bool ConditionalConstraints::passes_rest(std::size_t function, const FlatSample& at) const {

@@ -100,7 +100,7 @@ std::vector<ContactImpacts::Limit> ContactImpacts::note(const Change& change, co
   for (const EventRecord& impact : change.events) {
     ContactState& c = contact_of(impact);
     Accumulation& impacts = c.impacts;
-    if (c.moved) impacts = {};  // its rest has ended
+    if (c.closed && (c.moved || c.arrives)) impacts = {};  // its rest has ended
     impacts.add(t, error_of_time(change, c.island, gaps));
     const double speed = std::abs(gaps.rate(c));
     const bool ends = (c.closed && !c.moved) || speed <= known_->still(c) || hops_end(c, speed);

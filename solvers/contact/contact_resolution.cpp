@@ -46,12 +46,14 @@ void ContactResolution::couple(const Instant& at) {
   coupling_ = coupling_of(*stated_, *contacts_, touching_, at);
 }
 
-void ContactResolution::resolve(std::vector<std::size_t> touching, bool known_roughly, bool friction) {
+void ContactResolution::resolve(std::vector<std::size_t> touching, bool known_roughly, bool friction,
+                                double at_rest) {
   touching_ = std::move(touching);
   couple(at_);
   find_rates(known_roughly);
-  const auto arrives = [](const ContactState& c) { return c.arrives.value_or(0.0) < 0.0; };
-  if (U_.minCoeff() < 0.0 || std::ranges::any_of(*contacts_, arrives)) strike();
+  const Coupling::Places still = jerked_within(at_rest);
+  if (U_.minCoeff() < 0.0) strike();
+  hold(still, at_rest);
   for (ContactState& c : *contacts_) {
     c.moved = false;
     c.arrives.reset();
@@ -79,8 +81,32 @@ void ContactResolution::find_rates(bool known_roughly) {
         triggered(k) && !c.parted && c.opened_at != at_.t &&
         std::abs(rate) <= known_->accuracy.of_velocities() * known_->scales.speed() * c.gradient;
     const bool slow = known_roughly && std::abs(rate) <= known_->still(c);
-    if ((c.closed && !c.moved) || returns || slow || std::abs(rate) <= known_->no_rate(c)) rate = 0.0;
+    const bool rests = c.closed && !c.moved && !c.arrives;
+    if (rests || returns || slow || std::abs(rate) <= known_->no_rate(c)) rate = 0.0;
     if (returns && c.impacts.last() == c.opened_at) come_to_rest(c, at_.t, change_);
+  }
+}
+
+bool ContactResolution::is_slow(Index place, double at_rest) const {
+  return std::abs(U_[place]) <= at_rest * known_->scales.speed() * contact(place).gradient;
+}
+
+/// What rested, and what joints have set moving by no more than this part of the scene's speed.
+Coupling::Places ContactResolution::jerked_within(double at_rest) const {
+  Coupling::Places places;
+  for (Index k = 0; k < U_.size(); ++k) {
+    const ContactState& c = contact(k);
+    if (c.closed && !c.moved && c.arrives && is_slow(k, at_rest)) places.push_back(k);
+  }
+  return places;
+}
+
+/// Keeps these closed where they leave so slowly, and lists no impacts of them: whether they would leave is
+/// not known. What presses has taken its part of the impulse.
+void ContactResolution::hold(const Coupling::Places& jerked, double at_rest) {
+  for (const Index k : jerked) {
+    std::erase_if(change_.events, [&](const EventRecord& one) { return one.source == contact(k).number; });
+    if (is_slow(k, at_rest)) U_[k] = 0.0;
   }
 }
 

@@ -153,13 +153,13 @@ Change Contacts::resolve_start(const Instant& start) {
   return resolve(start, stay);
 }
 
-Change Contacts::resolve(const Instant& at, const std::vector<std::size_t>& triggered) {
+Change Contacts::resolve(const Instant& at, const std::vector<std::size_t>& triggered, double at_rest) {
   ContactResolution resolution(stated_, contacts_, known_, gaps_, at, triggered);
   const bool known_roughly = !started_ || approaching();
   started_ = true;
   auto touched = touching(at, triggered);
   if (!touched.empty()) {
-    resolution.resolve(std::move(touched), known_roughly, friction_);
+    resolution.resolve(std::move(touched), known_roughly, friction_, at_rest);
     everywhere_ = false;
     rebuild_system();
   }
@@ -248,12 +248,12 @@ std::vector<std::size_t> Contacts::replace_system(std::shared_ptr<const System> 
     c.sign = law.sign();
     const double gap = gaps_.gap(c), allowed = left_closed(c, known_);
     if (gap < -allowed) refuse(*stated_, contacts_, {i}, at.t, "a change of the scene leaves it violated");
-    const double unit = known_.scales.speed() * c.gradient, given = before.rate(c);
-    const bool moves = std::abs(given) > known_.accuracy.of_velocities() * unit;
-    const bool jerked = std::abs(gaps_.rate(c) - given) > joining.known * unit;
-    c.moved = c.closed && (moves || jerked);
+    const double unit = known_.scales.speed() * c.gradient, given = before.rate(c), rate = gaps_.rate(c);
+    c.moved = c.closed && std::abs(given) > known_.accuracy.of_velocities() * unit;
+    const bool jerked = std::abs(rate - given) > known_.no_rate(c);
     if (gap <= allowed) {
-      if (jerked) c.arrives = c.closed && !moves ? 0.0 : std::min(given, 0.0);
+      // More than it approaches with and without the joint would be energy from nowhere.
+      if (jerked) c.arrives = c.closed && !c.moved ? 0.0 : std::min(std::max(given, rate), 0.0);
       if (!c.closed) touching.push_back(i);
     } else if (c.closed) {
       c.closed = c.moved = false;

@@ -20,9 +20,10 @@ namespace DALEMBERT_HIDDEN dalembert {
 ///   impact:        P >= 0,       U+ + e U- >= 0,   P (U+ + e U-) = 0    (Newton; Moreau for several) (1)
 ///   acceleration:  lambda >= 0,  dU/dt >= 0,       lambda dU/dt = 0                                      (2)
 ///
-/// over the touching contacts, P the impulses, U+ - U- and dU/dt by Coupling. (Where a joint is imposed at
-/// the same time U- is the rate before its impulse too: of this no part bounces.) Both are solved exactly,
-/// and have a unique U+ and dU/dt. Energy changes by sum (1 - e) U- P / 2 <= 0. A contact with dU/dt = 0 by
+/// over the touching contacts, P the impulses, U+ - U- and dU/dt by Coupling. Both are solved exactly, and
+/// have a unique U+ and dU/dt. Energy changes by sum (1 - e) U- P / 2 <= 0. (Where a joint is imposed at the
+/// same time e multiplies the slower one of the approaches before and after its impulse, 0 if one is none: of
+/// that impulse no part bounces, and one contact gains no energy.) A contact with dU/dt = 0 by
 /// (2) is closed: it is in force, like any other constraint, until its force changes its sign.
 ///
 /// Each island of the scene has its own (1) and (2); only those where something happens are looked at.
@@ -86,7 +87,9 @@ class Contacts {
   /// StepFailure where no velocities or accelerations satisfy (1), (2), naming the contacts; EquationFault.
   /// With friction accelerations are not those of (2): what touches and does not separate is closed then,
   /// what has fallen open, and `open_pulling` finds what else opens.
-  Change resolve(const Instant& at, const std::vector<std::size_t>& triggered);
+  /// What joints have set moving by no more than a part of the scene's speed is at rest, to the accuracy of
+  /// the run: it takes its part of their impulse and stays closed.
+  Change resolve(const Instant& at, const std::vector<std::size_t>& triggered, double at_rest = 0.0);
   /// The first closed one, if there is any, that others drive apart, whatever its force is: no pull shows it.
   [[nodiscard]] std::optional<std::size_t> driven_apart(const Instant& at) const;
   /// Where the forces of closed contacts are not determined those of least norm may pull, where dry friction

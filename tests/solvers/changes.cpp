@@ -441,6 +441,58 @@ TEST_P(Changes, ImposedJointsBounceNothingThatRests) {
   }
 }
 
+TEST_P(Changes, ContactsShareTheImpulseOfAnImposedJoint) {
+  // A ball slides on a floor beside a pendulum at 300, no part of its motion: what its speed makes of the
+  // run's error is far more than the ball's own speed. An oblique rod stops it, with half of its impulse by
+  // the floor.
+  constexpr double v = 0.5, X = 2.5, fast = 300.0;
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto ball = scene.add_particle({.mass = 1.0, .velocity = {v, 0.0}}, "ball");
+  const auto floor = scene.add(unilateral(OnCurve{ball, Plane<2>{}}), "floor");
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {6.0, 0.0}, .velocity = {0.0, fast}}, "bob");
+  scene.add(Distance{Fixed<2>{{5.0, 0.0}}, bob, 1.0}, "pendulum");
+  const auto rod = scene.add(Distance{Fixed<2>{{X - 1.0, -1.0}}, ball, std::sqrt(2.0)}, "rod");
+  scene.release(rod);
+  const Event<2> tied{"tied", [=](const auto& now) { return now.position(ball).x() - X; }, Crossing::rising,
+                      false, [=](Scene<2>& its) { its.impose(rod); }};
+  auto o = options(X / v + 0.05);
+  o.tolerance = std::min(o.tolerance, 1e-8);
+  const auto run = simulate(scene, o, {tied});
+  // A uniform motion is integrated exactly; what is left is the rounding of the rod's direction.
+  EXPECT_NEAR(run.sample_after(0).velocity(ball).norm(), 0.0, 1e-8);
+  EXPECT_NEAR(run.impulse(rod, 0), -v * std::sqrt(2.0), 1e-8);
+  EXPECT_NEAR(run.impulse(floor, 0), v, 1e-8);
+}
+
+TEST_P(Changes, ImposedJointsGiveNoEnergyToWhatIsStruck) {
+  // Struck down at `down` and moving aside at u a ball meets an oblique rod and a floor that loses nothing.
+  // Alone the rod would leave it an approach of (down + u)/2, less than it came with: it leaves at that,
+  // along the rod's circle.
+  for (const double down : {1.0, 3.0}) {
+    constexpr double u = 0.2;
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto ball = scene.add_particle({.mass = 1.0, .position = {0.9, 0.0}, .velocity = {u, 0.0}}, "ball");
+    const auto floor = scene.add(unilateral(OnCurve{ball, Plane<2>{}}, {.restitution = 1.0}), "floor");
+    const auto rod = scene.add(Distance{Fixed<2>{{0.0, -1.0}}, ball, std::sqrt(2.0)}, "rod");
+    scene.release(rod);
+    const Event<2> taut{
+        "taut", [](const auto& now) { return now.time() - 0.5; }, Crossing::rising, false,
+        [=](Scene<2>& its) {
+          its.replace(ball, ParticleState<2>{.mass = 1.0, .position = {1.0, 0.0}, .velocity = {u, -down}});
+          its.impose(rod);
+        }};
+    const auto run = simulate(scene, options(0.55), {taut});
+    const double up = 0.5 * (down + u), error = 4.0 * down * 1e-9;  // the rounding of a position imposed
+    const auto after = run.sample_after(0).velocity(ball);
+    EXPECT_NEAR(after.x(), -up, error);
+    EXPECT_NEAR(after.y(), up, error);
+    EXPECT_NEAR(run.impulse(rod, 0), -(u + up) * std::sqrt(2.0), error);
+    EXPECT_NEAR(run.impulse(floor, 0), up + down + u + up, error);
+  }
+}
+
 TEST_P(Changes, ReleasedStopLetsTheBodyFall) {
   // Stopped on its way down a ball falls on, through where it was stopped.
   const Reflected its(0.0);
