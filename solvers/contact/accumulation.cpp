@@ -35,11 +35,12 @@ void Accumulation::add(double t, double error) {
   const double before = std::exchange(interval_, t - std::exchange(last_, t));
   const double ratio_before = std::exchange(ratio_, interval_ / before);
   left_ = infinity;
-  if (t > limit_) limit_ = change_ = infinity;
+  if (t - error > limit_) limit_ = change_ = infinity;
   if (!(ratio_before > 0.0 && ratio_before < 1.0)) return;
   const double rho = limit_of_ratios(ratio_before, ratio_);
   left_ = sum_of_rest(interval_, ratio_, rho);
   const double before_this = std::exchange(estimate_, t + left_);
+  if (estimate_ == infinity) return;
   const double change = std::abs(estimate_ - before_this);
   // What is of the same series has the same rho: the one found last is known worse.
   if (change >= change_ && !contradicts(error * amplification(std::max(rho, rho_)))) return;

@@ -14,7 +14,7 @@ namespace DALEMBERT_HIDDEN dalembert {
 /// as they do where forces and restitution vary smoothly. Early intervals give the limit as well as that
 /// holds, late ones as well as times are known: the best estimate is the one that changed least. It is of one
 /// series: one that later impacts contradict, by more than both are known, ends where forces, or restitution,
-/// have changed, and so does one whose limit an impact has passed.
+/// have changed, and so does one whose limit an impact has passed by more than its time is known.
 class Accumulation {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 

@@ -20,7 +20,7 @@ struct Change {
 };
 
 /// The impulses of joints that a change imposes: the velocities before them; and to what these are right, a
-/// part of the scene's speed. What is at rest to that moves by no impulse.
+/// part of the top speed so far of what is coupled to them.
 struct Joining {
   std::span<const double> v;
   double known;

@@ -47,8 +47,9 @@ void ConditionalConstraints::find_modes(const Instant& at, std::optional<std::si
 
 /// What contacts did, and its effect on friction, of which a switching function may have triggered it.
 Change ConditionalConstraints::resolve_friction(Change change, const Instant& at,
-                                                std::optional<std::size_t> triggered, double at_rest) {
-  friction_.require_no_impulse(change.impulses, at, at_rest);
+                                                std::optional<std::size_t> triggered,
+                                                std::span<const double> unknown) {
+  friction_.require_no_impulse(change.impulses, at, unknown);
   change.q.assign(at.q.begin(), at.q.end());
   find_modes({at.t, at.q, change.v}, triggered, change);
   return change;
@@ -75,7 +76,7 @@ std::optional<std::size_t> ConditionalConstraints::fallen(const FlatSample& behi
 }
 
 Change ConditionalConstraints::resolve_jump(const Instant& at) {
-  const auto touching = contacts_.replace_system(contacts_.stated(), at, {at.v, 0.0});
+  const auto touching = contacts_.replace_system(contacts_.stated(), at, {});
   return resolve_friction(contacts_.resolve(at, touching), at);
 }
 
@@ -89,11 +90,11 @@ std::vector<std::size_t> ConditionalConstraints::not_held(const System& stated, 
 Change ConditionalConstraints::replace_system(const std::shared_ptr<const System>& stated, const Instant& at,
                                               std::span<const double> impulses, const Joining& joining) {
   friction_.replace_system(stated, at);
-  friction_.require_no_impulse(impulses, at);
+  friction_.require_no_impulse(impulses, at, {});
   const auto touching = contacts_.replace_system(
       std::make_shared<const System>(stated->without(stated->conditions().frictional_constraints())), at,
       joining);
-  return resolve_friction(contacts_.resolve(at, touching, joining.known), at, {}, joining.known);
+  return resolve_friction(contacts_.resolve(at, touching), at, {}, contacts_.unknown_speeds(joining.known));
 }
 
 bool ConditionalConstraints::passes_rest(std::size_t function, const FlatSample& at) const {

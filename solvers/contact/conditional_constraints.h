@@ -74,7 +74,8 @@ class ConditionalConstraints {
 
  private:
   [[nodiscard]] Change resolve_friction(Change of_contacts, const Instant& at,
-                                        std::optional<std::size_t> triggered = {}, double at_rest = 0.0);
+                                        std::optional<std::size_t> triggered = {},
+                                        std::span<const double> unknown = {});
   void find_modes(const Instant& at, std::optional<std::size_t> triggered, Change& change);
 
   Contacts contacts_;

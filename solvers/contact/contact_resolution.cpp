@@ -46,17 +46,17 @@ void ContactResolution::couple(const Instant& at) {
   coupling_ = coupling_of(*stated_, *contacts_, touching_, at);
 }
 
-void ContactResolution::resolve(std::vector<std::size_t> touching, bool known_roughly, bool friction,
-                                double at_rest) {
+void ContactResolution::resolve(std::vector<std::size_t> touching, bool known_roughly, bool friction) {
   touching_ = std::move(touching);
   couple(at_);
   find_rates(known_roughly);
-  const Coupling::Places still = jerked_within(at_rest);
+  const Coupling::Places jerked = jerked_slowly();
   if (U_.minCoeff() < 0.0) strike();
-  hold(still, at_rest);
+  hold(jerked);
   for (ContactState& c : *contacts_) {
     c.moved = false;
     c.arrives.reset();
+    c.unknown = 0.0;
   }
   if (known_roughly) join_slow();
   const Coupling::Places resting = open_separating();
@@ -87,26 +87,24 @@ void ContactResolution::find_rates(bool known_roughly) {
   }
 }
 
-bool ContactResolution::is_slow(Index place, double at_rest) const {
-  return std::abs(U_[place]) <= at_rest * known_->scales.speed() * contact(place).gradient;
-}
+bool ContactResolution::is_slow(Index place) const { return std::abs(U_[place]) <= contact(place).unknown; }
 
-/// What rested, and what joints have set moving by no more than this part of the scene's speed.
-Coupling::Places ContactResolution::jerked_within(double at_rest) const {
+/// What rested, and what joints have set moving by no more than is known.
+Coupling::Places ContactResolution::jerked_slowly() const {
   Coupling::Places places;
   for (Index k = 0; k < U_.size(); ++k) {
     const ContactState& c = contact(k);
-    if (c.closed && !c.moved && c.arrives && is_slow(k, at_rest)) places.push_back(k);
+    if (c.closed && !c.moved && c.arrives && is_slow(k)) places.push_back(k);
   }
   return places;
 }
 
 /// Keeps these closed where they leave so slowly, and lists no impacts of them: whether they would leave is
 /// not known. What presses has taken its part of the impulse.
-void ContactResolution::hold(const Coupling::Places& jerked, double at_rest) {
+void ContactResolution::hold(const Coupling::Places& jerked) {
   for (const Index k : jerked) {
     std::erase_if(change_.events, [&](const EventRecord& one) { return one.source == contact(k).number; });
-    if (is_slow(k, at_rest)) U_[k] = 0.0;
+    if (is_slow(k)) U_[k] = 0.0;
   }
 }
 

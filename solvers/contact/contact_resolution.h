@@ -26,7 +26,7 @@ class ContactResolution {
   /// Once, with these in touch. Their velocities may be known only roughly, at a start and after impacts at
   /// one time; with friction the accelerations are not those of (2). See Contacts::resolve, also for what is
   /// thrown.
-  void resolve(std::vector<std::size_t> touching, bool known_roughly, bool friction, double at_rest);
+  void resolve(std::vector<std::size_t> touching, bool known_roughly, bool friction);
   /// What has changed: nothing before `resolve`.
   [[nodiscard]] const Change& change() const { return change_; }
 
@@ -39,10 +39,10 @@ class ContactResolution {
   [[nodiscard]] Instant after() const { return {at_.t, at_.q, change_.v}; }
   void couple(const Instant& at);
   void find_rates(bool known_roughly);
-  [[nodiscard]] bool is_slow(Eigen::Index place, double at_rest) const;
-  [[nodiscard]] Coupling::Places jerked_within(double at_rest) const;
+  [[nodiscard]] bool is_slow(Eigen::Index place) const;
+  [[nodiscard]] Coupling::Places jerked_slowly() const;
   void strike();
-  void hold(const Coupling::Places& jerked, double at_rest);
+  void hold(const Coupling::Places& jerked);
   void join_slow();
   [[nodiscard]] Coupling::Places open_separating();
   void close_resting(const Coupling::Places& resting);

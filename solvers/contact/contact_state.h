@@ -19,8 +19,10 @@ struct ContactState {
   double sign, restitution;
   std::size_t island;
   bool closed = false;
-  bool moved = false;               ///< closed, but a change of the scene has set its surface moving
-  std::optional<double> arrives{};  ///< U- of (1) of Contacts, where impulses of joints have changed it since
+  bool moved = false;  ///< closed, but a change of the scene has set its surface moving
+  std::optional<double>
+      arrives{};         ///< U- of (1) of Contacts, where impulses of joints have changed it since,
+  double unknown = 0.0;  ///< and how exactly these are known, as a rate of the gap
   double closed_at = 0.0;
   bool bears = false;     ///< by the forces of (2) of Contacts that were found when it was last closed
   double accepted = 0.0;  ///< the acceleration away from it, by which it was closed all the same

@@ -1,5 +1,6 @@
 #include "dalembert/solvers/contact/contacts.h"
 
+#include <dalembert/core/analysis/islands.h>
 #include <dalembert/solvers/base/step_failure.h>
 #include <dalembert/solvers/contact/contact_accelerations.h>
 #include <dalembert/solvers/contact/contact_law.h>
@@ -29,6 +30,7 @@ Contacts::Contacts(std::shared_ptr<const System> stated, const Scales& scales, d
     : stated_(std::move(stated)),
       known_{scales, Accuracy(tolerance), duration},
       friction_(friction),
+      fastest_(start.v.size()),
       gaps_(*stated_),
       forces_(*stated_) {
   find_gaps(start);
@@ -153,13 +155,13 @@ Change Contacts::resolve_start(const Instant& start) {
   return resolve(start, stay);
 }
 
-Change Contacts::resolve(const Instant& at, const std::vector<std::size_t>& triggered, double at_rest) {
+Change Contacts::resolve(const Instant& at, const std::vector<std::size_t>& triggered) {
   ContactResolution resolution(stated_, contacts_, known_, gaps_, at, triggered);
   const bool known_roughly = !started_ || approaching();
   started_ = true;
   auto touched = touching(at, triggered);
   if (!touched.empty()) {
-    resolution.resolve(std::move(touched), known_roughly, friction_, at_rest);
+    resolution.resolve(std::move(touched), known_roughly, friction_);
     everywhere_ = false;
     rebuild_system();
   }
@@ -205,7 +207,24 @@ bool Contacts::open_pulling(const FlatSample& now, std::vector<EventRecord>& eve
   return found;
 }
 
+void Contacts::note_speeds(std::span<const double> v) {
+  for (std::size_t i = 0; i < v.size(); ++i) fastest_[i] = std::max(fastest_[i], std::abs(v[i]));
+}
+
+std::vector<double> Contacts::unknown_speeds(double known) const {
+  const auto island = islands(*stated_).of_coordinate;
+  const auto lengths = known_.scales.lengths();
+  std::vector<double> of_islands(island.size()), all;
+  for (std::size_t i = 0; i < island.size(); ++i) {
+    double& speed = of_islands[island[i]];
+    speed = std::max(speed, known * fastest_[i] * lengths[i]);
+  }
+  for (const std::size_t one : island) all.push_back(of_islands[one]);
+  return all;
+}
+
 void Contacts::require_open(const FlatSample& now) {
+  note_speeds(now.v);
   find_gaps({now.time, now.q, now.v});
   for (ContactState& c : contacts_) {
     const double gap = gaps_.gap(c);
@@ -233,13 +252,18 @@ std::vector<std::size_t> Contacts::open_in(const System& stated, const Instant& 
 }
 
 std::vector<std::size_t> Contacts::replace_system(std::shared_ptr<const System> stated, const Instant& at,
-                                                  const Joining& joining) {
+                                                  const std::optional<Joining>& joining) {
   if (stated != stated_) replace_equations(contacts_, *stated_, *stated, known_.scales, at);
   stated_ = std::move(stated);
   system_.reset();
   find_gaps(at);
-  Gaps before(*stated_);
-  before.find(*stated_, known_.scales, {at.t, at.q, joining.v});
+  Gaps before = gaps_;
+  std::vector<double> unknown(at.v.size());
+  if (joining) {
+    note_speeds(joining->v);
+    before.find(*stated_, known_.scales, {at.t, at.q, joining->v});
+    unknown = unknown_speeds(joining->known);
+  }
   std::vector<std::size_t> touching;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     ContactState& c = contacts_[i];
@@ -250,7 +274,8 @@ std::vector<std::size_t> Contacts::replace_system(std::shared_ptr<const System> 
     if (gap < -allowed) refuse(*stated_, contacts_, {i}, at.t, "a change of the scene leaves it violated");
     const double unit = known_.scales.speed() * c.gradient, given = before.rate(c), rate = gaps_.rate(c);
     c.moved = c.closed && std::abs(given) > known_.accuracy.of_velocities() * unit;
-    const bool jerked = std::abs(rate - given) > known_.no_rate(c);
+    const bool jerked = joining && std::abs(rate - given) > known_.no_rate(c);
+    c.unknown = unknown[stated_->w_columns()[stated_->row(c.row).front()]] * c.gradient;
     if (gap <= allowed) {
       // More than it approaches with and without the joint would be energy from nowhere.
       if (jerked) c.arrives = c.closed && !c.moved ? 0.0 : std::min(std::max(given, rate), 0.0);

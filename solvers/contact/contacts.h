@@ -44,7 +44,8 @@ class Contacts {
   /// Goes on with these equations, whose parameters may differ, at a state that may too: returns what touches
   /// there. Throws StepFailure where a gap is negative, naming the contact.
   [[nodiscard]] std::vector<std::size_t> replace_system(std::shared_ptr<const System> stated,
-                                                        const Instant& at, const Joining& joining);
+                                                        const Instant& at,
+                                                        const std::optional<Joining>& joining);
   /// The numbers in the layout of those that are open at a state and with equations that a change leaves.
   [[nodiscard]] std::vector<std::size_t> open_in(const System& stated, const Instant& at) const;
   void adopt(const Scales& scales) {
@@ -87,9 +88,11 @@ class Contacts {
   /// StepFailure where no velocities or accelerations satisfy (1), (2), naming the contacts; EquationFault.
   /// With friction accelerations are not those of (2): what touches and does not separate is closed then,
   /// what has fallen open, and `open_pulling` finds what else opens.
-  /// What joints have set moving by no more than a part of the scene's speed is at rest, to the accuracy of
-  /// the run: it takes its part of their impulse and stays closed.
-  Change resolve(const Instant& at, const std::vector<std::size_t>& triggered, double at_rest = 0.0);
+  /// What joints have set moving by no more than is known takes its part of their impulse and stays closed.
+  Change resolve(const Instant& at, const std::vector<std::size_t>& triggered);
+  /// Of each coordinate this part of the top speed so far of its island: what is not coupled to it says
+  /// nothing of its error.
+  [[nodiscard]] std::vector<double> unknown_speeds(double known) const;
   /// The first closed one, if there is any, that others drive apart, whatever its force is: no pull shows it.
   [[nodiscard]] std::optional<std::size_t> driven_apart(const Instant& at) const;
   /// Where the forces of closed contacts are not determined those of least norm may pull, where dry friction
@@ -107,6 +110,7 @@ class Contacts {
   [[nodiscard]] std::vector<std::size_t> touching(const Instant& at,
                                                   const std::vector<std::size_t>& triggered) const;
   void join_within_error(const Instant& at, std::vector<std::size_t>& touching) const;
+  void note_speeds(std::span<const double> v);
   void rebuild_system();
 
   std::shared_ptr<const System> stated_, system_;
@@ -116,7 +120,8 @@ class Contacts {
   std::vector<std::size_t> touching_at_start_;
   bool started_ = false;
   bool everywhere_ = true;  // all islands are to be looked at: at the start, and after a change of the scene
-  mutable Gaps gaps_;       // of the state watched,
+  std::vector<double> fastest_;   // the top speed of each coordinate so far
+  mutable Gaps gaps_;             // of the state watched,
   mutable ContactForces forces_;  // and its forces
 };
 

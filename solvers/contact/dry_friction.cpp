@@ -120,7 +120,7 @@ void DryFriction::take_away_slip(const std::vector<std::size_t>& open, const Ins
 /// Directions are known to the rounding of the positions, over the scene's length: an impulse that is that of
 /// the others, or of the momenta, is none.
 void DryFriction::require_no_impulse(std::span<const double> impulses, const Instant& at,
-                                     double at_rest) const {
+                                     std::span<const double> unknown) const {
   if (std::ranges::all_of(all_, [&](const RoughState& r) { return impulses[r.pressing_row] == 0.0; })) return;
   const double of_directions = equations_.scales().rounding(at.q) / (epsilon * equations_.scales().length);
   const double rounding = round_off() * std::max(1.0, of_directions);
@@ -138,7 +138,7 @@ void DryFriction::require_no_impulse(std::span<const double> impulses, const Ins
       if (change / lengths[i] > rounding * momentum &&
           change > stated().masses()[i] *
                        std::max(equations_.scales().velocity_error(i, at.v[i], equations_.tolerance()),
-                                at_rest * equations_.scales().speed() / lengths[i]))
+                                unknown.empty() ? 0.0 : unknown[i] / lengths[i]))
         return true;
     }
     return false;

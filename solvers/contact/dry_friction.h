@@ -67,8 +67,10 @@ class DryFriction {
   /// Once no contact is left that would pull: throws StepFailure if what starts to slide there has had a
   /// share of a friction that the motion does not determine, or if more than one motion satisfies (1).
   void settle(const std::vector<std::size_t>& open, const Instant& at);
-  /// Throws StepFailure if an impact has loaded any of them.
-  void require_no_impulse(std::span<const double> impulses, const Instant& at, double at_rest = 0.0) const;
+  /// Throws StepFailure if an impact has loaded any of them, by more than speeds are known; if they are all
+  /// known, by none.
+  void require_no_impulse(std::span<const double> impulses, const Instant& at,
+                          std::span<const double> unknown) const;
   /// The system with what sticks and what slides.
   [[nodiscard]] const std::shared_ptr<const System>& system() const { return system_; }
 

@@ -120,7 +120,8 @@ double rounding_of_biases(const System& system, const Instant& at, double speed,
     double terms = 0.0;
     for (const std::size_t k : system.row(r))
       terms += std::abs(slopes.psi_q[k]) * speed / lengths[system.w_columns()[k]];
-    largest = std::max(largest, terms / gradient_length(system, w, lengths, r));
+    const double gradient = gradient_length(system, w, lengths, r);
+    if (gradient > 0.0) largest = std::max(largest, terms / gradient);
   }
   return converged_to * largest;
 }
@@ -179,8 +180,8 @@ double driven_acceleration(const System& system, const Instant& at, std::span<co
   system.bias({at.t, at.q, at_rest}, bias);
   double largest = 0.0;
   for (std::size_t r = 0; r < bias.size(); ++r) {
-    if (!system.in_force(r) || bias[r] == 0.0) continue;
-    largest = std::max(largest, std::abs(bias[r]) / gradient_length(system, w, lengths, r));
+    const double gradient = system.in_force(r) ? gradient_length(system, w, lengths, r) : 0.0;
+    if (gradient > 0.0) largest = std::max(largest, std::abs(bias[r]) / gradient);
   }
   return largest;
 }
@@ -197,7 +198,8 @@ double rounding_of_rates(const System& system, const Instant& at, std::span<cons
     double terms = 0.0;
     for (const std::size_t k : system.row(r))
       terms += std::abs(slopes.psi_q[k]) / lengths[system.w_columns()[k]];
-    if (terms > 0.0) largest = std::max(largest, terms / gradient_length(system, w, lengths, r));
+    const double gradient = gradient_length(system, w, lengths, r);
+    if (gradient > 0.0) largest = std::max(largest, terms / gradient);
   }
   return largest * scales.rounding(at.q);
 }
@@ -367,6 +369,14 @@ std::vector<double> project_impulsively_onto(const Problem& problem, const Probl
   evaluate_relaxed(held.system(), {t, q, v}, e);
   move_onto(held, scales, t, q, v, known, e);
   evaluate_relaxed(system, {t, q, v}, e);
+  const double bound = start_tolerance * scales.length;
+  if (position_violation(system, e, lengths).size > bound) {
+    // What takes the load of a contact over, beside it, is where it holds: the contact opens.
+    move_onto(problem, scales, t, q, v, known, e);
+    evaluate_relaxed(system, {t, q, v}, e);
+    const Violation off = position_violation(system, e, lengths);
+    if (off.size > bound) refuse(off, " contradicts the other constraints from here on: it is violated by ");
+  }
   std::vector<double> impulses(system.rows()), a(q.size()), lambda(system.rows());
   double fastest = scales.speed();
   for (std::size_t i = 0; i < v.size(); ++i) fastest = std::max(fastest, std::abs(v[i]) * lengths[i]);
