@@ -101,8 +101,8 @@ class RoundedSample {
   }
 
   std::vector<int> slot_coordinate_;
-  std::vector<double> masses_;  ///< of each coordinate, or inertias,
-  std::vector<char> angle_;     ///< and whether it is an angle
+  std::vector<double> masses_;      ///< of each coordinate, or inertias,
+  std::vector<std::size_t> angle_;  ///< and 1 for an angle, else 0
   std::vector<Rows> rows_;
   FlatSample here_;
   std::array<Sizes, 2> sizes_;                ///< of lengths and of angles
