@@ -151,7 +151,7 @@ class LagrangeBatch final : public ForceBatch, public StatedByLagrangians {
              std::span<double> out) const override {
     at_element(element, [&](const Element& e, std::size_t i) {
       const Vec<N> f = force_of(e, i, at);
-      std::copy_n(f.data(), N, out.data());
+      for (int k = 0; k < N; ++k) out[static_cast<std::size_t>(k)] = f[k];
     });
   }
   [[nodiscard]] double energy(const Instant& at) const override {
