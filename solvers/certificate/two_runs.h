@@ -22,7 +22,7 @@ enum class Doubt {
   breaks_a_law     ///< one of the runs breaks a law of mechanics, see Audit
 };
 
-/// The standard's takes all of its algorithms along, which every scene would compile.
+/// The larger of two: the standard's takes all of its algorithms along, which every scene would compile.
 [[nodiscard]] inline double larger(double a, double b) { return a < b ? b : a; }
 
 /// What the difference of the two at one instant tells.

@@ -108,22 +108,22 @@ std::vector<double> forced_by_each(const System& system, const System::Evaluatio
   return a;
 }
 
-/// What roundings of velocities up to this speed leave of the terms of a row's bias, psi_q v, at most: where
-/// all move alike these may cancel, each far larger than v^2/L, as those of a short blade do.
-double rounding_of_biases(const System& system, const Instant& at, double speed, std::span<const double> w,
-                          std::span<const double> lengths) {
+/// The largest |psi_q| of the rows in terms without signs, a row's divided by the length of its gradient
+/// [1/time].
+double largest_slope(const System& system, const Instant& at, std::span<const double> w,
+                     std::span<const double> lengths) {
   auto slopes = system.linearisation();
   system.linearise_constraints(at, std::vector<double>(system.rows()), slopes);
   double largest = 0.0;
   for (std::size_t r = 0; r < system.rows(); ++r) {
-    if (!system.in_force(r)) continue;
+    const double gradient = system.in_force(r) ? gradient_length(system, w, lengths, r) : 0.0;
+    if (gradient == 0.0) continue;
     double terms = 0.0;
     for (const std::size_t k : system.row(r))
-      terms += std::abs(slopes.psi_q[k]) * speed / lengths[system.w_columns()[k]];
-    const double gradient = gradient_length(system, w, lengths, r);
-    if (gradient > 0.0) largest = std::max(largest, terms / gradient);
+      terms += std::abs(slopes.psi_q[k]) / lengths[system.w_columns()[k]];
+    largest = std::max(largest, terms / gradient);
   }
-  return converged_to * largest;
+  return largest;
 }
 
 /// Dropped rows follow from the others in position and velocity once they hold at the start. In
@@ -163,8 +163,10 @@ void require_consistent_accelerations(const System& system, const Manifold& mani
   };
   const double known = 1e-6 * scale + rounding;
   if (first_beyond(known) == residual.size()) return;
-  const std::size_t r = first_beyond(
-      known + rounding_of_biases(system, {t, start.q, start.v}, speed * start.scales.length, w, lengths));
+  // What roundings of velocities leave of a row's bias, psi_q v: where all move alike its terms may cancel,
+  // each far larger than v^2/L, as those of a short blade do.
+  const std::size_t r = first_beyond(known + converged_to * speed * start.scales.length *
+                                                 largest_slope(system, {t, start.q, start.v}, w, lengths));
   if (r == residual.size()) return;
   throw InconsistentStart(
       system.row_label(r) +
@@ -186,24 +188,6 @@ double driven_acceleration(const System& system, const Instant& at, std::span<co
   return largest;
 }
 
-/// What roundings of the positions leave of a row's equation for velocities, psi_q dq, at most.
-double rounding_of_rates(const System& system, const Instant& at, std::span<const double> w,
-                         const Scales& scales) {
-  const auto lengths = scales.lengths();
-  auto slopes = system.linearisation();
-  system.linearise_constraints(at, std::vector<double>(system.rows()), slopes);
-  double largest = 0.0;
-  for (std::size_t r = 0; r < system.rows(); ++r) {
-    if (!system.in_force(r)) continue;
-    double terms = 0.0;
-    for (const std::size_t k : system.row(r))
-      terms += std::abs(slopes.psi_q[k]) / lengths[system.w_columns()[k]];
-    const double gradient = gradient_length(system, w, lengths, r);
-    if (gradient > 0.0) largest = std::max(largest, terms / gradient);
-  }
-  return largest * scales.rounding(at.q);
-}
-
 /// The speed that the scene has, or that its forces give it over its own length.
 double speed_of(const System& system, const System::Evaluation& e, const Start& start) {
   const double forced = std::sqrt(start.scales.largest(forced_acceleration(system, e)));
@@ -217,7 +201,9 @@ bool misses(const System& system, const Violation& by, const System::Evaluation&
   const Instant at{t, start.q, start.v};
   if (by.size <= start_tolerance * speed_of(system, e, start)) return false;
   const double L = start.scales.length, a = driven_acceleration(system, at, e.w, start.scales.lengths());
-  return !(by.size <= start_tolerance * std::sqrt(a * L) + rounding_of_rates(system, at, e.w, start.scales));
+  const double rounding =
+      start.scales.rounding(start.q) * largest_slope(system, at, e.w, start.scales.lengths());
+  return !(by.size <= start_tolerance * std::sqrt(a * L) + rounding);
 }
 
 /// After projection: what is left is a contradiction.

@@ -112,7 +112,6 @@ TEST(Start, WithinRoundedNumbersIsAccepted) {
   EXPECT_NEAR(simulation.position(bob).norm(), 1.0, 4.0 * epsilon);
 }
 
-// In such a time the bead moves by centimetres, but its place on the Earth is known to a nanometre only.
 // sin(pi) in double precision is 1.2e-16: so a drive that begins at rest moves by its own round-off.
 TEST(Start, RoundOffOfADriveThatBeginsAtRestIsNotHeldAgainstIt) {
   const double pi = std::acos(-1.0);
@@ -148,6 +147,7 @@ TEST(Start, RoundOffOfAPositionIsNotHeldAgainstARowThatReadsIt) {
   EXPECT_THAT([&] { starts_at(100.0 * epsilon); }, ThrowsMessage<InconsistentStart>(HasSubstr("\"row\"")));
 }
 
+// In such a time the bead moves by centimetres, but its place on the Earth is known to a nanometre only.
 TEST(Start, RoundOffOfALargePositionIsNotHeldAgainstAShortRun) {
   constexpr double radius = 6.4e6;
   Scene<3> scene;
