@@ -198,8 +198,7 @@ void EventHandler::require_progress(const EventRecord& change, const Integration
     watch_.chatters(change.source, t);
 }
 
-Change EventHandler::change_scene(const EventRecord& due, const FlatSample& at,
-                                  const Integration& integration) {
+Change EventHandler::change_scene(const EventRecord& due, const FlatSample& at, Integration& integration) {
   const FlatEvent& event = watch_.event(due.source);
   const auto refuse = [&](const std::string& what) {
     throw StepFailure{"Event \"" + event.name + "\": " + what, at.time};
@@ -225,7 +224,7 @@ Change EventHandler::change_scene(const EventRecord& due, const FlatSample& at,
 /// What an event has changed, put onto the constraints by impulses. The positions keep to the contacts that
 /// stay closed: a joint that holds to the run's accuracy would lift them off, or press them in.
 Change EventHandler::put_onto(const FlatEvent::Changed& next, const FlatSample& at,
-                              const Integration& integration) {
+                              Integration& integration) {
   const Problem always(next.system->without(next.system->conditions().conditional_constraints()));
   std::vector<double> q = next.q, v = next.v;
   const Problem held =
@@ -233,8 +232,12 @@ Change EventHandler::put_onto(const FlatEvent::Changed& next, const FlatSample& 
           ? always
           : Problem(next.system->without(conditional_->not_held(*next.system, {at.time, q, v})));
   const double known = true_over_estimated * integration.accuracy(at.time);
-  const auto impulses =
-      project_impulsively_onto(always, held, integration.scales(at.time), at.time, q, v, known);
+  const Scales scales = integration.scales(at.time);
+  const auto impulses = project_impulsively_onto(always, held, scales, at.time, q, v, known);
+  double moved = 0.0;
+  for (std::size_t i = 0; i < q.size(); ++i)
+    moved = std::max(moved, std::abs(q[i] - next.q[i]) / scales.unit(i) * scales.length);
+  integration.displace(moved);
   Change change{.v = v, .impulses = std::vector<double>(at.lambda.size()), .q = q, .system = next.system};
   if (conditional_ != nullptr)
     change = conditional_->replace_system(next.system, {at.time, q, v}, impulses, {next.v, known});

@@ -63,10 +63,9 @@ class EventHandler {
   [[nodiscard]] bool was_asked_for(const EventRecord& one) const { return one.source < asked_for_; }
   [[nodiscard]] static double same_time(double t, const Integration& integration);
   void require_progress(const EventRecord& change, const Integration& integration);
-  [[nodiscard]] Change change_scene(const EventRecord& due, const FlatSample& at,
-                                    const Integration& integration);
+  [[nodiscard]] Change change_scene(const EventRecord& due, const FlatSample& at, Integration& integration);
   [[nodiscard]] Change put_onto(const FlatEvent::Changed& next, const FlatSample& at,
-                                const Integration& integration);
+                                Integration& integration);
   void open_pulling(Change& change, double t, Integration& integration);
   void audit(const Change& change, const FlatSample& after, Integration& integration);
 

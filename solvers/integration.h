@@ -62,6 +62,8 @@ class Integration {
   /// have. Throws StepFailure, EquationFault; then the last segment goes on.
   void restart_with_constraints(double t, std::shared_ptr<const System> system, std::span<const double> q,
                                 std::span<const double> v);
+  /// Counts that positions are moved by this distance, onto what is imposed.
+  void displace(double distance) { error_.displace(distance); }
   /// Everything at a time inside the last step (or at the start, before the first). Throws StepFailure,
   /// EquationFault.
   void read(double t, OutputState& m);

@@ -32,8 +32,16 @@ set logscale xy
 set xrange [*:*] noextend
 set offsets graph 0.05, graph 0.05, 0, 0
 set xtics () # a model's run times span a decade or two: label 1, 2 and 5 of each
-set for [e = -3:6] for [digit in "1 2 5"] xtics add (sprintf("%g", digit * 10.0**e) digit * 10.0**e)
-set rmargin 3 # else gnuplot makes room for labels beyond the range as well
+if (lines ne "") {
+  stats csv using (strcol("model") eq model && strcol("outcome") eq "ok" ? column("run_time_s") * 1e3 : NaN) nooutput
+  do for [e = -3:6] {
+    do for [digit in "1 2 5"] {
+      x = digit * 10.0**e # for labels beyond the range gnuplot would make room all the same
+      if (x > STATS_min / 1.1 && x < 1.1 * STATS_max) { set xtics add (sprintf("%g", x) x) }
+    }
+  }
+}
+set rmargin 3
 set key maxcols 3
 
 set terminal svg size 560,500 dynamic enhanced font "sans-serif,13"

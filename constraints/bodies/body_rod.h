@@ -25,9 +25,10 @@ inline std::string rod_of(const std::string& body, int i, int j) {
 /// is taken: nothing of the body has been added then.
 template <int D>
 void require_free_names(const Scene<D>& scene, const std::string& body, int particles) {
-  for (int i = 0; i < particles; ++i) scene.require_free("particle", particle_of(body, i));
+  const std::string its = "body \"" + body + "\": its ";
+  for (int i = 0; i < particles; ++i) scene.require_free(its + "particle", particle_of(body, i));
   for (int i = 0; i < particles; ++i)
-    for (int j = i + 1; j < particles; ++j) scene.require_free("Distance", rod_of(body, i, j));
+    for (int j = i + 1; j < particles; ++j) scene.require_free(its + "Distance", rod_of(body, i, j));
 }
 
 }  // namespace dalembert

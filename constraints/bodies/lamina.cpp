@@ -20,6 +20,8 @@ void check(const LaminaState& s, const std::string& name) {
   require(s.inertia.allFinite() && s.inertia.minCoeff() > 0.0,
           "each moment of inertia in the plane must be finite and > 0; a thin rod is a ThinRod");
   require(detail::orthonormal(s.axes), "axes must be right-handed and of unit length");
+  require(s.centre.allFinite() && s.velocity.allFinite() && s.angular_velocity.allFinite(),
+          "centre, velocity and angular velocity must be finite");
 }
 
 }  // namespace

@@ -37,6 +37,15 @@ struct Particles {
   }
 };
 
+bool finite(const BodyState<2>& s) {
+  return s.centre.allFinite() && std::isfinite(s.angle) && s.velocity.allFinite() &&
+         std::isfinite(s.angular_velocity);
+}
+bool finite(const BodyState<3>& s) {
+  return s.centre.allFinite() && s.axes.allFinite() && s.velocity.allFinite() &&
+         s.angular_velocity.allFinite();
+}
+
 Vec<2> arms_of(const BodyState<2>& s, const std::string& name) {
   require(std::isfinite(s.inertia) && s.inertia > 0.0, name,
           "inertia must be finite and > 0; a body without inertia is a particle");
@@ -66,6 +75,8 @@ Vec<3> turning(const BodyState<3>& s, const Vec<3>& arm) { return s.angular_velo
 
 template <int D>
 BodyPoint<D> RigidBody<D>::point(const Vec<D>& local) const {
+  if (!local.allFinite())
+    throw InvalidArgument("A point of a body has coordinates that are no finite numbers");
   BodyPoint<D> p{particles, {}};
   if constexpr (D == 2) {
     // centre + x e + y (e turned left), e = (p_2 - p_1)/(2 rho)
@@ -116,6 +127,7 @@ template <int D>
 RigidBody<D> add_body(Scene<D>& scene, const BodyState<D>& state, const std::string& name) {
   require(std::isfinite(state.mass) && state.mass > 0.0, name,
           "mass = " + detail::text(state.mass) + ", must be finite and > 0");
+  require(finite(state), name, "centre, attitude, velocity and angular velocity must be finite");
   const Mat<D, D> axes = axes_of(state);
   require(detail::orthonormal(axes), name, "axes must be right-handed and of unit length");
   RigidBody<D> body;

@@ -66,7 +66,8 @@ struct RigidBody {
   /// About the centre of mass; in space the principal moments, as BodyState has them.
   [[nodiscard]] Inertia inertia() const;
 
-  /// The point at coordinates `local` from the centre of mass along the body's axes.
+  /// The point at coordinates `local` from the centre of mass along the body's axes. Throws InvalidArgument
+  /// if they are not finite, as do the next ones.
   [[nodiscard]] BodyPoint<D> point(const Vec<D>& local) const;
   /// Its centre of mass.
   [[nodiscard]] BodyPoint<D> centre() const { return point(Vec<D>::Zero()); }

@@ -42,6 +42,8 @@ ThinRod<D> add_thin_rod(Scene<D>& scene, const ThinRodState<D>& s, const std::st
     throw InvalidScene("Rod \"" + name +
                        "\": its ends must be finite and different; a rod of no length is a particle");
   }
+  if (!(s.start_velocity.allFinite() && s.end_velocity.allFinite()))
+    throw InvalidScene("Rod \"" + name + "\": the velocities of its ends must be finite");
   for (int i = 0; i < 2; ++i) scene.require_free("particle", particle_of(name, i));
   scene.require_free("Distance", name + ".rod");
   ThinRod<D> rod{.particles = {}, .distance = {}, .length = length};

@@ -42,6 +42,7 @@ struct JointFrame<RigidBody<D>> {
   std::array<BodyPoint<D>, static_cast<std::size_t>(D)> axes;
 
   static JointFrame at(const RigidBody<D>& body, const Vec<D>& place, const Mat<D, D>& axes) {
+    if (!place.allFinite() || !axes.allFinite()) return {};  // its joint has a `fault`
     JointFrame frame{body.point_at(place), {}};
     for (int k = 0; k < D; ++k) frame.axes[static_cast<std::size_t>(k)] = body.vector_along(axes.col(k));
     return frame;

@@ -12,8 +12,9 @@ struct Statistics {
   int redundant_equations = 0;  ///< constraint equations that follow from others, and were left out
   int singular_positions = 0;   ///< isolated ones, at which the run was taken across and restarted
   /// What all steps may err by, added up: the tolerance or more, of `length` in position, of that over `time`
-  /// in velocity. The growth that a motion itself gives to errors is not in it, see `certify`, but where
-  /// the balance of work shows a larger error (see Options::audit) it is that.
+  /// in velocity. Distances by which events move the scene onto what they impose are in it. The growth that a
+  /// motion itself gives to errors is not in it, see `certify`, but where the balance of work shows a larger
+  /// error (see Options::audit) it is that.
   double accuracy = 0.0;
   /// The part of it that round-off gives, which no tolerance makes smaller.
   double round_off = 0.0;

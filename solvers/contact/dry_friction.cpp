@@ -91,7 +91,7 @@ double DryFriction::switching(std::size_t function, const FlatSample& now) const
   if (watched == speed && r.mode == Mode::slides && r.pace == Pace::straight)
     return 4.0 * r.still * r.still - (u - u.dot(r.direction) * r.direction).squaredNorm();
   if (watched == speed) return 2.0 * (slow ? r.slow : r.no_slip(equations_.tolerance())) - u.norm();
-  return r.ends_along_direction() ? u.dot(r.direction) + r.no_slip(equations_.tolerance())
+  return r.ends_along_direction() ? u.dot(r.direction) + r.backlash(equations_.tolerance())
                                   : u.norm() - r.slow;
 }
 
@@ -103,7 +103,7 @@ double DryFriction::unit(std::size_t function) const {
 double DryFriction::margin(std::size_t function) const {
   const RoughState& r = all_[function / kinds];
   const bool ends = r.mode == Mode::slides && static_cast<Watched>(function % kinds) == mode;
-  return ends && r.ends_along_direction() ? r.no_slip(equations_.tolerance()) : 0.0;
+  return ends && r.ends_along_direction() ? r.backlash(equations_.tolerance()) : 0.0;
 }
 
 void DryFriction::take_away_slip(const std::vector<std::size_t>& open, const Instant& at,

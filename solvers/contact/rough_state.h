@@ -1,11 +1,13 @@
 #pragma once
 
 #include <dalembert/core/scene/system.h>
+#include <dalembert/solvers/base/accuracy.h>
 #include <dalembert/solvers/base/hidden.h>
 #include <dalembert/solvers/manifold/scales.h>
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -57,6 +59,11 @@ struct RoughState {
   /// A slip that is round-off: one that begins with less may have any sign. What reverses its friction so
   /// late errs by at most twice this speed: a part of a step's tolerance.
   [[nodiscard]] double no_slip(double tolerance) const;
+  /// How far back along its direction what slides comes before it counts as stopped. What leaves rest has no
+  /// slip yet but the errors of its steps.
+  [[nodiscard]] double backlash(double tolerance) const {
+    return pace == Pace::leaves ? std::min(true_over_estimated * still, 0.5 * slow) : no_slip(tolerance);
+  }
   /// Of what slides, whether its slip along its direction falls to 0 where it ends; else its size falls.
   [[nodiscard]] bool ends_along_direction() const { return rows == 1 || pace != Pace::fast; }
   [[nodiscard]] bool is_fast_in_space() const {

@@ -33,6 +33,8 @@ class AccumulatedError {
     square_of_position_ += step.position_noise * step.position_noise;
     drift_ += velocity_noise() * h;
   }
+  /// What an event imposes holds to the errors so far, and moves by them what it is put onto.
+  void displace(double distance) { position_ += distance; }
   [[nodiscard]] double position() const { return position_ + std::sqrt(square_of_position_); }
   [[nodiscard]] double velocity() const { return velocity_ + velocity_noise(); }
   /// What round-off adds to either.

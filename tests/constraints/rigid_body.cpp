@@ -112,16 +112,55 @@ TEST(BodiesOfTakenNames, LeaveTheSceneAsItWas) {
   }
 }
 
-TEST(PlaceOfLaminaOrRod, OfNoFiniteNumberIsRefused) {
+TEST(PlaceInABody, OfNoFiniteNumberIsRefused) {
   Scene<2> plane;
   Scene<3> space;
   const auto rod =
       add_thin_rod(plane, ThinRodState<2>{.mass = 1.0, .start = {0.0, 0.0}, .end = {1.0, 0.0}}, "rod");
   const auto plate = add_lamina(space, LaminaState{.mass = 1.0, .inertia = {1.0, 1.0}}, "plate");
+  const auto flat = add_body(plane, BodyState<2>{.mass = 1.0, .inertia = 1.0}, "flat");
+  const auto solid = add_body(space, BodyState<3>{.mass = 1.0, .inertia = {1.0, 1.0, 1.0}}, "solid");
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     EXPECT_THROW((void)rod.point(bad), InvalidArgument);
     EXPECT_THROW((void)plate.point({0.0, bad}), InvalidArgument);
+    EXPECT_THROW((void)flat.point({0.0, bad}), InvalidArgument);
+    EXPECT_THROW((void)solid.point({0.0, 0.0, bad}), InvalidArgument);
+    EXPECT_THROW((void)solid.vector({bad, 0.0, 0.0}), InvalidArgument);
+    EXPECT_THROW((void)solid.point_at({bad, 0.0, 0.0}), InvalidArgument);
+  }
+}
+
+// Not the hidden particles, which their user has never heard of.
+TEST(Body, IsNamedWhereItsStateIsNotFinite) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    const auto expect_refused = [](auto scene, const auto& add, const char* name) {
+      try {
+        add(scene);
+        ADD_FAILURE() << name << " was added";
+      } catch (const InvalidScene& error) {
+        EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+        EXPECT_EQ(std::string(error.what()).find("p1"), std::string::npos) << error.what();
+      }
+      EXPECT_TRUE(scene.initial_positions().empty());
+    };
+    for (const BodyState<2>& state : {BodyState<2>{.mass = 1.0, .inertia = 1.0, .centre = {bad, 0.0}},
+                                      BodyState<2>{.mass = 1.0, .inertia = 1.0, .angle = bad},
+                                      BodyState<2>{.mass = 1.0, .inertia = 1.0, .angular_velocity = bad}})
+      expect_refused(
+          Scene<2>{}, [&](auto& scene) { (void)add_body(scene, state, "b"); }, "Body \"b\"");
+    for (const BodyState<3>& state :
+         {BodyState<3>{.mass = 1.0, .inertia = {1.0, 1.0, 1.0}, .velocity = {0.0, bad, 0.0}},
+          BodyState<3>{.mass = 1.0, .inertia = {1.0, 1.0, 1.0}, .angular_velocity = {0.0, bad, 0.0}}})
+      expect_refused(
+          Scene<3>{}, [&](auto& scene) { (void)add_body(scene, state, "b"); }, "Body \"b\"");
+    const LaminaState plate{.mass = 1.0, .inertia = {1.0, 1.0}, .centre = {0.0, 0.0, bad}};
+    expect_refused(
+        Scene<3>{}, [&](auto& scene) { (void)add_lamina(scene, plate, "l"); }, "Lamina \"l\"");
+    const ThinRodState<2> rod{.mass = 1.0, .end = {1.0, 0.0}, .end_velocity = {bad, 0.0}};
+    expect_refused(
+        Scene<2>{}, [&](auto& scene) { (void)add_thin_rod(scene, rod, "r"); }, "Rod \"r\"");
   }
 }
 

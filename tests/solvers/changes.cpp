@@ -468,6 +468,26 @@ TEST_P(Changes, ImpulsesOfJointsDoNotDependOnWhatIsNotCoupled) {
   }
 }
 
+TEST_P(Changes, MovesOntoWhatIsImposedAreInTheAccuracy) {
+  // A stop that comes into force half as far beside a ball as it may: the run errs by that, which a fast
+  // pendulum allows and the ball, whose motion is uniform, does not show.
+  Scene<2> scene;
+  const auto ball = scene.add_particle({.mass = 1.0, .velocity = {0.5, 0.0}}, "ball");
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {6.0, 0.0}, .velocity = {0.0, 5.0}});
+  scene.add(Distance{Fixed<2>{{5.0, 0.0}}, bob, 1.0});
+  const auto known = simulate(scene, options(2.0)).statistics();
+  const double beside = 0.5 * 12.0 * known.accuracy * known.length;
+  const auto stop = scene.add(holonomic(points(ball), [=](auto r) { return r.x() - 1.0 - beside; }), "stop");
+  scene.release(stop);
+  const Event<2> reached{"reached", [=](const auto& now) { return now.position(ball).x() - 1.0; },
+                         Crossing::rising, false, [=](Scene<2>& its) { its.impose(stop); }};
+  const auto run = simulate(scene, options(2.01), {reached});
+  const double error = run.statistics().accuracy * run.statistics().length;
+  EXPECT_NEAR(run.position(ball, 10).x(), 1.0 + beside, 1e-12);
+  EXPECT_GT(error, beside);
+  EXPECT_LT(error, 2.0 * beside);
+}
+
 TEST_P(Changes, LatchesTakeOverFromTheFloor) {
   // A ball rests on a floor where a latch comes into force, above it by a hundredth of the tolerance: the
   // ball is at the latch, which bears it, and the floor is open.

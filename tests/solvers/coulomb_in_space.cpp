@@ -240,5 +240,43 @@ TEST_P(CoulombFrictionInSpace, RestsBehindAPushOfAnother) {
   }
 }
 
+// A ball rolls along the inside of a vertical cylinder of radius A about its axis, its centre at the rate
+// Omega, and down and up: with I = 2 m R^2/5 the rows of no slip give z'' = -(5 g/7) cos(k t), k^2 = 2
+// Omega^2/7, and the wall pushes by m A Omega^2. The friction along z, m (g + z''), reaches mu times that at
+// t1. The slip that begins has no acceleration at first: its direction, which turns with what it can be told
+// by, is an error of the steps. Each of its turns began another sliding: 7 for `erk` at 1e-6, 9 for `ida` at
+// 1e-12, and at 1e-4 `erk` came no further.
+TEST_P(CoulombFrictionInSpace, BeginsToSlideOnce) {
+  constexpr double A = 0.8, Omega = 4.0, R = 0.1, m = 0.7, mu = 0.9, I = 0.4 * m * R * R;
+  Scene<3> scene;
+  scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
+  const auto ball = add_body(scene,
+                             BodyState<3>{.mass = m,
+                                          .inertia = {I, I, I},
+                                          .centre = {A, 0.0, 0.0},
+                                          .velocity = {0.0, A * Omega, 0.0},
+                                          .angular_velocity = {0.0, 0.0, -A * Omega / R}},
+                             "ball");
+  const auto wall = scene.add(OnSurface{ball.centre(), Cylinder{.axis = {0.0, 0.0, 1.0}, .radius = A}});
+  const auto of_ball = points(ball.centre(), ball.vector({1.0, 0.0, 0.0}), ball.vector({0.0, 1.0, 0.0}),
+                              ball.vector({0.0, 0.0, 1.0}));
+  // With spin = (1/2) sum e_i x e_i', the slip v + spin x R n at the contact, along e_phi and e_z.
+  const auto slip = [R = R](auto r, auto e1, auto e2, auto e3, auto v, auto d1, auto d2, auto d3) {
+    const auto spin = 0.5 * (e1.cross(d1) + e2.cross(d2) + e3.cross(d3));
+    const auto rho = sqrt(r.x() * r.x() + r.y() * r.y()), x = r.x() / rho, y = r.y() / rho;
+    return vec(-y * v.x() + x * v.y() + R * spin.z(), v.z() + R * (spin.x() * y - spin.y() * x));
+  };
+  scene.add(coulomb(wall, nonholonomic(of_ball, slip), mu));
+  const double t1 = std::acos(1.4 * (1.0 - mu * A * Omega * Omega / g)) / (std::sqrt(2.0 / 7.0) * Omega);
+  for (const double tight : {1e-4, 1e-6, 1e-8, 1e-12}) {
+    Options options = this->options(t1 + 0.05);
+    options.tolerance = tight;
+    const auto run = simulate(scene, options);
+    ASSERT_EQ(run.events().size(), 1U) << tight;
+    EXPECT_EQ(run.events()[0].kind, EventKind::slides);
+    EXPECT_NEAR(run.events()[0].time, t1, error_of(run) * t1) << tight;
+  }
+}
+
 }  // namespace
 }  // namespace dalembert::coulomb_in_space_test

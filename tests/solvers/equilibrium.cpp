@@ -265,6 +265,28 @@ TEST(Equilibrium, DrivenSceneIsRefusedByItsDrive) {
   EXPECT_THAT(refusal(scene), ThrowsMessage<NoEquilibrium>(HasSubstr("Distance \"crank\" moves")));
 }
 
+TEST(Equilibrium, OfATowedCasterStartsWhereItRolls) {
+  // On a rail along y, towed along x by V as in a frame that moves with it; its wheel does not slip across:
+  // y' cos th - L th' = V sin th. That is at rest at th = 0 only, which is not looked for.
+  const auto towed = [](double angle) {
+    Scene<2> scene;
+    const auto pin = scene.add_particle({.mass = 2.0, .position = {0.0, 0.2}}, "pin");
+    const auto caster = scene.add_rotor({.inertia = 0.3, .angle = angle}, "caster");
+    scene.add(OnCurve{pin, Plane<2>{.normal = {1.0, 0.0}}});
+    scene.add(Spring{Fixed<2>{}, pin, 500.0});
+    scene.add(nonholonomic(points(pin, caster),
+                           [](auto, auto th, auto v, auto spin) {
+                             return v.y() * cos(th[0]) - 0.4 * spin[0] - 1.5 * sin(th[0]);
+                           }),
+              "wheel");
+    return scene;
+  };
+  const auto scene = towed(0.0);
+  EXPECT_NEAR(equilibrium(scene).sample().position(scene.particle("pin")).y(), 0.0, rounding);
+  EXPECT_THAT(refusal(towed(0.1)), ThrowsMessage<NoEquilibrium>(AllOf(HasSubstr("\"wheel\" moves"),
+                                                                      HasSubstr("is not 0 at rest there"))));
+}
+
 TEST(Equilibrium, MustLastLongerThanAnInstant) {
   Scene<2> scene;
   const auto bob = scene.add_particle({.mass = 1.0, .position = {0.0, -1.0}});
