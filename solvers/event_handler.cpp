@@ -145,7 +145,7 @@ double EventHandler::same_time(double t, const Integration& integration) {
   return round_off() * std::max(std::abs(t), integration.scales(t).time);
 }
 
-Change EventHandler::resolve(const Stop& stop, const FlatSample& at, const Integration& integration) {
+Change EventHandler::resolve(const Stop& stop, const FlatSample& at, Integration& integration) {
   const EventRecord due{stop.changes.front().source, stop.time};
   // Of contacts on the sides behind a switch, where a step that is taken again began there.
   const auto resolved = [&] { return conditional_->resolve(at, due.source - asked_for_); };

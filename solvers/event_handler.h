@@ -41,7 +41,7 @@ class EventHandler {
   /// The earliest stop in the last step. Lists what happened before it and changes nothing.
   void locate(Integration& integration, Stop& stop);
   /// What the first change that is due at a stop makes of a state.
-  [[nodiscard]] Change resolve(const Stop& stop, const FlatSample& at, const Integration& integration);
+  [[nodiscard]] Change resolve(const Stop& stop, const FlatSample& at, Integration& integration);
   /// Leaves a switch of the equations; returns what that changes, if anything.
   [[nodiscard]] std::optional<Change> go_behind_switch(Integration& integration);
   /// Lists a change from which the run goes on now. Contacts that would pull are opened before.

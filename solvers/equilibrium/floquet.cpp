@@ -239,12 +239,41 @@ void require_no_jump(const System& system, const Record& motion, const std::vect
   }
 }
 
+/// The size of a disturbance, by its energy where the motion starts: sqrt(u^T (|K| + 1) u + w^T w). What
+/// vibrates keeps it, however stiff it is, so that errors do not seem to grow with it.
+class EnergyNorm {
+ public:
+  explicit EnergyNorm(const Disturbances& start) {
+    const auto [values, vectors] = dense::symmetric_eigen(0.5 * (start.K + start.K.transpose()));
+    metric_ = MatrixXd::Identity(2 * start.coordinates(), 2 * start.coordinates());
+    metric_.topLeftCorner(start.coordinates(), start.coordinates()) +=
+        vectors * values.cwiseAbs().asDiagonal() * vectors.transpose();
+  }
+  /// R with |R c| the size of x = B c, and its inverse.
+  struct Root {
+    MatrixXd root, inverse;
+  };
+  [[nodiscard]] Root of(const MatrixXd& B) const {
+    const auto [values, vectors] = dense::symmetric_eigen(dense::restricted(B, metric_));
+    const Eigen::VectorXd sizes = values.cwiseSqrt();
+    return {vectors * sizes.asDiagonal() * vectors.transpose(),
+            vectors * sizes.cwiseInverse().asDiagonal() * vectors.transpose()};
+  }
+
+ private:
+  MatrixXd metric_;
+};
+
 /// The monodromy matrix, in a basis of the disturbances that the constraints allow, by steps that are halved
 /// where a step and its two halves differ.
 class Monodromy {
  public:
   Monodromy(const System& system, const Record& motion, const ActiveRows& rows, double period)
-      : system_(&system), motion_(&motion), rows_(&rows), period_(period) {}
+      : system_(&system),
+        motion_(&motion),
+        rows_(&rows),
+        period_(period),
+        norm_(Disturbances(system, rows, motion.sample(0), period)) {}
 
   struct Map {
     MatrixXd matrix;
@@ -256,7 +285,9 @@ class Monodromy {
     if (whole.start.basis.cols() == 0) return {};
     refine(whole, 0);
     const auto [c, error] = product();
-    return {whole.start.basis.transpose() * whole.nodes.back().basis * c, error,
+    const auto [R, inverse] = norm_.of(whole.start.basis);
+    const MatrixXd back = whole.start.basis.transpose() * whole.nodes.back().basis;
+    return {R * back * norm_.of(whole.nodes.back().basis).inverse * c, error,
             2 * static_cast<int>(maps_.size())};
   }
   /// At which the motion was looked at for that, in order.
@@ -280,7 +311,7 @@ class Monodromy {
     Part part;
     FreeDisturbances start;
     std::vector<FreeDisturbances> nodes;
-    MatrixXd map;
+    MatrixXd map;  ///< of R c
   };
   /// One step each over parts of the motion. (Reading it at all instants together costs least.)
   [[nodiscard]] std::vector<Step> steps(const std::vector<Part>& parts) {
@@ -302,7 +333,8 @@ class Monodromy {
       std::size_t next = all.size() * (radau_nodes.size() + 1);
       Step step{part, at(next++), {}, {}};
       while (step.nodes.size() < radau_nodes.size()) step.nodes.push_back(at(next++));
-      step.map = radau_step(step.start, step.nodes, part.to - part.from);
+      step.map = norm_.of(step.nodes.back().basis).root *
+                 radau_step(step.start, step.nodes, part.to - part.from) * norm_.of(step.start.basis).inverse;
       all.push_back(std::move(step));
     }
     return all;
@@ -315,7 +347,8 @@ class Monodromy {
     const auto halves = steps({{from, middle}, {middle, to}});
     MatrixXd both = halves[1].map * halves[0].map;
     double rate = 1.0;
-    for (const FreeDisturbances& node : whole.nodes) rate = std::max(rate, node.rate.norm());
+    for (const FreeDisturbances& node : whole.nodes)
+      rate = std::max(rate, (norm_.of(node.across).root * node.rate * norm_.of(node.basis).inverse).norm());
     const double allowed = known * (to - from) * rate * std::max(1.0, both.norm());
     if ((both - whole.map).norm() <= (std::exp2(radau_order) - 1.0) * allowed) {
       maps_.push_back({std::move(both), allowed});
@@ -325,7 +358,8 @@ class Monodromy {
       throw NoEquilibrium(
           "Floquet multipliers of scene \"" + motion_->layout->scene +
           "\" do not converge: its motion, or the stiffness of its forces, is not smooth at t = " +
-          std::to_string(middle * period_) + ": smooth what switches there; or the period is too long");
+          std::to_string(middle * period_) +
+          ": smooth what switches there, or state as rigid what vibrates thousands of times in a period");
     refine(halves[0], halvings + 1);
     refine(halves[1], halvings + 1);
   }
@@ -354,6 +388,7 @@ class Monodromy {
   const Record* motion_;
   const ActiveRows* rows_;
   double period_;
+  EnergyNorm norm_;
   std::vector<PartMap> maps_{};  // of the parts of the period, in order
   std::vector<double> times_{};
 };
