@@ -48,7 +48,7 @@ EventHandler::EventHandler(std::vector<FlatEvent> events, ConditionalConstraints
       auditor_(auditor),
       seen_(integration.system(), integration.start(), any_changes_scene(events)),
       watch_(with_switching(std::move(events), conditional), of_contacts(asked_for_, conditional),
-             *integration.system().layout(), integration.tolerance()),
+             integration.system(), integration.tolerance()),
       changes_(asked_for_) {}
 
 bool EventHandler::any_changes_scene(const std::vector<FlatEvent>& events) {

@@ -23,6 +23,14 @@ std::string words_of_time(double t) {
 }
 
 /// But for what jumps.
+/// Whether anything jumps at an event: one that changes nothing is the same before and after it.
+bool is_jump(const Record& run, std::size_t k) {
+  if (run.events[k].kind != EventKind::event) return true;
+  const FlatSample before = run.at_events->sample(k), after = run.after_events->sample(k);
+  return !(std::ranges::equal(before.v, after.v) && std::ranges::equal(before.a, after.a) &&
+           std::ranges::equal(before.lambda, after.lambda));
+}
+
 bool is_known(const Certainty& its) { return its.doubt == Doubt::none || its.doubt == Doubt::at_a_jump; }
 
 /// Results are sums of as many terms as the scene has rows and coordinates.
@@ -133,7 +141,7 @@ void TwoRuns::find_jumps() {
   if (samples_.empty()) return;
   std::vector<std::pair<double, double>> jumps;
   for (std::size_t k = 0; k < events_.size(); ++k) {
-    if (!is_known(events_[k]) || run_->events[k].kind == EventKind::event) continue;
+    if (!is_known(events_[k]) || !is_jump(*run_, k)) continue;
     const std::size_t j = events_[k].counterpart;
     const double a = run_->events[k].time, b = reference_->events[j].time,
                  part = std::max(most_of_better, bound_ - 1.0);

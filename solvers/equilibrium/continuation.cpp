@@ -3,7 +3,6 @@
 #include <dalembert/core/linear/products.h>
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
-#include <dalembert/solvers/equilibrium/tangent.h>
 #include <dalembert/solvers/equilibrium/tangent_modes.h>
 
 #include <algorithm>
@@ -135,10 +134,8 @@ void EquilibriumCorrector::finish(const Here& here, const EquilibriumSolver::Sta
   node.state = {here.balance.record(s), here.turning, nullptr};
   const FlatSample flat = node.state.state->sample(0);
   node.lambda.assign(flat.lambda.begin(), flat.lambda.end());
-  LinearTerms terms =
+  const LinearTerms terms =
       linear_terms(*here.system, here.balance.frame(), {flat.time, flat.q, flat.v}, flat.lambda);
-  // Forces that balance but for a part of them tell multipliers, and what they make stiff, to that part.
-  terms.roundings = std::max(terms.roundings, s.relative_residual / round_off_of_a_sum);
   node.stiffness = tangent_stiffness(*here.system, terms, displacements(node.x));
   node.vibrations = vibrations(*here.system, terms);
 }

@@ -1,5 +1,6 @@
 #include "dalembert/solvers/manifold/friction_shares.h"
 
+#include <dalembert/core/analysis/islands.h>
 #include <dalembert/core/analysis/rank.h>
 #include <dalembert/core/linear/dense.h>
 #include <dalembert/solvers/base/numbers.h>
@@ -40,18 +41,23 @@ VectorXd least_largest(const MatrixXd& A, const VectorXd& a, const std::vector<I
 }  // namespace
 
 FrictionShares::FrictionShares(const System& system) {
+  const Islands parts = islands(system);
+  for (std::size_t r = 0; r < system.rows(); ++r) island_of_row_.push_back(parts.of_row(system, r));
+  all_.resize(parts.count);
   for (const std::size_t number : system.conditions().frictional_constraints()) {
     const Layout::Constraint& its = system.layout()->constraints[number];
     if (!system.in_force(its.own_rows().front())) continue;
     const auto& law = *system.conditions().of[number].roughness;
     const auto& pressing = system.layout()->constraints[static_cast<std::size_t>(law.pressed_by)];
-    all_.push_back({its.first_row, its.rows, pressing.first_row, law.mu_static});
+    all_[island_of_row_[its.own_rows().front()]].push_back(
+        {its.first_row, its.rows, pressing.first_row, law.mu_static});
   }
 }
 
-std::vector<FrictionShares::Rough> FrictionShares::shared(std::span<const char> unique) const {
+std::vector<FrictionShares::Rough> FrictionShares::shared(const std::vector<Rough>& all,
+                                                          std::span<const char> unique) {
   std::vector<Rough> chosen;
-  for (const Rough& r : all_) {
+  for (const Rough& r : all) {
     const auto own = unique.subspan(static_cast<std::size_t>(r.row), static_cast<std::size_t>(r.rows));
     if (std::ranges::find(own, char{0}) != own.end()) chosen.push_back(r);
   }
@@ -103,10 +109,11 @@ void FrictionShares::share_friction(const MatrixXd& basis, std::vector<Rough> ch
   if (Z.cols() > 0) lambda += N * (Z * least_largest(A * Z, a, first));
 }
 
-std::vector<SharedContact> FrictionShares::contacts(std::span<const char> unique,
+std::vector<SharedContact> FrictionShares::contacts(const std::vector<Rough>& all,
+                                                    std::span<const char> unique,
                                                     std::vector<SharedContact> pushing,
-                                                    const Forces& lambda) const {
-  for (const Rough& r : all_) {
+                                                    const Forces& lambda) {
+  for (const Rough& r : all) {
     const auto own = unique.subspan(static_cast<std::size_t>(r.row), static_cast<std::size_t>(r.rows));
     const bool alone =
         unique[static_cast<std::size_t>(r.pressing_row)] && std::ranges::find(own, char{0}) == own.end();
@@ -131,10 +138,25 @@ std::vector<SharedContact> FrictionShares::contacts(std::span<const char> unique
 
 void FrictionShares::spread(const MatrixXd& N, std::span<const char> unique,
                             const std::vector<SharedContact>& pushing, std::span<double> lambda) const {
-  if (all_.empty()) return;
   Forces all(lambda.data(), N.rows());
-  if (auto chosen = shared(unique); !chosen.empty()) share_friction(N, std::move(chosen), pushing, all);
-  share_statically(N, contacts(unique, pushing, all), all);
+  for (std::size_t island = 0; island < all_.size(); ++island) {
+    if (all_[island].empty()) continue;
+    const auto is_elsewhere = [&](Index row) {
+      return island_of_row_[static_cast<std::size_t>(row)] != island;
+    };
+    std::vector<Index> columns;
+    for (Index k = 0; k < N.cols(); ++k) {
+      Index row = 0;
+      N.col(k).cwiseAbs().maxCoeff(&row);
+      if (!is_elsewhere(row)) columns.push_back(k);
+    }
+    auto push = pushing;
+    std::erase_if(push, [&](const SharedContact& c) { return is_elsewhere(c.pressing_row); });
+    const MatrixXd own = N(Eigen::all, columns);
+    if (auto chosen = shared(all_[island], unique); !chosen.empty())
+      share_friction(own, std::move(chosen), push, all);
+    share_statically(own, contacts(all_[island], unique, std::move(push), all), all);
+  }
 }
 
 }  // namespace dalembert

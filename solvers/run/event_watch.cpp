@@ -25,12 +25,12 @@ bool wanted(Crossing crossing, int before) {
 
 }  // namespace
 
-EventWatch::EventWatch(std::vector<FlatEvent> events, OfContacts of_contacts, const Layout& layout,
+EventWatch::EventWatch(std::vector<FlatEvent> events, OfContacts of_contacts, const System& system,
                        double tolerance)
     : events_(std::move(events)),
       of_contacts_(std::move(of_contacts)),
       accuracy_(tolerance),
-      rounded_(layout),
+      rounded_(system),
       largest_(events_.size()),
       units_(events_.size()),
       largest_before_(events_.size()),
@@ -41,9 +41,10 @@ EventWatch::EventWatch(std::vector<FlatEvent> events, OfContacts of_contacts, co
       returned_(events_.size()) {
   for (const FlatEvent& event : events_) {
     if (!event.function)
-      throw InvalidArgument("Event \"" + event.name + "\" of scene \"" + layout.scene + "\" has no function");
+      throw InvalidArgument("Event \"" + event.name + "\" of scene \"" + system.layout()->scene +
+                            "\" has no function");
     if (event.ends && event.change)
-      throw InvalidArgument("Event \"" + event.name + "\" of scene \"" + layout.scene +
+      throw InvalidArgument("Event \"" + event.name + "\" of scene \"" + system.layout()->scene +
                             "\" both ends the run and changes the scene; it can do only one of them");
   }
 }
@@ -51,7 +52,6 @@ EventWatch::EventWatch(std::vector<FlatEvent> events, OfContacts of_contacts, co
 std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
   from_ = beginning.start.time;
   asked_for_ = beginning.positive;
-  time_ = beginning.time;
   resolved_ = beginning.timed ? events_.size() : asked_for_;
   at_from_.clear();
   rate_at_from_.clear();
@@ -82,16 +82,21 @@ std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
 }
 
 /// How large the terms are whose sum a function is, where that is round-off of them, as |r| - L of what a rod
-/// of length L holds, or its rate; else 0.
+/// of length L holds, or its rate; else 0. Terms change with the roundings, what jumps there does not.
 double EventWatch::size_of_terms(std::size_t event, const FlatSample& at) {
+  constexpr double few = 16.0, many = few * few;
   const auto& function = events_[event].function;
   try {
     const double here = function(at);
-    rounded_.measure(at, time_);
-    double most = 0.0;
-    for (const std::size_t turns : {1U, 2U, 3U})
-      most = std::max(most, std::abs(function(rounded_.by_turns(turns)) - here));
-    const double size = most / epsilon;
+    rounded_.measure(at);
+    const auto change = [&](double roundings) {
+      double most = 0.0;
+      for (const std::size_t turns : {1U, 2U, 3U})
+        most = std::max(most, std::abs(function(rounded_.by_turns(turns, roundings)) - here));
+      return most;
+    };
+    const double changes = change(few), size = changes / (few * epsilon);
+    if (change(many) < 0.5 * (many / few) * changes) return 0.0;
     return std::abs(here) <= round_off() * size ? size : 0.0;
   } catch (...) {  // at the place itself `value` will say so
     return 0.0;

@@ -57,7 +57,7 @@ class EventWatch {
   };
 
   /// Of a run at this tolerance. Throws InvalidArgument for an event without function.
-  EventWatch(std::vector<FlatEvent> events, OfContacts of_contacts, const Layout& layout, double tolerance);
+  EventWatch(std::vector<FlatEvent> events, OfContacts of_contacts, const System& system, double tolerance);
 
   /// Every crossing in a step, in the order of time; of contacts those that were asked for. Throws
   /// StepFailure if a function throws, gives no number or cannot be followed.
@@ -127,7 +127,6 @@ class EventWatch {
   OfContacts of_contacts_;
   Accuracy accuracy_;
   RoundedSample rounded_;
-  double time_ = 0.0;  ///< of the scene
   double from_ = 0.0;
   std::size_t asked_for_ = 0;             ///< the first of them; behind are those of contacts
   std::size_t resolved_ = 0;              ///< the first of them may be faster than the motion

@@ -31,6 +31,31 @@ std::string stepper_name(const testing::TestParamInfo<Stepper>& info) { return n
 INSTANTIATE_TEST_SUITE_P(BothSteppers, CertificateBy, testing::Values(Stepper::ida, Stepper::erk),
                          stepper_name);
 
+/// A cart, x = t^2, takes another along from x = 1, which an event couples to it: both go on at half its
+/// speed and acceleration. A sample lies at that time, of which either run may show either side.
+TEST_P(CertificateBy, ASampleAtAChangeIsAtAJump) {
+  for (const double tolerance : {1e-5, 1e-7, 1e-9}) {
+    Scene<2> scene;
+    const auto first = scene.add_particle({.mass = 1.0}), second = scene.add_particle({.mass = 1.0});
+    scene.add(PointGravity{first, 1.0, Vec<2>{2.0, 0.0}});
+    const auto coupling = scene.add(
+        nonholonomic(points(first, second), [](auto, auto, auto v, auto w) { return v.x() - w.x(); }));
+    scene.release(coupling);
+    const Event<2> couple{.name = "couple",
+                          .function = [=](const Sample<2>& now) { return now.position(first).x() - 1.0; },
+                          .crossing = Crossing::rising,
+                          .change = [=](Scene<2>& its) { its.impose(coupling); }};
+    const auto found =
+        certify(scene, {.t_end = 2.0, .samples = 5, .tolerance = tolerance, .stepper = GetParam()}, {couple});
+    EXPECT_TRUE(found.complete()) << found.statement();
+    EXPECT_EQ(found.doubt(3), Doubt::none) << tolerance;
+    const double before = found.run().velocity(second, 2).x();
+    EXPECT_TRUE(std::abs(before) < 1e-3 || std::abs(before - 1.0) < 1e-3) << before;
+    const double error = std::abs(found.run().velocity(second, 4).x() - 2.0);
+    EXPECT_LE(error, 1.25 * found.velocity_error(second, 4) + 1e-14);
+  }
+}
+
 /// Dropped from h with restitution 1/2 it rests at 3 sqrt(2 h/g), after infinitely many impacts, of which the
 /// better run lists more: what either gives at the last of them is of another time, and no error.
 TEST_P(CertificateBy, ARestAfterInfinitelyManyImpactsHasATimeAndNoState) {

@@ -355,5 +355,48 @@ TEST_P(Events, WhatConstraintsKeepAt0DoesNotCross) {
   }
 }
 
+// What starts at 0 and leaves it, however large or fast what is not coupled to it may be.
+TEST_P(Events, WhatStartsAt0CrossesLater) {
+  for (const double fast : {1.0, 1e3, 1e6}) {
+    for (const double A : {1.0, 1e-3}) {
+      Scene<2> scene;
+      const auto swings = scene.add_particle({.mass = 1.0, .position = {A, 0.0}});
+      scene.add(OnCurve{swings, Plane<2>{}});
+      scene.add(potential(points(swings), [](auto r) { return 0.5 * r.x() * r.x(); }));
+      scene.add_particle({.mass = 1.0, .position = {0.0, 2.0}, .velocity = {fast, 0.0}});
+      const auto run = simulate(
+          scene, options(4.0),
+          {{.name = "turns", .function = [=](const Sample<2>& now) { return now.velocity(swings).x(); }}});
+      ASSERT_EQ(run.events().size(), 1U) << fast << ' ' << A;
+      // The whole scene's speed is what velocities are known to.
+      const double error = 12.0 * run.statistics().accuracy * std::max(fast, run.statistics().length) / A;
+      EXPECT_NEAR(run.events()[0].time, std::numbers::pi, std::max(1e-9, error)) << fast << ' ' << A;
+    }
+  }
+}
+
+// A jump is no term of a sum, whose rounding might be all that the function is. The seat of a swing moves
+// down at 45 degrees where it hangs at 45.
+TEST_P(Events, FunctionThatJumpsAtTheStartCrossesLater) {
+  Scene<2> thrown;
+  const auto stone = thrown.add_particle({.mass = 1.0});
+  thrown.add(UniformGravity<2>{{0.0, -g}});
+  thrown.add(unilateral(OnCurve{stone, Plane<2>{{0.0, -1.0}, {0.0, 1.0}}}, {.restitution = 0.5}));
+  const auto up = [=](const Sample<2>& now) { return now.velocity(stone).y() > 0.0 ? 1.0 : -1.0; };
+  const auto run = simulate(thrown, options(1.0),
+                            {{.name = "up", .function = up, .crossing = Crossing::rising, .ends = true}});
+  EXPECT_NEAR(run.times().back(), std::sqrt(2.0 / g), bound);
+
+  Scene<2> swing;
+  const auto seat = swing.add_particle({.mass = 1.0, .position = {1.0, 0.0}});
+  swing.add(Distance{Fixed<2>{}, seat, 1.0});
+  swing.add(UniformGravity<2>{{0.0, -g}});
+  const auto slope = [=](const Sample<2>& now) {
+    return std::atan2(now.velocity(seat).y(), now.velocity(seat).x()) + 0.75 * std::numbers::pi;
+  };
+  const auto stopped = simulate(swing, options(2.0), {{.name = "slope", .function = slope, .ends = true}});
+  EXPECT_NEAR(stopped.position(seat, stopped.size() - 1).x(), std::sqrt(0.5), 10.0 * bound);
+}
+
 }  // namespace
 }  // namespace dalembert::events_test
