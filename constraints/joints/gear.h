@@ -14,8 +14,9 @@ namespace dalembert {
 ///
 ///   g = r_a alpha + r_b beta,   r_a : r_b = teeth_a : teeth_b,   r_a + r_b = |c_b - c_a|,               (1)
 ///
-/// modulo whole teeth, as real gears repeat themselves: no turns are counted, so none are lost. The angles
-/// are those from the line of centres, which may turn too: planets need nothing else, and the
+/// modulo k teeth, k the greatest common divisor of their numbers: no turns are counted, so none are lost,
+/// and a step does not lose a tooth. Gears that an event engages must have turned by a multiple of k teeth.
+/// The angles are those from the line of centres, which may turn too: planets need nothing else, and the
 /// multiplier is the force of the teeth at the pitch point, on b along axis x (c_b - c_a), on a the
 /// opposite. (Angles against the ground would give a couple on each gear, and bearings without their load.
 /// The component of a real tooth's force along the line of centres, by the angle of its flank, is left out.)

@@ -40,10 +40,12 @@ struct Floquet {
 /// steps that are halved until each errs by less than 1e-11 of what it does. Rotors may turn round in a
 /// period, if a whole turn of them changes nothing.
 ///
-/// Carried through the rest of the period these errors add up to that of the map, e. A simple multiplier errs
-/// by no more than e/|y^H x|, with its eigenvectors y and x of length 1 on the left and right; of n that are
-/// equal, which e moves apart by an n-th root, that is an n-th of the way: of d multipliers each is known to
-/// d e/|y^H x|, or by Elsner to (2 |M| + e)^(1 - 1/d) e^(1/d) if that is less.
+/// All in the norm of the energy, sqrt(u^T (|K| + M/T^2) u + w^T M w) with the stiffness K at the start and
+/// the period T, which vibrations keep, however stiff they are. Carried through the rest of the period these
+/// errors add up to that of the map, e. A simple multiplier errs by no more than e/|y^H x|, with its
+/// eigenvectors y and x of length 1 on the left and right; of n that are equal, which e moves apart by an
+/// n-th root, that is an n-th of the way: of d multipliers each is known to d e/|y^H x|, or by Elsner to (2
+/// |M| + e)^(1 - 1/d) e^(1/d) if that is less.
 ///
 /// Throws NoEquilibrium if the motion does not return after `period`, or where forces or constraints differ
 /// after it at its ends or at 48 instants between; InvalidArgument if the period is

@@ -216,6 +216,31 @@ TEST_P(ContactShares, LadderSlidesAtTheSameTimeWhereFloorAndWallHoldBothWays) {
   EXPECT_NEAR(run.multiplier(on_wall, 0), run.multiplier(on_wall, 1), 1e-6);  // at first they are continuous
 }
 
+// The same ladder twice, not coupled: neither knows of the other, and so their shares do not. (Where the
+// largest part of both was made small together, one slid 5 % early.)
+TEST_P(ContactShares, LaddersSlideAsIfTheyWereAlone) {
+  constexpr double mu_floor = 0.4, mu_wall = 0.3, angle = 1.1;
+  const double N_wall = 20.0 / (std::tan(angle) + mu_wall), N_floor = 40.0 - mu_wall * N_wall;
+  const double slides = (mu_floor * N_floor - N_wall) / 5.0;
+  Scene<2> scene("ladders");
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  for (const double x : {0.0, 10.0}) {
+    const Vec<2> low(x + 3.0 * std::cos(angle), 0.0), high(x, 3.0 * std::sin(angle));
+    const auto body = add_body(scene, BodyState<2>{.mass = 4.0, .inertia = 3.0, .centre = 0.5 * (low + high)},
+                               "ladder " + std::to_string(x));
+    const auto foot = body.point_at(low), top = body.point_at(high);
+    const Plane<2> wall{.point = high, .normal = {1.0, 0.0}};
+    const auto floors = scene.add(OnCurve{foot, Plane<2>{}}), walls = scene.add(OnCurve{top, wall});
+    scene.add(coulomb(floors, Slip{foot, Plane<2>{}}, mu_floor));
+    scene.add(coulomb(walls, Slip{top, wall}, mu_wall));
+    scene.add(force_law(points(foot),
+                        [](auto t, auto r, auto) { return vec(5.0 * t + 0.0 * r.x(), 0.0 * r.x()); }));
+  }
+  const auto run = simulate(scene, options(slides + 0.01, 2));
+  ASSERT_EQ(run.events().size(), 4u);
+  for (const EventRecord& one : run.events()) EXPECT_NEAR(one.time, slides, 100.0 * rounding);  // at x = 10
+}
+
 /// A body of weight 10 on three legs at different heights, pulled at its centre by 10 t.
 struct Stand {
   Scene<2> scene{"stand"};
