@@ -150,6 +150,7 @@ void FrictionShares::spread(const MatrixXd& N, std::span<const char> unique,
       N.col(k).cwiseAbs().maxCoeff(&row);
       if (!is_elsewhere(row)) columns.push_back(k);
     }
+    if (columns.empty()) continue;
     auto push = pushing;
     std::erase_if(push, [&](const SharedContact& c) { return is_elsewhere(c.pressing_row); });
     const MatrixXd own = N(Eigen::all, columns);

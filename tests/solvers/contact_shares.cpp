@@ -216,8 +216,8 @@ TEST_P(ContactShares, LadderSlidesAtTheSameTimeWhereFloorAndWallHoldBothWays) {
   EXPECT_NEAR(run.multiplier(on_wall, 0), run.multiplier(on_wall, 1), 1e-6);  // at first they are continuous
 }
 
-// The same ladder twice, not coupled: neither knows of the other, and so their shares do not. (Where the
-// largest part of both was made small together, one slid 5 % early.)
+// The same ladder twice, and a block that shares nothing, not coupled: neither knows of the other, and so
+// their shares do not. (Where the largest part of both was made small together, one slid 5 % early.)
 TEST_P(ContactShares, LaddersSlideAsIfTheyWereAlone) {
   constexpr double mu_floor = 0.4, mu_wall = 0.3, angle = 1.1;
   const double N_wall = 20.0 / (std::tan(angle) + mu_wall), N_floor = 40.0 - mu_wall * N_wall;
@@ -236,6 +236,9 @@ TEST_P(ContactShares, LaddersSlideAsIfTheyWereAlone) {
     scene.add(force_law(points(foot),
                         [](auto t, auto r, auto) { return vec(5.0 * t + 0.0 * r.x(), 0.0 * r.x()); }));
   }
+  const auto block = scene.add_particle({.mass = 1.0, .position = {20.0, 0.0}});
+  const auto floor = scene.add(unilateral(OnCurve{block, Plane<2>{}}));
+  scene.add(coulomb(floor, Slip{block, Plane<2>{}}, mu_floor));
   const auto run = simulate(scene, options(slides + 0.01, 2));
   ASSERT_EQ(run.events().size(), 4u);
   for (const EventRecord& one : run.events()) EXPECT_NEAR(one.time, slides, 100.0 * rounding);  // at x = 10
