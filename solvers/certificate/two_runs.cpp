@@ -22,7 +22,6 @@ std::string words_of_time(double t) {
   return out.str();
 }
 
-/// But for what jumps.
 /// Whether anything jumps at an event: one that changes nothing is the same before and after it.
 bool is_jump(const Record& run, std::size_t k) {
   if (run.events[k].kind != EventKind::event) return true;
@@ -31,6 +30,7 @@ bool is_jump(const Record& run, std::size_t k) {
            std::ranges::equal(before.lambda, after.lambda));
 }
 
+/// But for what jumps.
 bool is_known(const Certainty& its) { return its.doubt == Doubt::none || its.doubt == Doubt::at_a_jump; }
 
 /// Results are sums of as many terms as the scene has rows and coordinates.

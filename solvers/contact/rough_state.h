@@ -60,7 +60,8 @@ struct RoughState {
   /// late errs by at most twice this speed: a part of a step's tolerance.
   [[nodiscard]] double no_slip(double tolerance) const;
   /// How far back along its direction what slides comes before it counts as stopped. What leaves rest has no
-  /// slip yet but the errors of its steps.
+  /// slip yet but the errors of its steps; by half of what is slow at most, up to where friction has its
+  /// direction at rest, see SlidingFriction.
   [[nodiscard]] double backlash(double tolerance) const {
     return pace == Pace::leaves ? std::min(true_over_estimated * still, 0.5 * slow) : no_slip(tolerance);
   }

@@ -285,9 +285,8 @@ class Monodromy {
     if (whole.start.basis.cols() == 0) return {};
     refine(whole, 0);
     const auto [c, error] = product();
-    const auto [R, inverse] = norm_.of(whole.start.basis);
     const MatrixXd back = whole.start.basis.transpose() * whole.nodes.back().basis;
-    return {R * back * norm_.of(whole.nodes.back().basis).inverse * c, error,
+    return {norm_.of(whole.start.basis).root * back * norm_.of(whole.nodes.back().basis).inverse * c, error,
             2 * static_cast<int>(maps_.size())};
   }
   /// At which the motion was looked at for that, in order.

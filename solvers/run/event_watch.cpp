@@ -84,7 +84,7 @@ std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
 /// How large the terms are whose sum a function is, where that is round-off of them, as |r| - L of what a rod
 /// of length L holds, or its rate; else 0. Terms change with the roundings, what jumps there does not.
 double EventWatch::size_of_terms(std::size_t event, const FlatSample& at) {
-  constexpr double few = 16.0, many = few * few;
+  constexpr double few = 16.0, many = few * few;  // above the roundings of the function itself
   const auto& function = events_[event].function;
   try {
     const double here = function(at);

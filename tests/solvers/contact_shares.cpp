@@ -217,7 +217,7 @@ TEST_P(ContactShares, LadderSlidesAtTheSameTimeWhereFloorAndWallHoldBothWays) {
 }
 
 // The same ladder twice, and a block that shares nothing, not coupled: neither knows of the other, and so
-// their shares do not. (Where the largest part of both was made small together, one slid 5 % early.)
+// their shares do not. (Where the largest part of both was made small together, one slid early.)
 TEST_P(ContactShares, LaddersSlideAsIfTheyWereAlone) {
   constexpr double mu_floor = 0.4, mu_wall = 0.3, angle = 1.1;
   const double N_wall = 20.0 / (std::tan(angle) + mu_wall), N_floor = 40.0 - mu_wall * N_wall;

@@ -244,8 +244,8 @@ TEST_P(CoulombFrictionInSpace, RestsBehindAPushOfAnother) {
 // Omega, and down and up: with I = 2 m R^2/5 the rows of no slip give z'' = -(5 g/7) cos(k t), k^2 = 2
 // Omega^2/7, and the wall pushes by m A Omega^2. The friction along z, m (g + z''), reaches mu times that at
 // t1. The slip that begins has no acceleration at first: its direction, which turns with what it can be told
-// by, is an error of the steps. Each of its turns began another sliding: 7 for `erk` at 1e-6, 9 for `ida` at
-// 1e-12, and at 1e-4 `erk` came no further.
+// by, is an error of the steps. Each of its turns began another
+// sliding.
 TEST_P(CoulombFrictionInSpace, BeginsToSlideOnce) {
   constexpr double A = 0.8, Omega = 4.0, R = 0.1, m = 0.7, mu = 0.9, I = 0.4 * m * R * R;
   Scene<3> scene;
