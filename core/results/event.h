@@ -5,6 +5,8 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace dalembert {
@@ -15,6 +17,24 @@ class System;
 
 /// The direction in which a function crosses 0.
 enum class Crossing { either, rising, falling };
+
+/// A number read from an instant of a run, of which an event is a zero. A condition is none: of `x > 1` the
+/// values are 0 and 1, which lie on no two sides of 0; say `x - 1`.
+template <int D>
+class EventFunction : public std::function<double(const Sample<D>&)> {
+  using Function = std::function<double(const Sample<D>&)>;
+
+ public:
+  EventFunction() = default;
+  template <class F>
+    requires(std::is_invocable_r_v<double, F&, const Sample<D>&> &&
+             !std::is_base_of_v<EventFunction, std::decay_t<F>>)
+  EventFunction(F&& function) : Function(std::forward<F>(function)) {
+    static_assert(
+        !std::is_same_v<std::decay_t<std::invoke_result_t<F&, const Sample<D>&>>, bool>,
+        "an event's function returns a number that crosses 0, as `x - 1`, not a condition, as `x > 1`");
+  }
+};
 
 /// Something that happens where a function of the state is 0: a normal force vanishes, a string is straight,
 /// a bead comes to rest.
@@ -27,10 +47,10 @@ enum class Crossing { either, rising, falling };
 /// an impact, it crosses 0.
 template <int D>
 struct Event {
-  std::string name;                                  ///< for errors
-  std::function<double(const Sample<D>&)> function;  ///< is 0 where it happens
-  Crossing crossing = Crossing::either;              ///< which zeros count
-  bool ends = false;                                 ///< the run ends there, with a last sample at that time
+  std::string name;                      ///< for errors
+  EventFunction<D> function;             ///< is 0 where it happens
+  Crossing crossing = Crossing::either;  ///< which zeros count
+  bool ends = false;                     ///< the run ends there, with a last sample at that time
   /// Changes the scene there; empty if it does not. The scene has the state of that instant as its initial
   /// one: `replace` states parameters anew, and with particles masses and velocities; `release` and `impose`
   /// take constraints out of force and back. The run goes on with that, from velocities projected onto the

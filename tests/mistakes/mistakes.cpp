@@ -91,6 +91,9 @@ struct EnergyAndForce {
   const Translating moving{Plane<2>{}, [](auto t) { return vec(0.0, sin(t)); }};
   scene.add(coulomb(scene.add(OnCurve{bead, moving}), Slip{bead, moving}, 0.3));
 #endif
+#ifdef MISTAKE_condition  // an event's function returns a number that crosses 0
+  [[maybe_unused]] const Event<2> over{"over", [=](const auto& now) { return now.position(bead).x() > 1.0; }};
+#endif
 #ifdef MISTAKE_option  // is an option misspelled, or not in the order of solvers/base/options.h?
   const auto run = simulate(scene, {.t_end = 1.0, .tolerence = 1e-8});
 #endif
