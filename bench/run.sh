@@ -57,6 +57,7 @@ measure $bench ratios --csv $report/ratios.csv "${ratios[@]}"
 measure $bench scaling --stepper ida,erk,hand --tolerance 1e-5 --t-end 0.05 --csv $report/scaling.csv "${scaling[@]}"
 draw scaling.csv scaling
 measure $bench set-up --csv $report/set-up.csv "${set_up[@]}"
+compile dalembert-checks
 measure $bench extremes --csv $report/extremes.csv "${extremes[@]}"
 draw extremes.csv extremes
 measure $bench audit --csv $report/audit.csv "${audit[@]}"

@@ -1,9 +1,8 @@
+#include <dalembert/bench/command_line.h>
 #include <dalembert/bench/progress.h>
 #include <dalembert/bench/report.h>
 #include <dalembert/bench/sensitivity/constants.h>
 #include <dalembert/bench/sensitivity/runs.h>
-
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -114,9 +113,7 @@ int main(int argc, char** argv) try {
   ReportOptions options;
   std::vector<std::string> names{"all"};
   app.add_option("--constant", names, "all, or names as in the table")->delimiter(',')->capture_default_str();
-  app.add_option("--csv", options.csv,
-                 "Also write the table to this file, and the same for readers beside it as .txt");
-  app.add_option("--note", options.note, "A line for the heading, such as the commit");
+  add_report(app, options);
   CLI11_PARSE(app, argc, argv);
   sensitivity(names, options);
   return 0;

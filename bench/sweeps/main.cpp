@@ -1,6 +1,5 @@
+#include <dalembert/bench/command_line.h>
 #include <dalembert/bench/sweeps/table.h>
-
-#include <CLI/CLI.hpp>
 
 #include <iostream>
 
@@ -33,9 +32,7 @@ int main(int argc, char** argv) try {
   app.add_option("--directory", options.directory, "Where the tables of pictures go")
       ->check(CLI::ExistingDirectory)
       ->capture_default_str();
-  app.add_option("--csv", options.report.csv,
-                 "Also write the table to this file, and the same for readers beside it as .txt");
-  app.add_option("--note", options.report.note, "A line for the heading, such as the commit");
+  add_report(app, options.report);
 
   std::string example, file;
   std::size_t rows = 1000, bad = 0;

@@ -56,7 +56,7 @@ async function arrowsAreTheForces(browser) {
     const size = Math.hypot(...force);
     assert.ok(size > 1, "an instant at which there is a force to see");
     assert.ok(error > 0 && error < 1e-5 * size, `the error of the force is known: ${error}`);
-    // A true error is below five estimated ones (bench/certificates.cpp finds all of them so); the direction is off by
+    // A true error is below five estimated ones (bench/checks/certificates.cpp finds all of them so); the direction is off by
     // that of the place, which is smaller, and doubles of the GPU's matrices are not used here.
     for (const k of [0, 1]) {
       assert.ok(Math.abs(arrow.tail[k] - place[k]) < 1e-6, `the arrow begins at the bob at t = ${t}`);

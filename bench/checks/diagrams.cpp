@@ -1,4 +1,4 @@
-#include <dalembert/bench/commands.h>
+#include <dalembert/bench/checks/commands.h>
 #include <dalembert/bench/table.h>
 #include <dalembert/models/driven_pivot.h>
 #include <dalembert/models/governor.h>

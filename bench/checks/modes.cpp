@@ -1,6 +1,6 @@
-#include <dalembert/bench/bicycle_in_time.h>
-#include <dalembert/bench/commands.h>
-#include <dalembert/bench/stability_limits.h>
+#include <dalembert/bench/checks/bicycle_in_time.h>
+#include <dalembert/bench/checks/commands.h>
+#include <dalembert/bench/checks/stability_limits.h>
 #include <dalembert/dalembert.h>
 #include <dalembert/models/hanging_rods.h>
 #include <dalembert/models/small_motions.h>

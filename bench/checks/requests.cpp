@@ -1,4 +1,4 @@
-#include <dalembert/bench/commands.h>
+#include <dalembert/bench/checks/commands.h>
 #include <dalembert/bench/median.h>
 #include <dalembert/bench/models.h>
 #include <dalembert/models/error.h>

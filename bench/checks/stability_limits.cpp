@@ -1,4 +1,4 @@
-#include "dalembert/bench/stability_limits.h"
+#include "dalembert/bench/checks/stability_limits.h"
 
 #include <dalembert/dalembert.h>
 #include <dalembert/models/whipple_bicycle.h>

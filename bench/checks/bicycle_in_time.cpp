@@ -1,4 +1,4 @@
-#include "dalembert/bench/bicycle_in_time.h"
+#include "dalembert/bench/checks/bicycle_in_time.h"
 
 #include <dalembert/core/linear/dense.h>
 #include <dalembert/dalembert.h>
