@@ -48,7 +48,7 @@ EventHandler::EventHandler(std::vector<FlatEvent> events, ConditionalConstraints
       auditor_(auditor),
       seen_(integration.system(), integration.start(), any_changes_scene(events)),
       watch_(with_switching(std::move(events), conditional), of_contacts(asked_for_, conditional),
-             integration.system(), integration.tolerance()),
+             integration.system().layout()->scene, integration.tolerance()),
       changes_(asked_for_) {}
 
 bool EventHandler::any_changes_scene(const std::vector<FlatEvent>& events) {
@@ -294,8 +294,9 @@ Stop EventHandler::restart(const Stop& stop, const FlatSample* before, Integrati
   };
   const OutputState start = (read(integration, t), seen_);
   const bool timed = system.rheonomic() || system.forces().timed();
-  const auto jumped = watch_.restart({start.flat(), before, asked_for_, timed, stop.not_reached, changed,
-                                      ahead, integration.scales(t).time});
+  const auto jumped =
+      watch_.restart({start.flat(), before, asked_for_, timed, stop.not_reached, changed, ahead,
+                      integration.scales(t).time, integration.scales(t).length, system});
   Stop next{t, stop.ends_run, stop.changes};
   for (const EventWatch::Found& one : jumped) {
     if (!one.wanted) continue;

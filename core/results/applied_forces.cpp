@@ -7,6 +7,11 @@ namespace dalembert {
 
 namespace {
 
+std::span<const int> coordinates(const AppliedForces::Place& place) {
+  const auto width = static_cast<std::size_t>(place.batch->shape().width);
+  return place.batch->coordinates().subspan(place.element * width, width);
+}
+
 /// Adds up the entries that act on each coordinate from `first` on.
 void gather(std::span<const int> coordinates, std::span<const double> force, int first,
             std::span<double> out) {
@@ -18,6 +23,17 @@ void gather(std::span<const int> coordinates, std::span<const double> force, int
 
 }  // namespace
 
+bool AppliedForces::evaluate(const Place& place, const Instant& at, std::span<const double> lambda,
+                             std::vector<double>& force) {
+  const ForceShape shape = place.batch->shape();
+  const auto read = shape.rows > 0 ? lambda.subspan(place.first_row, static_cast<std::size_t>(shape.rows))
+                                   : std::span<const double>();
+  if (std::ranges::any_of(read, [](double x) { return std::isnan(x); })) return false;
+  force.resize(static_cast<std::size_t>(shape.width));
+  place.batch->force(place.element, at, read, force);
+  return true;
+}
+
 bool AppliedForces::on(std::size_t number, const Instant& at, std::span<const double> lambda, int first,
                        double mass, std::span<double> out) const {
   const Place& place = places_[number];
@@ -26,15 +42,23 @@ bool AppliedForces::on(std::size_t number, const Instant& at, std::span<const do
     for (std::size_t k = 0; k < out.size(); ++k) out[k] = mass * place.acceleration[k];
     return true;
   }
-  const ForceShape shape = place.batch->shape();
-  const auto width = static_cast<std::size_t>(shape.width);
-  const auto read = shape.rows > 0 ? lambda.subspan(place.first_row, static_cast<std::size_t>(shape.rows))
-                                   : std::span<const double>();
-  if (std::ranges::any_of(read, [](double x) { return std::isnan(x); })) return false;
-  std::vector<double> force(width);
-  place.batch->force(place.element, at, read, force);
-  gather(place.batch->coordinates().subspan(place.element * width, width), force, first, out);
+  std::vector<double> force;
+  if (!evaluate(place, at, lambda, force)) return false;
+  gather(coordinates(place), force, first, out);
   return true;
+}
+
+void AppliedForces::raise_to_sizes(const Instant& at, std::span<const double> lambda,
+                                   std::span<double> to) const {
+  std::vector<double> force;
+  for (const Place& place : places_) {
+    if (place.batch == nullptr || !evaluate(place, at, lambda, force)) continue;
+    const auto on = coordinates(place);
+    for (std::size_t k = 0; k < on.size(); ++k) {
+      double& its = to[static_cast<std::size_t>(on[k])];
+      its = std::max(its, std::abs(force[k]));
+    }
+  }
 }
 
 }  // namespace dalembert

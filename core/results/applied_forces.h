@@ -28,8 +28,15 @@ class AppliedForces {
   /// Throws ElementFault.
   [[nodiscard]] bool on(std::size_t number, const Instant& at, std::span<const double> lambda, int first,
                         double mass, std::span<double> out) const;
+  /// Raises `to` to the largest that any one of them is on each coordinate, in size. Left out are uniform
+  /// accelerations, and what reads a multiplier that is not determined. Throws ElementFault.
+  void raise_to_sizes(const Instant& at, std::span<const double> lambda, std::span<double> to) const;
 
  private:
+  /// Of a batch's force, on each of its coordinates; false as in `on`.
+  static bool evaluate(const Place& place, const Instant& at, std::span<const double> lambda,
+                       std::vector<double>& force);
+
   std::vector<Place> places_;
 };
 

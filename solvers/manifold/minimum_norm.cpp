@@ -1,12 +1,12 @@
 #include "dalembert/solvers/manifold/minimum_norm.h"
 
+#include <dalembert/solvers/base/irregular.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/linear/complementarity.h>
 #include <dalembert/solvers/linear/rows.h>
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <utility>
 
 namespace dalembert {
@@ -54,15 +54,6 @@ Eigen::VectorXd least_pull(const Eigen::MatrixXd& M, const Eigen::VectorXd& p) {
     y = *next;
   }
   return y;
-}
-
-/// Numbers between -1 and 1 without a pattern, which a scene might share.
-std::vector<double> irregular(std::size_t count) {
-  std::minstd_rand generator;
-  std::vector<double> numbers(count);
-  for (double& x : numbers)
-    x = 2.0 * static_cast<double>(generator()) / static_cast<double>(std::minstd_rand::max()) - 1.0;
-  return numbers;
 }
 
 /// How exactly positions are known: to some roundings of the farthest, and to what is left of the

@@ -25,12 +25,11 @@ bool wanted(Crossing crossing, int before) {
 
 }  // namespace
 
-EventWatch::EventWatch(std::vector<FlatEvent> events, OfContacts of_contacts, const System& system,
+EventWatch::EventWatch(std::vector<FlatEvent> events, OfContacts of_contacts, const std::string& scene,
                        double tolerance)
     : events_(std::move(events)),
       of_contacts_(std::move(of_contacts)),
       accuracy_(tolerance),
-      rounded_(system),
       largest_(events_.size()),
       units_(events_.size()),
       largest_before_(events_.size()),
@@ -41,10 +40,9 @@ EventWatch::EventWatch(std::vector<FlatEvent> events, OfContacts of_contacts, co
       returned_(events_.size()) {
   for (const FlatEvent& event : events_) {
     if (!event.function)
-      throw InvalidArgument("Event \"" + event.name + "\" of scene \"" + system.layout()->scene +
-                            "\" has no function");
+      throw InvalidArgument("Event \"" + event.name + "\" of scene \"" + scene + "\" has no function");
     if (event.ends && event.change)
-      throw InvalidArgument("Event \"" + event.name + "\" of scene \"" + system.layout()->scene +
+      throw InvalidArgument("Event \"" + event.name + "\" of scene \"" + scene +
                             "\" both ends the run and changes the scene; it can do only one of them");
   }
 }
@@ -57,6 +55,8 @@ std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
   rate_at_from_.clear();
   auto never_left = [was = std::exchange(side_, {})](std::size_t e) { return was.empty() || was[e] == 0; };
   leaves_.assign(events_.size(), from_);
+  rounded_.reset();
+  if (asked_for_ > 0) rounded_.emplace(beginning.system, beginning.length);
   std::vector<Found> jumped;
   for (std::size_t e = 0; e < events_.size(); ++e) {
     int before = 0;
@@ -82,22 +82,27 @@ std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
 }
 
 /// How large the terms are whose sum a function is, where that is round-off of them, as |r| - L of what a rod
-/// of length L holds, or its rate; else 0. Terms change with the roundings, what jumps there does not.
+/// of length L holds, or its rate; else 0. Terms change with the roundings, also by a root; what jumps there
+/// does not.
 double EventWatch::size_of_terms(std::size_t event, const FlatSample& at) {
-  constexpr double few = 16.0, many = few * few;  // above the roundings of the function itself
+  constexpr double few = 256.0;  // above the roundings of the function itself
+  // Of a cosine, whose change is of second order, this shows the angle.
+  static const double many = std::cbrt(epsilon) / epsilon;
   const auto& function = events_[event].function;
   try {
     const double here = function(at);
-    rounded_.measure(at);
+    rounded_->measure(at);
     const auto change = [&](double roundings) {
       double most = 0.0;
-      for (const std::size_t turns : {1U, 2U, 3U})
-        most = std::max(most, std::abs(function(rounded_.by_turns(turns, roundings)) - here));
+      for (std::size_t pattern = 0; pattern < RoundedSample::patterns; ++pattern) {
+        const double by = std::abs(function(rounded_->beside(pattern, roundings)) - here);
+        most = std::isnan(by) ? std::numeric_limits<double>::infinity() : std::max(most, by);
+      }
       return most;
     };
     const double changes = change(few), size = changes / (few * epsilon);
-    if (change(many) < 0.5 * (many / few) * changes) return 0.0;
-    return std::abs(here) <= round_off() * size ? size : 0.0;
+    if (std::isinf(size) || std::abs(here) > round_off() * size || change(many) < 2.0 * changes) return 0.0;
+    return size;
   } catch (...) {  // at the place itself `value` will say so
     return 0.0;
   }
@@ -105,7 +110,7 @@ double EventWatch::size_of_terms(std::size_t event, const FlatSample& at) {
 
 /// What has never left 0 may be round-off of terms that were smaller before.
 void EventWatch::measure_what_stays(std::size_t event, const FlatSample& at, double value) {
-  if (event < asked_for_ && side_[event] == 0 && value != 0.0)
+  if (event < asked_for_ && side_[event] == 0 && std::abs(value) > round_off() * units_[event])
     units_[event] = std::max(units_[event], size_of_terms(event, at));
 }
 

@@ -57,7 +57,8 @@ class EventWatch {
   };
 
   /// Of a run at this tolerance. Throws InvalidArgument for an event without function.
-  EventWatch(std::vector<FlatEvent> events, OfContacts of_contacts, const System& system, double tolerance);
+  EventWatch(std::vector<FlatEvent> events, OfContacts of_contacts, const std::string& scene,
+             double tolerance);
 
   /// Every crossing in a step, in the order of time; of contacts those that were asked for. Throws
   /// StepFailure if a function throws, gives no number or cannot be followed.
@@ -72,7 +73,8 @@ class EventWatch {
     const std::vector<Found>& left;
     std::optional<std::size_t> changed;  ///< the event whose change this is
     const Read& ahead;                   ///< the start, moved on by its own velocities and accelerations
-    double time;                         ///< of the scene
+    double time, length;                 ///< of the scene
+    const System& system;                ///< from here on
   };
   /// From here on steps are those of a run that begins there. Returns the crossings of events that were asked
   /// for by what jumps there, as a velocity does at an impact. One that is 0, to round-off of its largest
@@ -126,7 +128,7 @@ class EventWatch {
   std::vector<FlatEvent> events_;
   OfContacts of_contacts_;
   Accuracy accuracy_;
-  RoundedSample rounded_;
+  std::optional<RoundedSample> rounded_;  ///< of this segment, if events were asked for
   double from_ = 0.0;
   std::size_t asked_for_ = 0;             ///< the first of them; behind are those of contacts
   std::size_t resolved_ = 0;              ///< the first of them may be faster than the motion
