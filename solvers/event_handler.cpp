@@ -231,7 +231,7 @@ Change EventHandler::put_onto(const FlatEvent::Changed& next, const FlatSample& 
       conditional_ == nullptr
           ? always
           : Problem(next.system->without(conditional_->not_held(*next.system, {at.time, q, v})));
-  const double known = true_over_estimated * integration.accuracy(at.time);
+  const double known = integration.error_of_position(at.time);
   const Scales scales = integration.scales(at.time);
   const auto impulses = project_impulsively_onto(always, held, scales, at.time, q, v, known);
   double moved = 0.0;

@@ -346,10 +346,17 @@ Statistics Integration::statistics(double until) const {
     const auto of_scene = [&](double position, double velocity) {
       return std::max(position / s.length, velocity * s.time / s.length) + error_.shift() / s.time;
     };
-    s.accuracy = std::max(options_.tolerance, of_scene(error_.position(), error_.velocity()));
+    s.accuracy = std::max(options_.tolerance, of_scene(error_.position(), error_.velocity())) +
+                 error_.displaced() / s.length;
     s.round_off = of_scene(error_.position_noise(), error_.velocity_noise());
   }
   return s;
+}
+
+double Integration::error_of_position(double t) const {
+  const Statistics s = statistics(t);
+  const double displaced = error_.displaced() / s.length;
+  return true_over_estimated * std::max(options_.tolerance, s.accuracy - displaced) + displaced;
 }
 
 std::string Integration::chattering_force(double step) {

@@ -90,10 +90,10 @@ class Integration {
   [[nodiscard]] std::shared_ptr<const DenseOutput> dense(double end);
   /// Of all its steppers up to a time inside the last step, without the run time.
   [[nodiscard]] Statistics statistics(double until) const;
-  /// What positions are right to at a time inside the last step, a part of the scene's length.
-  [[nodiscard]] double accuracy(double t) const {
-    return std::max(options_.tolerance, statistics(t).accuracy);
-  }
+  /// What positions may be off by at a time inside the last step, a part of the scene's length. Events have
+  /// moved them by so much and no more: what counted that several times would let each miss by more than the
+  /// one before.
+  [[nodiscard]] double error_of_position(double t) const;
 
  private:
   /// A state of the stepper's own, not put onto the constraints.

@@ -39,19 +39,28 @@ double Quantities::floor_of(Kind kind, const Certainty& its) const {
     case Kind::angular_velocity:
       return its.of_states * certified_->speed() / certified_->length();
     case Kind::force:
-      return certified_->error(0.0, certified_->largest_force(), its);
+      return certified_->error_of_force(0.0, its);
     case Kind::other:
       break;
   }
   return 0.0;
 }
 
+namespace {
+
+Certainty certainty_of(Quantities::Kind kind, const Certainty& its) {
+  using Kind = Quantities::Kind;
+  if (kind == Kind::position || kind == Kind::angle) return its.of_positions();
+  if (kind == Kind::velocity || kind == Kind::angular_velocity) return its.of_velocities();
+  return its;
+}
+
+}  // namespace
+
 double Quantities::error(const Shown& at, int numbers, Kind kind, const Reading& read) const {
   constexpr double unknown = std::numeric_limits<double>::infinity();
   if (at.certainty == nullptr) return unknown;
-  Certainty its = *at.certainty;
-  const bool place = kind == Kind::position || kind == Kind::angle;
-  if (place && its.doubt == Doubt::at_a_jump) its.doubt = Doubt::none;  // positions do not jump
+  const Certainty its = certainty_of(kind, *at.certainty);
   if (its.doubt != Doubt::none) return unknown;
   std::vector<double> own(static_cast<std::size_t>(numbers)), other(own.size());
   read(at.sample(), own);
@@ -62,7 +71,9 @@ double Quantities::error(const Shown& at, int numbers, Kind kind, const Reading&
     apart += (own[k] - other[k]) * (own[k] - other[k]);
   }
   if (std::isnan(apart)) return unknown;
-  return std::max(certified_->error(std::sqrt(apart), std::sqrt(size), its), floor_of(kind, its));
+  const double error = kind == Kind::other ? certified_->error_of_any(std::sqrt(apart), std::sqrt(size), its)
+                                           : certified_->error(std::sqrt(apart), std::sqrt(size), its);
+  return std::max(error, floor_of(kind, its));
 }
 
 }  // namespace dalembert

@@ -35,12 +35,21 @@ inline constexpr double hundredth = 0.01;
 /// The motion between samples and the ledger are of the run that is handed out.
 [[nodiscard]] Options tighter(Options options, Stepper by, double part = hundredth);
 
+/// What an implicit run passes over: vibrations of which it takes less than three steps a period. It damps
+/// them as its tolerance allows. However small they are, their forces are as large as what began them: those
+/// of a load that is set on a stiff cable swing by its weight for ever. Explicit steps follow them, as far as
+/// a run with these options was cut short before something happens: in as long as half a period of what the
+/// implicit run does follow. (What begins to vibrate later is not seen.)
+[[nodiscard]] PassedOver passed_over(const Run& run, const Options& options, const Record& implicit,
+                                     const FinishedRun& cut_short);
+
 /// The run that the options ask for, and one at a hundredth of its tolerance, or at a hundredth of that again
 /// until it claims to be more accurate by what TwoRuns needs. Throws what the first one throws.
 ///
 /// The second is explicit where that takes no more steps than an implicit run (a stiff scene is one where it
 /// does), so that the two seldom have more in common than the equations; there the two run one after the
-/// other, and the second costs a part of the first. Two explicit ones run on two threads.
+/// other, and the second costs a part of the first. Two explicit ones run on two threads. Beside two implicit
+/// ones the begin is run by explicit steps, see `passed_over`.
 [[nodiscard]] TwoRuns run_twice(const Run& run, const Options& options);
 
 }  // namespace dalembert

@@ -49,17 +49,20 @@ class Certificate {
   /// where either run leaves a force undetermined.
   template <class Quantity>
   [[nodiscard]] double error(const Quantity& quantity, std::size_t i) const {
-    return compare(quantity, run_.sample(i), reference_, &Trajectory<D>::sample, runs_.sample(i));
+    return compare(quantity, run_.sample(i), reference_, &Trajectory<D>::sample, runs_.sample(i),
+                   &TwoRuns::error_of_any);
   }
   /// The same at the k-th thing that happened: before it, and after.
   template <class Quantity>
   [[nodiscard]] double event_error(const Quantity& quantity, std::size_t k) const {
-    return compare(quantity, run_.event_sample(k), reference_, &Trajectory<D>::event_sample, runs_.event(k));
+    return compare(quantity, run_.event_sample(k), reference_, &Trajectory<D>::event_sample, runs_.event(k),
+                   &TwoRuns::error_of_any);
   }
   /// Of the state after it.
   template <class Quantity>
   [[nodiscard]] double error_after(const Quantity& quantity, std::size_t k) const {
-    return compare(quantity, run_.sample_after(k), reference_, &Trajectory<D>::sample_after, runs_.event(k));
+    return compare(quantity, run_.sample_after(k), reference_, &Trajectory<D>::sample_after, runs_.event(k),
+                   &TwoRuns::error_of_any);
   }
 
   /// Of the readings of the same names, see Sample, at sample i.
@@ -70,8 +73,7 @@ class Certificate {
   /// Of the velocity of a point [speed].
   template <Point P>
   [[nodiscard]] double velocity_error(const P& point, std::size_t i) const {
-    return larger(error([&](const Sample<D>& now) { return now.velocity(point); }, i),
-                  at(i).of_states * runs_.speed());
+    return error_of_velocity([&](const Sample<D>& now) { return now.velocity(point); }, runs_.speed(), i);
   }
   /// Of the angle of a rotor [rad].
   [[nodiscard]] double angle_error(Rotor rotor, std::size_t i) const {
@@ -79,21 +81,21 @@ class Certificate {
   }
   /// Of its rate [rad / time].
   [[nodiscard]] double angular_velocity_error(Rotor rotor, std::size_t i) const {
-    return larger(error([&](const Sample<D>& now) { return now.angular_velocity(rotor); }, i),
-                  at(i).of_states * runs_.speed() / runs_.length());
+    return error_of_velocity([&](const Sample<D>& now) { return now.angular_velocity(rotor); },
+                             runs_.speed() / runs_.length(), i);
   }
   /// Of a multiplier, of several the norm [force].
   template <int Rows>
   [[nodiscard]] double multiplier_error(Constraint<Rows> constraint, std::size_t i) const {
-    const double none = 0.0;
     return larger(error([&](const Sample<D>& now) { return now.multiplier(constraint); }, i),
-                  runs_.error(none, runs_.largest_force(), at(i)));
+                  runs_.error_of_force(0.0, at(i)));
   }
   /// On a particle or a body.
   template <int Rows, class Body>
   [[nodiscard]] double constraint_force_error(Constraint<Rows> constraint, const Body& body,
                                               std::size_t i) const {
-    return error([&](const Sample<D>& now) { return now.constraint_force(constraint, body); }, i);
+    return larger(error([&](const Sample<D>& now) { return now.constraint_force(constraint, body); }, i),
+                  runs_.passed_over().force);
   }
   /// Of the time of the k-th thing that happened, and of an impulse there.
   [[nodiscard]] double event_time_error(std::size_t k) const {
@@ -148,18 +150,25 @@ class Certificate {
   }
   template <class Quantity>
   [[nodiscard]] double error_of_position(const Quantity& quantity, double unit, std::size_t i) const {
-    Certainty its = at(i);
-    if (its.doubt == Doubt::at_a_jump) its.doubt = Doubt::none;  // positions do not jump
-    return larger(compare(quantity, run_.sample(i), reference_, &Trajectory<D>::sample, its),
+    return error_of_state(quantity, unit, i, at(i).of_positions());
+  }
+  template <class Quantity>
+  [[nodiscard]] double error_of_velocity(const Quantity& quantity, double unit, std::size_t i) const {
+    return error_of_state(quantity, unit, i, at(i).of_velocities());
+  }
+  template <class Quantity>
+  [[nodiscard]] double error_of_state(const Quantity& quantity, double unit, std::size_t i,
+                                      const Certainty& its) const {
+    return larger(compare(quantity, run_.sample(i), reference_, &Trajectory<D>::sample, its, &TwoRuns::error),
                   its.of_states * unit);
   }
   template <class Quantity>
   [[nodiscard]] double compare(const Quantity& quantity, const Sample<D>& own, const Trajectory<D>& reference,
-                               Sample<D> (Trajectory<D>::*read)(std::size_t) const&,
-                               const Certainty& its) const try {
+                               Sample<D> (Trajectory<D>::*read)(std::size_t) const&, const Certainty& its,
+                               double (TwoRuns::*error)(double, double, const Certainty&) const) const try {
     if (its.doubt != Doubt::none) return std::numeric_limits<double>::infinity();
     const auto a = quantity(own);
-    return runs_.error(size(a - quantity((reference.*read)(its.counterpart))), size(a), its);
+    return (runs_.*error)(size(a - quantity((reference.*read)(its.counterpart))), size(a), its);
   } catch (const UndeterminedForce&) {
     return std::numeric_limits<double>::infinity();
   }

@@ -30,9 +30,8 @@ class Search {
   explicit Search(const TwoRuns& runs) : runs_(runs), layout_(*runs.run()->layout) {}
 
   void compare(const FlatSample& a, const FlatSample& b, const Certainty& its) {
-    Certainty of_positions = its;
+    const Certainty of_positions = its.of_positions(), of_velocities = its.of_velocities();
     if (its.doubt == Doubt::at_a_jump) {
-      of_positions.doubt = Doubt::none;  // positions do not jump
       ++found.beside_jumps;
     } else if (its.doubt != Doubt::none) {
       ++found.beyond;
@@ -42,13 +41,13 @@ class Search {
     for (const auto& p : layout_.particles) {
       const auto own = Places::from(static_cast<std::size_t>(p.coordinate), dimension);
       keep(found.position, a.time, p.name, own.in(a.q), own.in(b.q), runs_.length(), of_positions);
-      keep(found.velocity, a.time, p.name, own.in(a.v), own.in(b.v), runs_.speed(), its);
+      keep(found.velocity, a.time, p.name, own.in(a.v), own.in(b.v), runs_.speed(), of_velocities);
     }
     for (const auto& r : layout_.rotors) {
       const auto own = Places::from(static_cast<std::size_t>(r.coordinate), 1);
       keep(found.angle, a.time, r.name, own.in(a.q), own.in(b.q), 1.0, of_positions);
       keep(found.angular_velocity, a.time, r.name, own.in(a.v), own.in(b.v), runs_.speed() / runs_.length(),
-           its);
+           of_velocities);
     }
     compare_forces(a, b, its);
   }
@@ -88,8 +87,7 @@ class Search {
         undetermined = true;
         continue;
       }
-      if (its.doubt == Doubt::none)
-        take(found.force, runs_.error(apart, runs_.largest_force(), its), a.time, c.label());
+      if (its.doubt == Doubt::none) take(found.force, runs_.error_of_force(apart, its), a.time, c.label());
     }
     if (undetermined) ++found.undetermined;
   }

@@ -69,7 +69,7 @@ class ForceShown {
                b = constraint_.own_rows().in(certified.reference()->sample(its.counterpart).lambda);
     std::vector<double> difference(a.size());
     std::ranges::transform(a, b, difference.begin(), [](double x, double y) { return x - y; });
-    return certified.error(norm_of(difference), certified.largest_force(), its);
+    return certified.error_of_force(norm_of(difference), its);
   }
 
   const Record& run_;

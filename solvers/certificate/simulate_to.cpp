@@ -116,7 +116,11 @@ class Approach {
     take(pair(first, second, false));
     const bool stopped = !run_of_first_.stopped.empty();
     if (!stopped && better_.stopped.empty()) return;
-    if (is_stiff(stopped ? run_of_first_ : better_)) options_.stepper = Stepper::ida;
+    const FinishedRun& cut = stopped ? run_of_first_ : better_;
+    if (is_stiff(cut)) {
+      options_.stepper = Stepper::ida;
+      cut_short_ = cut;
+    }
     start_pair();
     if (run_of_first_.failure) std::rethrow_exception(run_of_first_.failure);
   }
@@ -182,8 +186,14 @@ class Approach {
   }
 
   double keep_if_best() {
-    TwoRuns runs(run_of_first_.record, better_.record,
-                 run_of_first_.stopped.empty() ? better_.stopped : run_of_first_.stopped);
+    const std::string& stopped = run_of_first_.stopped.empty() ? better_.stopped : run_of_first_.stopped;
+    PassedOver both;
+    if (cut_short_ && stopped.empty()) {
+      Options better = options_;
+      better.tolerance = better_.record->tolerance;
+      both = passed_over(run_, better, *run_of_first_.record, *cut_short_);
+    }
+    TwoRuns runs(run_of_first_.record, better_.record, stopped, both);
     excess_ = excess(runs);
     const double known = known_until(runs);
     if (!best_ || excess_ < best_excess_ || (excess_ == best_excess_ && known > best_known_)) {
@@ -251,6 +261,10 @@ class Approach {
     if (outcome.met) return out.str();
     if (std::isfinite(best_excess_)) out << ": the error is " << best_excess_ << " times as large";
     if (!best_->reservation().empty()) out << ": " << best_->reservation();
+    const double vibrating = best_->passed_over().force;
+    if (vibrating > 0.0 && largest_errors(*best_).force.error == vibrating)
+      out << ": forces vibrate faster than implicit steps follow, by " << vibrating
+          << "; damping in the scene ends that";
     out << "; of the tolerances down to " << options_.tolerance << " it is the best";
     return out.str();
   }
@@ -260,6 +274,7 @@ class Approach {
   Sizes sizes_;
   Options options_;
   FinishedRun run_of_first_, better_;
+  std::optional<FinishedRun> cut_short_;  ///< an explicit one, of a stiff scene
   std::optional<TwoRuns> best_;
   double excess_ = 0.0, best_excess_ = 0.0, best_known_ = 0.0;
   double excess_before_ = std::numeric_limits<double>::infinity(), tolerance_before_ = 0.0;

@@ -43,6 +43,10 @@ std::string statement(const TwoRuns& runs, const LargestErrors& errors) {
     out << "; nothing is known at " << errors.beyond
         << " samples and events that the more accurate run does not have";
   }
+  if (errors.force.error > 0.0 && errors.force.error == runs.passed_over().force)
+    out << "; forces vibrate faster than implicit steps follow, by as much; erk follows them, and damping in "
+           "the "
+           "scene ends them";
   if (errors.beside_jumps > 0)
     out << "; velocities and forces are not known at " << errors.beside_jumps
         << " samples, as near to an impact or change as the time of that is known";

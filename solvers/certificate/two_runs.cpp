@@ -3,6 +3,7 @@
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/certificate/matching_events.h>
+#include <dalembert/solvers/contact/round_off.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,12 +23,35 @@ std::string words_of_time(double t) {
   return out.str();
 }
 
-/// Whether anything jumps at an event: one that changes nothing is the same before and after it.
-bool is_jump(const Record& run, std::size_t k) {
-  if (run.events[k].kind != EventKind::event) return true;
+double largest_difference(std::span<const double> a, std::span<const double> b) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double by = std::abs(a[i] - b[i]);
+    most = by <= most ? most : by;  // or not a number
+  }
+  return most;
+}
+
+/// Whether some of these numbers change at an event by more than the other run gives them, or round-off.
+bool jumps(std::span<const double> before, std::span<const double> after, std::span<const double> other) {
+  double largest = 0.0;
+  for (const double x : after) largest = std::max(largest, std::abs(x));
+  return !(largest_difference(before, after) <=
+           std::max(largest_difference(before, other), round_off() * largest));
+}
+
+/// What jumps at an event. One that changes nothing starts a run anew, with other round-off. Where contacts
+/// or friction change, velocities and forces may jump whatever they show: of impacts without end a run lists
+/// some.
+struct Jump {
+  bool positions, velocities, forces;
+  [[nodiscard]] bool any() const { return positions || velocities || forces; }
+};
+Jump jump_at(const Record& run, std::size_t k, const FlatSample& other) {
+  if (run.events[k].kind != EventKind::event) return {false, true, true};
   const FlatSample before = run.at_events->sample(k), after = run.after_events->sample(k);
-  return !(std::ranges::equal(before.v, after.v) && std::ranges::equal(before.a, after.a) &&
-           std::ranges::equal(before.lambda, after.lambda));
+  return {jumps(before.q, after.q, other.q), jumps(before.v, after.v, other.v),
+          jumps(before.a, after.a, other.a) || jumps(before.lambda, after.lambda, other.lambda)};
 }
 
 /// But for what jumps.
@@ -39,8 +63,8 @@ double roundings_of_sums(const Record& run) { return 10.0 + static_cast<double>(
 }  // namespace
 
 TwoRuns::TwoRuns(std::shared_ptr<const Record> run, std::shared_ptr<const Record> reference,
-                 std::string stopped)
-    : run_(std::move(run)), reference_(std::move(reference)) {
+                 std::string stopped, const PassedOver& passed_over)
+    : run_(std::move(run)), reference_(std::move(reference)), passed_over_(passed_over) {
   const Statistics& better = reference_->statistics;
   if (better.length > 0.0) length_ = better.length;
   unit_.assign(run_->coordinates, length_);
@@ -139,10 +163,11 @@ void TwoRuns::set_roundings() {
 /// as the run begins is not looked for: its time is exact.
 void TwoRuns::find_jumps() {
   if (samples_.empty()) return;
-  std::vector<std::pair<double, double>> jumps;
   for (std::size_t k = 0; k < events_.size(); ++k) {
-    if (!is_known(events_[k]) || !is_jump(*run_, k)) continue;
+    if (!is_known(events_[k])) continue;
     const std::size_t j = events_[k].counterpart;
+    const Jump jump = jump_at(*run_, k, reference_->at_events->sample(j));
+    if (!jump.any()) continue;
     const double a = run_->events[k].time, b = reference_->events[j].time,
                  part = std::max(most_of_better, bound_ - 1.0);
     if (a == b && a == run_->times.front()) continue;
@@ -150,17 +175,18 @@ void TwoRuns::find_jumps() {
     double from = std::min(a, b);
     if (events_[k].doubt == Doubt::at_a_jump)
       from = std::min({from, run_->at_events->times[k], reference_->at_events->times[j]});
-    jumps.emplace_back(from - more, std::max(a, b) + more);
-  }
-  std::ranges::sort(jumps);
-  for (std::size_t k = 1; k < jumps.size(); ++k)
-    jumps[k].second = std::max(jumps[k].second, jumps[k - 1].second);
-  for (std::size_t i = 0; i < samples_.size(); ++i) {
-    const double t = run_->times[i];
-    if (samples_[i].doubt == Doubt::none && t != reference_->times[samples_[i].counterpart]) continue;
-    const auto after = std::ranges::upper_bound(jumps, t, {}, [](const auto& jump) { return jump.first; });
-    if (after == jumps.begin() || std::prev(after)->second < t) continue;
-    if (samples_[i].doubt == Doubt::none) samples_[i].doubt = Doubt::at_a_jump;
+    from -= more;
+    const double to = std::max(a, b) + more;
+    const std::vector<double>& times = run_->times;
+    for (auto i = static_cast<std::size_t>(std::ranges::lower_bound(times, from) - times.begin());
+         i < times.size() && times[i] <= to; ++i) {
+      Certainty& its = samples_[i];
+      its.moved = its.moved || jump.positions;
+      its.kicked = its.kicked || jump.velocities;
+      its.of_states = std::max(its.of_states, events_[k].of_states);
+      if (its.doubt == Doubt::none && times[i] == reference_->times[its.counterpart])
+        its.doubt = Doubt::at_a_jump;
+    }
   }
 }
 
@@ -180,6 +206,7 @@ void TwoRuns::set_round_off(Certainty& its, double difference) const {
   const double noise = epsilon + reference_->statistics.round_off;
   its.of_states = noise * std::max(1.0, difference / run_->statistics.accuracy);
   its.round_off = its.of_states / std::max(difference, its.of_states);
+  its.of_states = std::max(its.of_states, passed_over_.states);
 }
 
 void TwoRuns::find_horizon() {

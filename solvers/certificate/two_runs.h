@@ -31,8 +31,27 @@ struct Certainty {
   std::size_t counterpart = 0;  ///< the instant of the more accurate run that this one is compared with
   /// What round-off in the states may be, as a part of the scene's length and speed,
   double of_states = 0.0;
-  double round_off = 0.0;  ///< and at most what part of their difference that is
-  double roundings = 0.0;  ///< of its magnitude that any quantity there may be off by
+  double round_off = 0.0;              ///< and at most what part of their difference that is
+  double roundings = 0.0;              ///< of its magnitude that any quantity there may be off by
+  bool moved = false, kicked = false;  ///< positions jump there, velocities
+
+  /// Of positions, which seldom jump, and of velocities.
+  [[nodiscard]] Certainty of_positions() const { return but_for_forces(moved); }
+  [[nodiscard]] Certainty of_velocities() const { return but_for_forces(kicked); }
+
+ private:
+  [[nodiscard]] Certainty but_for_forces(bool jump) const {
+    Certainty its = *this;
+    if (doubt == Doubt::at_a_jump && !jump) its.doubt = Doubt::none;
+    return its;
+  }
+};
+
+/// What vibrations that an implicit run passes over have in them, where both runs do: their difference does
+/// not show it.
+struct PassedOver {
+  double force = 0.0;   ///< the largest amplitude of a multiplier [force]
+  double states = 0.0;  ///< of positions and velocities, a part of the scene's length and speed
 };
 
 /// A run and a more accurate one of the same scene at the same times, as flat arrays: which of their
@@ -58,7 +77,7 @@ class TwoRuns {
 
   /// `stopped` says why the more accurate run is not complete, if it is not.
   TwoRuns(std::shared_ptr<const Record> run, std::shared_ptr<const Record> reference,
-          std::string stopped = {});
+          std::string stopped = {}, const PassedOver& passed_over = {});
 
   /// The one that was asked for.
   [[nodiscard]] const std::shared_ptr<const Record>& run() const { return run_; }
@@ -78,6 +97,15 @@ class TwoRuns {
                                       const Certainty& its) const {
     return larger(error(difference, magnitude, its), its.of_states * unit);
   }
+  /// The same of forces.
+  [[nodiscard]] double error_of_force(double difference, const Certainty& its) const {
+    return larger(error(difference, largest_force_, its), passed_over_.force);
+  }
+  /// The same of what may depend on forces in any way: as large a part of it as of the forces.
+  [[nodiscard]] double error_of_any(double difference, double magnitude, const Certainty& its) const {
+    const double part = largest_force_ > 0.0 ? passed_over_.force / largest_force_ : 0.0;
+    return larger(error(difference, magnitude, its), part * magnitude);
+  }
   /// Of the scene [length].
   [[nodiscard]] double length() const { return length_; }
   /// Length over time of the scene.
@@ -92,6 +120,8 @@ class TwoRuns {
   /// Whether all errors are known, but those beside a jump.
   [[nodiscard]] bool complete() const { return complete_; }
 
+  /// What vibrations that both runs pass over have in them.
+  [[nodiscard]] const PassedOver& passed_over() const { return passed_over_; }
   /// The largest multiplier of the run: forces are as exact as the largest among them allows [force].
   [[nodiscard]] double largest_force() const { return largest_force_; }
 
@@ -114,6 +144,7 @@ class TwoRuns {
   std::vector<Certainty> samples_, events_;
   double known_until_ = std::numeric_limits<double>::infinity();
   std::string reservation_;
+  PassedOver passed_over_;
   std::vector<double> unit_;          ///< of each coordinate: the scene's length, 1 of an angle
   double length_ = 1.0, time_ = 1.0;  ///< the scene's
   double largest_force_ = 0.0;

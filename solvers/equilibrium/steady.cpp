@@ -49,25 +49,39 @@ class SteadySearch {
 
   /// Below the root of round-off Newton's iteration leaves round-off: where nothing falls any more the state
   /// before is the one that is known best. What two roundings leave, of what is stated and of what follows,
-  /// is stated exactly, and stays: beside a fast spin a correction by round-off displaces what is soft.
+  /// is stated exactly, and stays: beside a fast spin a correction by round-off displaces what is soft. So it
+  /// is of each part of the scene that nothing couples to others: one may settle where another still moves.
   FoundSteady find() {
     constexpr int most_corrections = 50;
     constexpr double exact = 2.0 * epsilon;
-    double least = std::numeric_limits<double>::infinity(), before = least;
-    Known best{q_, lambda_, y_};
+    const std::size_t parts = problem_.islands().count;
+    double before = std::numeric_limits<double>::infinity();
+    std::vector<double> least(parts, before);
+    std::vector<char> stays(parts);
+    Known best{q_, lambda_, symmetries_.fields(q_) * y_};
     for (int i = 0; i < most_corrections; ++i) {
-      const auto step = correction();
-      if (least <= std::sqrt(epsilon) && !(step.unbalanced < least)) {
-        std::tie(q_, lambda_, y_) = std::tie(best.q, best.lambda, best.y);
-        break;
+      SteadyEquations equations = linearised();
+      const std::vector<double> unbalanced = equations.unbalanced();
+      Known now{q_, lambda_, symmetries_.fields(q_) * y_};
+      VectorXd balanced = lambda_;
+      add(equations.balance(), 1.0, balanced);
+      bool settles = false;
+      for (std::size_t part = 0; part < parts; ++part) {
+        if (stays[part]) continue;
+        if (least[part] <= std::sqrt(epsilon) && !(unbalanced[part] < least[part])) {
+          stays[part] = 1;
+        } else {
+          least[part] = unbalanced[part];
+          copy(part, {now.q, balanced, now.v}, best);
+          stays[part] = least[part] <= exact;
+        }
+        if (stays[part]) copy(part, best, now);
+        settles = settles || stays[part];
       }
-      least = step.unbalanced;
-      best = {q_, lambda_, y_};
-      add(step.balance, 1.0, best.lambda);
-      if (least <= exact) {
-        lambda_ = best.lambda;
-        break;
-      }
+      std::tie(q_, lambda_) = std::tie(now.q, now.lambda);
+      if (settles) decompose(now.v);
+      if (std::ranges::find(stays, char{0}) == stays.end()) break;
+      const auto step = equations.correction(stays);
       correct(step);
       if (step.size < epsilon || (step.size < 1e-9 && step.size >= 0.5 * before)) break;
       before = step.size;
@@ -140,18 +154,30 @@ class SteadySearch {
   }
 
   struct Known {
-    VectorXd q, lambda, y;
+    VectorXd q, lambda, v;
   };
+  /// What a part has of it.
+  void copy(std::size_t part, const Known& from, Known& to) const {
+    const Islands& parts = problem_.islands();
+    for (Index i = 0; i < q_.size(); ++i) {
+      if (parts.of_coordinate[static_cast<std::size_t>(i)] != part) continue;
+      to.q[i] = from.q[i];
+      to.v[i] = from.v[i];
+    }
+    for (const std::size_t row : rows_.rows)
+      if (parts.of_row(*system_, row) == part)
+        to.lambda[static_cast<Index>(row)] = from.lambda[static_cast<Index>(row)];
+  }
 
-  [[nodiscard]] SteadyEquations::Correction correction() const {
-    SteadyEquations equations(*system_, symmetries_, scales_, rows_, {time_, q_, lambda_, y_},
-                              static_cast<Index>(keep_->size()));
+  [[nodiscard]] SteadyEquations linearised() const {
+    SteadyEquations equations(*system_, problem_.islands(), symmetries_, scales_, rows_,
+                              {time_, q_, lambda_, y_}, static_cast<Index>(keep_->size()));
     for (std::size_t k = 0; k < keep_->size(); ++k) {
       const double now = value((*keep_)[k], q_, symmetries_.fields(q_) * y_);
       equations.keep(static_cast<Index>(k), now - kept_[k], std::abs(now) + std::abs(kept_[k]),
                      gradient((*keep_)[k]));
     }
-    return equations.correction();
+    return equations;
   }
 
   void correct(const SteadyEquations::Correction& step) {

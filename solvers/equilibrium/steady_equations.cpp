@@ -24,11 +24,13 @@ VectorXd as_vector(std::span<const double> x) {
 
 }  // namespace
 
-SteadyEquations::SteadyEquations(const System& system, const Symmetries& symmetries, const Scales& scales,
-                                 const ActiveRows& rows, const State& at, Index kept)
+SteadyEquations::SteadyEquations(const System& system, const Islands& parts, const Symmetries& symmetries,
+                                 const Scales& scales, const ActiveRows& rows, const State& at, Index kept)
     : n_(at.q.size()),
       m_(static_cast<Index>(rows.size())),
       p_(at.y.size()),
+      part_of_row_(parts.of_coordinate),
+      parts_(parts.count),
       masses_(as_vector(system.masses())),
       units_(n_ + p_),
       X_(symmetries.fields(at.q)),
@@ -37,6 +39,7 @@ SteadyEquations::SteadyEquations(const System& system, const Symmetries& symmetr
       L_(MatrixXd::Zero(J_.rows(), m_)),
       r_(VectorXd::Zero(J_.rows())),
       r_terms_(r_) {
+  for (const std::size_t row : rows.rows) part_of_row_.push_back(parts.of_row(system, row));
   v_ = X_ * at.y;
   const double most = v_.size() > 0 ? v_.cwiseAbs().maxCoeff() : 0.0;
   for (Index i = 0; i < n_; ++i) units_[i] = scales.unit(static_cast<std::size_t>(i));
@@ -115,21 +118,54 @@ void SteadyEquations::weigh() {
     if (const double length = J_.row(i).norm(); length > 0.0) divide_row(i, length);
 }
 
-double SteadyEquations::unbalanced(const MatrixXd& free) const {
-  const MatrixXd across = free * free.transpose();
+bool SteadyEquations::reads(Index row, std::size_t part) const {
+  VectorXd by = J_.row(row).head(n_).transpose();
+  by = by.cwiseAbs() + (X_ * J_.row(row).tail(p_).transpose()).cwiseAbs();
+  for (Index i = 0; i < n_; ++i)
+    if (by[i] != 0.0 && part_of_row_[static_cast<std::size_t>(i)] == part) return true;
+  return false;
+}
+
+std::vector<double> SteadyEquations::unbalanced() {
+  weigh();
+  free_ = m_ > 0 ? orthogonal_complement(L_) : MatrixXd::Identity(J_.rows(), J_.rows());
+  const MatrixXd across = free_ * free_.transpose();
   const VectorXd left = (across * r_).cwiseAbs(), terms = dense::sizes(across) * r_terms_;
-  double most = 0.0;
-  for (Index i = 0; i < left.size(); ++i)
-    if (left[i] > 0.0) most = std::max(most, left[i] / terms[i]);
+  std::vector<double> most(parts_);
+  for (Index i = 0; i < left.size(); ++i) {
+    if (left[i] == 0.0) continue;
+    for (std::size_t part = 0; part < parts_; ++part)
+      if (i < n_ + m_ ? part_of_row_[static_cast<std::size_t>(i)] == part : reads(i, part))
+        most[part] = std::max(most[part], left[i] / terms[i]);
+  }
   return most;
 }
 
+VectorXd SteadyEquations::balance() const {
+  if (m_ == 0) return VectorXd();
+  return dense::least_squares(L_, -r_, rank_threshold);
+}
+
+/// J but for what would move parts that stay.
+MatrixXd SteadyEquations::slopes_of_others(const std::vector<char>& stays) const {
+  MatrixXd J = J_;
+  std::vector<Index> still;
+  for (Index i = 0; i < n_; ++i)
+    if (stays[part_of_row_[static_cast<std::size_t>(i)]]) still.push_back(i);
+  if (still.empty()) return J;
+  J(Eigen::all, still).setZero();
+  if (p_ == 0) return J;
+  const MatrixXd moving = dense::kernel(X_(still, Eigen::all), rank_threshold);
+  J.rightCols(p_) = (J_.rightCols(p_) * moving * moving.transpose()).eval();
+  return J;
+}
+
 /// Forces in units of the stiffness that they change by. What is round-off of its terms changes by nothing.
-VectorXd SteadyEquations::least_change(const MatrixXd& free) const {
-  MatrixXd left = free.transpose() * J_;
-  VectorXd right = free.transpose() * r_;
+VectorXd SteadyEquations::least_change(const MatrixXd& J) const {
+  MatrixXd left = free_.transpose() * J;
+  VectorXd right = free_.transpose() * r_;
   const VectorXd least = roundings_of_a_sum * epsilon *
-                         (dense::sizes(free).transpose() * VectorXd(J_terms_.rowwise().maxCoeff()));
+                         (dense::sizes(free_).transpose() * VectorXd(J_terms_.rowwise().maxCoeff()));
   for (Index i = 0; i < left.rows(); ++i) {
     const double length = left.row(i).norm(), unit = length > least[i] ? 1.0 / length : 0.0;
     left.row(i) *= unit;
@@ -138,20 +174,13 @@ VectorXd SteadyEquations::least_change(const MatrixXd& free) const {
   return dense::least_squares(left, -right, rank_threshold);
 }
 
-SteadyEquations::Correction SteadyEquations::correction() {
-  weigh();
-  const MatrixXd free = m_ > 0 ? orthogonal_complement(L_) : MatrixXd::Identity(J_.rows(), J_.rows());
-  const VectorXd x = least_change(free);
-  Correction found{units_.head(n_).cwiseProduct(x.head(n_)),
-                   units_.tail(p_).cwiseProduct(x.tail(p_)),
-                   VectorXd::Zero(m_),
-                   x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.0,
-                   unbalanced(free),
-                   VectorXd::Zero(m_)};
+SteadyEquations::Correction SteadyEquations::correction(const std::vector<char>& stays) const {
+  const MatrixXd J = slopes_of_others(stays);
+  const VectorXd x = least_change(J);
+  Correction found{units_.head(n_).cwiseProduct(x.head(n_)), units_.tail(p_).cwiseProduct(x.tail(p_)),
+                   VectorXd::Zero(m_), x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.0};
   if (!x.allFinite()) found.size = std::numeric_limits<double>::infinity();
-  if (m_ == 0) return found;
-  found.balance = dense::least_squares(L_, -r_, rank_threshold);
-  if (x.allFinite()) found.lambda = dense::least_squares(L_, -r_ - J_ * x, rank_threshold);
+  if (m_ > 0 && x.allFinite()) found.lambda = dense::least_squares(L_, -r_ - J * x, rank_threshold);
   return found;
 }
 

@@ -1,5 +1,6 @@
 #include "dalembert/solvers/manifold/friction_shares.h"
 
+#include <dalembert/core/analysis/disjoint_sets.h>
 #include <dalembert/core/analysis/islands.h>
 #include <dalembert/core/analysis/rank.h>
 #include <dalembert/core/linear/dense.h>
@@ -40,18 +41,25 @@ VectorXd least_largest(const MatrixXd& A, const VectorXd& a, const std::vector<I
 
 }  // namespace
 
+/// What presses a brake and what it holds share, too.
 FrictionShares::FrictionShares(const System& system) {
-  const Islands parts = islands(system);
-  for (std::size_t r = 0; r < system.rows(); ++r) island_of_row_.push_back(parts.of_row(system, r));
-  all_.resize(parts.count);
+  std::vector<Rough> sticking;
   for (const std::size_t number : system.conditions().frictional_constraints()) {
     const Layout::Constraint& its = system.layout()->constraints[number];
     if (!system.in_force(its.own_rows().front())) continue;
     const auto& law = *system.conditions().of[number].roughness;
     const auto& pressing = system.layout()->constraints[static_cast<std::size_t>(law.pressed_by)];
-    all_[island_of_row_[its.own_rows().front()]].push_back(
-        {its.first_row, its.rows, pressing.first_row, law.mu_static});
+    sticking.push_back({its.first_row, its.rows, pressing.first_row, law.mu_static});
   }
+  if (sticking.empty()) return;
+  const Islands parts = islands(system);
+  const auto part_of = [&](Index row) { return parts.of_row(system, static_cast<std::size_t>(row)); };
+  DisjointSets coupled(parts.count);
+  for (const Rough& r : sticking) coupled.join(part_of(r.row), part_of(r.pressing_row));
+  for (std::size_t r = 0; r < system.rows(); ++r)
+    part_of_row_.push_back(coupled.root(parts.of_row(system, r)));
+  all_.resize(parts.count);
+  for (const Rough& r : sticking) all_[part_of_row_[static_cast<std::size_t>(r.row)]].push_back(r);
 }
 
 std::vector<FrictionShares::Rough> FrictionShares::shared(const std::vector<Rough>& all,
@@ -139,11 +147,9 @@ std::vector<SharedContact> FrictionShares::contacts(const std::vector<Rough>& al
 void FrictionShares::spread(const MatrixXd& N, std::span<const char> unique,
                             const std::vector<SharedContact>& pushing, std::span<double> lambda) const {
   Forces all(lambda.data(), N.rows());
-  for (std::size_t island = 0; island < all_.size(); ++island) {
-    if (all_[island].empty()) continue;
-    const auto is_elsewhere = [&](Index row) {
-      return island_of_row_[static_cast<std::size_t>(row)] != island;
-    };
+  for (std::size_t part = 0; part < all_.size(); ++part) {
+    if (all_[part].empty()) continue;
+    const auto is_elsewhere = [&](Index row) { return part_of_row_[static_cast<std::size_t>(row)] != part; };
     std::vector<Index> columns;
     for (Index k = 0; k < N.cols(); ++k) {
       Index row = 0;
@@ -154,9 +160,9 @@ void FrictionShares::spread(const MatrixXd& N, std::span<const char> unique,
     auto push = pushing;
     std::erase_if(push, [&](const SharedContact& c) { return is_elsewhere(c.pressing_row); });
     const MatrixXd own = N(Eigen::all, columns);
-    if (auto chosen = shared(all_[island], unique); !chosen.empty())
+    if (auto chosen = shared(all_[part], unique); !chosen.empty())
       share_friction(own, std::move(chosen), push, all);
-    share_statically(own, contacts(all_[island], unique, std::move(push), all), all);
+    share_statically(own, contacts(all_[part], unique, std::move(push), all), all);
   }
 }
 

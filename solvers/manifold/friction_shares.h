@@ -48,8 +48,8 @@ class FrictionShares {
   [[nodiscard]] static Eigen::MatrixXd leave_to_others(const Eigen::MatrixXd& N, std::vector<Rough>& chosen,
                                                        Forces lambda);
 
-  std::vector<std::vector<Rough>> all_;  // that stick, of each island
-  std::vector<std::size_t> island_of_row_;
+  std::vector<std::vector<Rough>> all_;  // that stick, of each part
+  std::vector<std::size_t> part_of_row_;
 };
 
 }  // namespace dalembert

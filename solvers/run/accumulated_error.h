@@ -34,7 +34,9 @@ class AccumulatedError {
     drift_ += velocity_noise() * h;
   }
   /// What an event imposes holds to the errors so far, and moves by them what it is put onto.
-  void displace(double distance) { position_ += distance; }
+  void displace(double distance) { displaced_ += distance; }
+  [[nodiscard]] double displaced() const { return displaced_; }
+  /// Of the steps.
   [[nodiscard]] double position() const { return position_ + std::sqrt(square_of_position_); }
   [[nodiscard]] double velocity() const { return velocity_ + velocity_noise(); }
   /// What round-off adds to either.
@@ -46,6 +48,7 @@ class AccumulatedError {
  private:
   double position_ = 0.0, velocity_ = 0.0;
   double square_of_position_ = 0.0, square_of_velocity_ = 0.0, drift_ = 0.0;  // of round-off
+  double displaced_ = 0.0;
   double late_ = 0.0, most_late_ = 0.0;
 };
 
