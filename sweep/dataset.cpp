@@ -280,4 +280,21 @@ Published published(const std::string& path) {
   }
 }
 
+std::vector<double> published_values(const std::string& path, const std::vector<Quantity>& quantities,
+                                     std::uint64_t row) {
+  std::vector<double> values(quantities.size());
+  if (values.empty()) return values;
+  const hdf5::Silence silence;
+  const std::string what = path + ": its table of runs cannot be read";
+  const hdf5::Handle file = hdf5::open_file(path), runs(H5Dopen2(file, "runs", H5P_DEFAULT), H5Dclose, what),
+                     all(H5Dget_space(runs), H5Sclose, what);
+  const hsize_t first = row, count = 1;
+  hdf5::check(H5Sselect_hyperslab(all, H5S_SELECT_SET, &first, nullptr, &count, nullptr), what);
+  const hdf5::Handle one(H5Screate_simple(1, &count, nullptr), H5Sclose, what);
+  hdf5::RecordType record;  // HDF5 looks fields up by their names
+  record.add(quantities);
+  hdf5::check(H5Dread(runs, record.type(), one, all, H5P_DEFAULT, values.data()), what);
+  return values;
+}
+
 }  // namespace dalembert

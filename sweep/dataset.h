@@ -34,4 +34,9 @@ struct Published {
 /// Throws Error if the file is no dataset of a sweep.
 [[nodiscard]] Published published(const std::string& path);
 
+/// What a dataset has for these quantities of a row; NaN of one that failed. Throws Error.
+[[nodiscard]] std::vector<double> published_values(const std::string& path,
+                                                   const std::vector<Quantity>& quantities,
+                                                   std::uint64_t row);
+
 }  // namespace dalembert

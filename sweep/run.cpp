@@ -1,4 +1,5 @@
 #include <dalembert/core/errors.h>
+#include <dalembert/sweep/block.h>
 #include <dalembert/sweep/book.h>
 #include <dalembert/sweep/columns.h>
 #include <dalembert/sweep/dataset.h>
@@ -10,11 +11,14 @@
 #include <dalembert/sweep/text.h>
 #include <dalembert/sweep/worker.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <sstream>
 #include <thread>
+#include <vector>
 
 namespace dalembert {
 
@@ -48,17 +52,34 @@ int validated_threads(const Parameters& parameters, const RowFunction& row, cons
   return options.threads == 0 ? usable_threads() : options.threads;
 }
 
+[[noreturn]] void refuse_other_numbers(std::uint64_t row) {
+  throw Error("row " + as_text(row) +
+              " comes out otherwise than when this sweep was begun: has the program changed since? To begin "
+              "anew, remove the dataset and its journal");
+}
+
 /// Throws Error if this program gives other numbers for a row than those that are in the journal.
 void require_same_numbers(const Journal& journal, const Work& work) {
   if (journal.entries().empty()) return;
   const auto& entry = journal.entries().back();
   Block again;
   work.run(entry.rows.first, again);
-  if (journal.read(entry).starts_with(again.bytes)) return;
-  throw Error(
-      "row " + as_text(entry.rows.first) +
-      " comes out otherwise than when this sweep was begun: has the program changed since? To begin anew, "
-      "remove the dataset and its journal");
+  if (!journal.read(entry).starts_with(again.bytes)) refuse_other_numbers(entry.rows.first);
+}
+
+/// The same of a dataset that has all.
+void require_same_numbers(const std::string& file, const RowFunction& row, std::uint64_t rows,
+                          const Work& work) {
+  if (rows == 0) return;
+  const std::uint64_t last = rows - 1;
+  Block block;
+  work.run(last, block);
+  BlockRow again;
+  BlockReader(block.bytes, {row.quantities.size(), row.series.size()}).next(again);
+  const std::vector<double> values = published_values(file, row.quantities, last);
+  const bool failed = std::ranges::any_of(values, [](double x) { return std::isnan(x); });
+  if (!values.empty() && (again.failed != failed || (!failed && again.values != values)))
+    refuse_other_numbers(last);
 }
 
 /// What the first process tells the others, and they throw or return.
@@ -91,7 +112,10 @@ class Office {
          const Header& header, const Work& work, int workers)
       : parameters_(parameters), row_(row), options_(options), header_(header) {
     summary_.rows = parameters.rows();
-    if (is_complete()) return;
+    if (is_complete()) {
+      require_same_numbers(options.file, row, summary_.rows, work);
+      return;
+    }
     journal_.emplace(journal_of(options.file), header, parameters.rows());
     if (was_completed_meanwhile()) return;
     require_same_numbers(*journal_, work);

@@ -69,14 +69,11 @@ struct RowFunction {
 /// equilibria. It is called by many threads at once, in any order, and gives the same for the same row.
 ///
 /// - A row whose function throws, or gives NaN, is kept with its error and, of an IntegrationFailure, its
-/// time;
-///   the sweep goes on.
+///   time; the sweep goes on.
 /// - Rows are handed out as work is finished: over the threads of a process and, if the program was started
-/// by
-///   mpirun, over its processes. The dataset does not depend on how many there are, to the last bit.
-/// - Killed at any moment, the same call goes on: what the journal has is not computed again. One row is, to
-/// see
-///   that this program still gives the same numbers.
+///   by mpirun, over its processes. The dataset does not depend on how many there are, to the last bit.
+/// - Killed at any moment, the same call goes on: what the journal has is not computed again. One row is,
+///   also where all are done, to see that this program still gives the same numbers.
 /// - SIGINT or SIGTERM, where the program does not handle them itself: runs in progress are finished and
 ///   written, and the summary says `interrupted`. Another, more than a second later, ends the program.
 ///

@@ -115,7 +115,9 @@ PassedOver passed_over(const Run& run, const Options& options, const Record& imp
   Options begin = options;
   begin.stepper = Stepper::erk;
   begin.t_end = t + window;
-  begin.samples = 2;
+  // At the limit of its stability an explicit run has vibrations of its own.
+  const auto steps = static_cast<double>(std::max(cut_short.record->statistics.steps, 1L));
+  begin.max_step = 0.5 * (cut_short.reached - t) / steps;
   begin.times.clear();
   for (int j = 0; j < nodes; ++j)
     begin.times.push_back(t + 0.5 * window * (1.0 - std::cos(std::numbers::pi * (j + 0.5) / nodes)));

@@ -65,21 +65,21 @@ class SteadySearch {
       Known now{q_, lambda_, symmetries_.fields(q_) * y_};
       VectorXd balanced = lambda_;
       add(equations.balance(), 1.0, balanced);
-      bool settles = false;
+      bool goes_back = false;
       for (std::size_t part = 0; part < parts; ++part) {
         if (stays[part]) continue;
         if (least[part] <= std::sqrt(epsilon) && !(unbalanced[part] < least[part])) {
           stays[part] = 1;
+          goes_back = true;
         } else {
           least[part] = unbalanced[part];
           copy(part, {now.q, balanced, now.v}, best);
           stays[part] = least[part] <= exact;
         }
         if (stays[part]) copy(part, best, now);
-        settles = settles || stays[part];
       }
       std::tie(q_, lambda_) = std::tie(now.q, now.lambda);
-      if (settles) decompose(now.v);
+      if (goes_back) decompose(now.v);
       if (std::ranges::find(stays, char{0}) == stays.end()) break;
       const auto step = equations.correction(stays);
       correct(step);

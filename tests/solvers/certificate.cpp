@@ -56,6 +56,69 @@ TEST_P(CertificateBy, ASampleAtAChangeIsAtAJump) {
   }
 }
 
+/// An event that changes nothing begins a run anew, with other round-off.
+TEST_P(CertificateBy, AChangeOfNothingIsNoJump) {
+  Scene<2> scene;
+  scene.add(UniformGravity<2>{{0.0, -9.81}});
+  const auto bob = scene.add_particle({.mass = 1.0, .position = {0.6, -0.8}});
+  const auto rod = scene.add(Distance{Fixed<2>{}, bob, 1.0});
+  const auto at_1 = [](const Sample<2>& now) { return now.time() - 1.0; };
+  const Event<2> nothing{.name = "nothing", .function = at_1, .change = [](Scene<2>&) {}};
+  for (const double tolerance : {1e-5, 1e-8}) {
+    const auto found = certify(
+        scene, {.t_end = 2.0, .samples = 3, .tolerance = tolerance, .stepper = GetParam()}, {nothing});
+    EXPECT_EQ(found.doubt(1), Doubt::none);
+    EXPECT_LT(found.multiplier_error(rod, 1), 1e3 * tolerance);
+  }
+}
+
+/// x = t^2 reaches 1 at about 1: then the other one is put 3 further, and goes on as before.
+TEST_P(CertificateBy, WhatAChangeMovesIsNotKnownThere) {
+  for (const double tolerance : {1e-5, 1e-7, 1e-9}) {
+    Scene<2> scene;
+    const auto clock = scene.add_particle({.mass = 1.0}),
+               moved = scene.add_particle({.mass = 1.0, .position = {0.0, 5.0}, .velocity = {0.5, 0.0}});
+    scene.add(PointGravity{clock, 1.0, Vec<2>{2.0, 0.0}});
+    const Event<2> move{
+        .name = "move",
+        .function = [=](const Sample<2>& now) { return now.position(clock).x() - 1.0; },
+        .crossing = Crossing::rising,
+        .change =
+            [=](Scene<2>& its) {
+              its.replace(moved, {.mass = 1.0, .position = {3.5, 5.0}, .velocity = {0.5, 0.0}});
+            }};
+    const auto found =
+        certify(scene, {.t_end = 2.0, .samples = 5, .tolerance = tolerance, .stepper = GetParam()}, {move});
+    EXPECT_TRUE(found.complete()) << found.statement();
+    EXPECT_EQ(found.position_error(moved, 2), infinity);
+    EXPECT_LT(found.velocity_error(moved, 2), 1e-13);
+    const double error = std::abs(found.run().position(moved, 4).x() - 4.0);
+    EXPECT_LE(error, 1.25 * found.position_error(moved, 4));
+    EXPECT_LT(found.position_error(moved, 4), 10.0 * tolerance);
+  }
+}
+
+/// A load of 1 kg is set on a cable of k = 1e10 N/m: T = 10 (1 - cos(1e5 t)) for ever, of an amplitude of
+/// 1e-9 m. Both implicit runs damp it; neither may say that T is 10. A load at rest on it is known.
+TEST(Certificate, VibrationsThatImplicitStepsPassOverCount) {
+  const double k = 1e10;
+  for (const bool at_rest : {false, true}) {
+    Scene<2> scene("load");
+    scene.add(UniformGravity<2>{{0.0, -10.0}});
+    const auto load = scene.add_particle({.mass = 1.0, .position = {0.0, at_rest ? -1.0 - 10.0 / k : -1.0}});
+    const auto cable = scene.add(compliant(Distance{Fixed<2>{}, load, 1.0}, 1.0 / k));
+    const auto found = certify(scene, {.t_end = 1.0, .samples = 5, .tolerance = 1e-6});
+    for (std::size_t i = 1; i < 5; ++i) {
+      if (at_rest) {
+        EXPECT_LT(found.multiplier_error(cable, i), 1e-3);
+      } else {
+        const double T = 10.0 * (1.0 - std::cos(1e5 * found.run().times()[i]));
+        EXPECT_GE(found.multiplier_error(cable, i), 0.8 * std::abs(-found.run().multiplier(cable, i) - T));
+      }
+    }
+  }
+}
+
 /// Dropped from h with restitution 1/2 it rests at 3 sqrt(2 h/g), after infinitely many impacts, of which the
 /// better run lists more: what either gives at the last of them is of another time, and no error.
 TEST_P(CertificateBy, ARestAfterInfinitelyManyImpactsHasATimeAndNoState) {

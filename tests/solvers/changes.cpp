@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace dalembert::changes_test {
 namespace {
@@ -291,6 +294,43 @@ TEST_P(Changes, ImpactIsCarriedOutWhereAnEventEndsTheRun) {
   EXPECT_NEAR(run.impulse(floor, 1), std::sqrt(g), 10.0 * bound);
   EXPECT_NEAR(run.event_sample(1).velocity(ball).y(), -std::sqrt(g), 10.0 * bound);
   EXPECT_NEAR(run.sample_after(1).velocity(ball).y(), 0.0, bound);
+}
+
+/// A bead that is caught 5 tolerances beside where it is may be, then, once more so far off beside the twelve
+/// of its steps, not twelve times as far: else each catch could miss by more than the one before.
+TEST_P(Changes, WhatEventsMoveDoesNotAddUp) {
+  const auto caught_beside = [&](double first, double second) {
+    Scene<2> scene;
+    const auto bead = scene.add_particle({.mass = 1.0, .velocity = {1.0, 0.0}});
+    scene.add(OnCurve{bead, Plane<2>{}});
+    const auto bob = scene.add_particle({.mass = 1.0, .position = {6.0, 0.0}});
+    scene.add(Distance{Fixed<2>{{5.0, 0.0}}, bob, 1.0});
+    std::vector<Event<2>> events;
+    for (const auto& [x, by] : {std::pair{0.1, first}, std::pair{0.3, second}}) {
+      const double place = x + by;
+      const auto stop = scene.add(holonomic(points(bead), [=](auto r) { return r.x() - place; }));
+      scene.release(stop);
+      events.push_back({.name = "caught",
+                        .function = [=](const Sample<2>& now) { return now.position(bead).x() - x; },
+                        .crossing = Crossing::rising,
+                        .change = [=](Scene<2>& its) { its.impose(stop); }});
+      events.push_back(
+          {.name = "goes on",
+           .function = [=](const Sample<2>& now) { return now.time() - 2.0 * x; },
+           .change =
+               [=](Scene<2>& its) {
+                 its.release(stop);
+                 its.replace(bead, {.mass = 1.0, .position = {place, 0.0}, .velocity = {1.0, 0.0}});
+               }});
+    }
+    Options more = options(1.0);
+    more.tolerance = std::max(more.tolerance, 1e-6);  // below 1e-8 of the length anything counts as satisfied
+    return simulate(scene, more, events);
+  };
+  const Statistics known = caught_beside(0.0, 0.0).statistics();
+  const double unit = known.accuracy * known.length;
+  EXPECT_EQ(caught_beside(5.0 * unit, 10.0 * unit).statistics().singular_positions, 0);
+  EXPECT_THROW((void)caught_beside(5.0 * unit, 60.0 * unit), IntegrationFailure);
 }
 
 // The last step reaches from several samples to the change at its end: they are of the motion before it.

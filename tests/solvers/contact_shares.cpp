@@ -244,6 +244,25 @@ TEST_P(ContactShares, LaddersSlideAsIfTheyWereAlone) {
   for (const EventRecord& one : run.events()) EXPECT_NEAR(one.time, slides, 100.0 * rounding);  // at x = 10
 }
 
+/// A brake on a disc, pressed by the middle one of three feet of a body of weight 10: it holds as long as
+/// that foot can press enough, up to all of the weight.
+TEST_P(ContactShares, BrakeHoldsByAllThatMayPressIt) {
+  Scene<2> scene("brake");
+  scene.add(UniformGravity<2>{{0.0, -10.0}});
+  const auto body = add_body(scene, BodyState<2>{.mass = 1.0, .inertia = 1.0, .centre = {0.0, 1.0}}, "body");
+  const auto disc = scene.add_rotor({.inertia = 1.0}, "disc");
+  scene.add(OnCurve{body.centre(), Plane<2>{.normal = {1.0, 0.0}}});
+  for (const double x : {-1.0, 0.0, 1.0}) {
+    const auto foot = scene.add(unilateral(OnCurve{body.point({x, -1.0}), Plane<2>{}}));
+    if (x == 0.0)
+      scene.add(coulomb(foot, nonholonomic(points(disc), [](auto, auto w) { return 1.0 * w[0]; }), 0.5));
+  }
+  scene.add(force_law(points(disc), [](auto t, auto angle, auto) { return vec(t + 0.0 * angle[0]); }));
+  const auto run = simulate(scene, options(4.99, 2));  // to 0.5 x 10
+  EXPECT_TRUE(run.events().empty());
+  EXPECT_EQ(run.angular_velocity(disc, 1), 0.0);
+}
+
 /// A body of weight 10 on three legs at different heights, pulled at its centre by 10 t.
 struct Stand {
   Scene<2> scene{"stand"};

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -356,6 +357,75 @@ TEST_P(Events, WhatConstraintsKeepAt0DoesNotCross) {
 }
 
 // What starts at 0 and leaves it, however large or fast what is not coupled to it may be.
+// What rests is read off with round-off of its forces; beside it something moves.
+TEST_P(Events, WhatIsAtRestDoesNotCross) {
+  const auto expect_none = [&](Scene<2>& scene, const std::function<double(const Sample<2>&)>& function) {
+    scene.add_particle({.mass = 1.0, .position = {9.0, 0.0}, .velocity = {0.0, 30.0}});
+    const auto run = simulate(scene, options(2.0), {{.name = "never", .function = function, .ends = true}});
+    EXPECT_TRUE(run.events().empty());
+    EXPECT_EQ(run.times().back(), 2.0);
+  };
+  const Vec<2> place(0.3, -0.4);
+  {
+    Scene<2> scene("two rods");
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto bob = scene.add_particle({.mass = 1.0, .position = place});
+    scene.add(Distance{Fixed<2>{}, bob, 0.5});
+    scene.add(Distance{Fixed<2>{{1.0, 0.0}}, bob, std::hypot(0.7, 0.4)});
+    expect_none(scene, [=](const Sample<2>& now) { return now.velocity(bob).x(); });
+  }
+  {
+    Scene<2> scene("block");
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto block =
+        add_body(scene, BodyState<2>{.mass = 2.0, .inertia = 0.3, .centre = {0.1, 0.7}}, "block");
+    for (const double x : {-0.33, 0.47}) scene.add(unilateral(OnCurve{block.point({x, -0.7}), Plane<2>{}}));
+    const auto centre = block.centre();
+    expect_none(scene, [=](const Sample<2>& now) { return now.velocity(centre).y(); });
+  }
+  {
+    Scene<2> scene("springs in balance, on a rail that carries nothing");
+    const double k = 7.3, other = 3.1;
+    const auto bead = scene.add_particle({.mass = 1.0, .position = place});
+    scene.add(Spring{Fixed<2>{}, bead, k});
+    scene.add(Spring{Fixed<2>{place + (k / other) * place}, bead, other});
+    const auto rail = scene.add(OnCurve{bead, Plane<2>{place, {0.6, 0.8}}});
+    expect_none(scene, [=](const Sample<2>& now) { return now.multiplier(rail); });
+  }
+  {  // y = x^2/2, from its lowest point
+    Scene<2> scene("parabola");
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto bead = scene.add_particle({.mass = 1.0, .velocity = {1.0, 0.0}});
+    scene.add(holonomic(points(bead), [](auto r) { return r.y() - 0.5 * r.x() * r.x(); }));
+    expect_none(scene, [=](const Sample<2>& now) {
+      const Vec<2> r = now.position(bead);
+      return r.y() - 0.5 * r.x() * r.x();
+    });
+  }
+}
+
+// The arc cosine of 1 less a rounding is 1e-8: the square root of its round-off. It is no jump.
+TEST_P(Events, AngleOfWeldedBodiesDoesNotCross) {
+  Scene<2> scene("welded");
+  scene.add(UniformGravity<2>{{0.0, -g}});
+  const auto body = [&](const Vec<2>& at, const char* its) {
+    return add_body(scene, BodyState<2>{.mass = 1.0, .inertia = 0.1, .centre = at}, its);
+  };
+  const auto upper = body({0.6, -0.8}, "upper"), lower = body({1.2, -1.6}, "lower");
+  scene.add(Revolute{Ground<2>{}, upper, Vec<2>(0.0, 0.0)});
+  scene.add(Weld{upper, lower, Vec<2>(0.9, -1.2)});
+  const auto a = upper.vector({0.6, 0.8}), b = lower.vector({0.6, 0.8});
+  const Event<2> folds{.name = "folds",
+                       .function =
+                           [=](const Sample<2>& now) {
+                             const Vec<2> u = now.position(a), w = now.position(b);
+                             return std::acos(std::clamp(u.dot(w) / (u.norm() * w.norm()), -1.0, 1.0));
+                           },
+                       .ends = true};
+  const auto run = simulate(scene, options(3.0), {folds});
+  EXPECT_EQ(run.times().back(), 3.0);
+}
+
 TEST_P(Events, WhatStartsAt0CrossesLater) {
   for (const double fast : {1.0, 1e3, 1e6}) {
     for (const double A : {1.0, 1e-3}) {

@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <vector>
 
 namespace dalembert::steady_test {
 namespace {
@@ -55,6 +56,35 @@ TEST(Steady, OfAConicalPendulumIsTheSameInAnyUnitOfLength) {
     return found.sample().position(bob).z() / unit;
   };
   for (const double unit : {1e-9, 1e-3, 1e6}) EXPECT_NEAR(height(unit), height(1.0), rounding) << unit;
+}
+
+/// A top that hangs and spins is stated exactly, beside a bob on a spring that must still sag, on its own:
+/// what the bob takes for its way is no correction of the top. Nutation: A w^2 + C n w - m g l = 0, twice.
+TEST(Steady, StaysWhereItIsBesideWhatStillSettles) {
+  const double m = 1.1, l = 0.5, A = 0.05 + m * l * l, C = 0.08, n = 30.0;
+  const double root = std::sqrt(C * n * C * n + 4.0 * A * m * g * l);
+  for (const double k : {2e3, 2e4, 2e5}) {
+    Scene<3> scene("hanging top");
+    scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
+    const auto top = add_body(scene,
+                              BodyState<3>{.mass = m,
+                                           .inertia = {0.05, 0.05, C},
+                                           .centre = {0.0, 0.0, -l},
+                                           .angular_velocity = {0.0, 0.0, n}},
+                              "top");
+    scene.add(Coincident{Fixed<3>{}, top.point({0.0, 0.0, l})});
+    const auto bob = scene.add_particle({.mass = 2.0, .position = {3.0, 0.0, 0.0}}, "bob");
+    scene.add(Spring{Fixed<3>{{3.0, 0.0, 0.0}}, bob, k, 0.0});
+    const auto found = steady(scene);
+    EXPECT_NEAR(angular_velocity(found.sample(), top).z(), n, rounding) << k;
+    EXPECT_NEAR(found.sample().position(bob).z(), -2.0 * g / k, rounding) << k;
+    const auto modes = normal_modes(scene, found);
+    std::vector<double> nutations;
+    for (std::size_t i = 0; i < modes.size(); ++i)
+      if (!modes.is_free(i) && modes.frequency(i) < 20.0) nutations.push_back(modes.frequency(i));
+    EXPECT_NEAR(nutations.front(), (root - C * n) / (2.0 * A), 1e-8) << k;
+    EXPECT_NEAR(nutations.back(), (root + C * n) / (2.0 * A), 1e-8) << k;
+  }
 }
 
 TEST(Steady, PrecessionOfATopIsARootOfItsQuadratic) {

@@ -191,6 +191,32 @@ TEST(Sweep, DoesNothingTheSecondTime) {
   EXPECT_EQ(bytes_of(folder / "a.h5"), before);
 }
 
+/// Of all its rows one is computed again, the last.
+TEST(Sweep, OfAnotherProgramIsNotTakenForDone) {
+  const Folder folder;
+  const auto run = [&](double factor) {
+    int calls = 0;
+    sweep_rows(grid({{"x", "", 1.0, 2.0, 10}}),
+               {{{"y"}, {"z"}},
+                {},
+                [&](const Row& row) {
+                  return ++calls, RowResult{{1.0, factor * row["x"]}, {}};
+                },
+                ""},
+               {.file = folder / "a.h5", .threads = 1, .progress = false});
+    return calls;
+  };
+  EXPECT_EQ(run(1.0), 10);
+  EXPECT_EQ(run(1.0), 1);
+  EXPECT_THAT(error_of([&] { run(1.0 + 1e-15); }), HasSubstr("has the program changed since"));
+  const auto fails = [&] {
+    sweep_rows(grid({{"x", "", 1.0, 2.0, 10}}),
+               {{{"y"}, {"z"}}, {}, [](const Row&) -> RowResult { throw Error("fails"); }, ""},
+               {.file = folder / "a.h5", .threads = 1, .progress = false});
+  };
+  EXPECT_THAT(error_of(fails), HasSubstr("row 9 comes out otherwise"));
+}
+
 TEST(Sweep, EndsItsLogWithWhatIsDone) {
   const Folder folder;
   SweepOptions options = quietly(folder / "a.h5");
