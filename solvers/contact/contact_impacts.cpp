@@ -74,7 +74,8 @@ void ContactImpacts::solve(const Coupling& coupling, const std::vector<std::size
 /// Whether what bounces has no way left. What loses nothing always has: between walls that close in, its
 /// impacts come faster, and end in no rest.
 bool ContactImpacts::hops_end(const ContactState& contact, double speed) const {
-  return contact.restitution < 1.0 && speed * contact.impacts.left() <= known_->error_of_gap(contact);
+  return contact.restitution < 1.0 &&
+         (speed <= known_->still(contact) || speed * contact.impacts.left() <= known_->error_of_gap(contact));
 }
 
 ContactState& ContactImpacts::contact_of(const EventRecord& event) const {
@@ -103,7 +104,7 @@ std::vector<ContactImpacts::Limit> ContactImpacts::note(const Change& change, co
     if (c.closed && (c.moved || c.arrives)) impacts = {};  // its rest has ended
     impacts.add(t, error_of_time(change, c.island, gaps));
     const double speed = std::abs(gaps.rate(c));
-    const bool ends = (c.closed && !c.moved) || speed <= known_->still(c) || hops_end(c, speed);
+    const bool ends = (c.closed && !c.moved) || hops_end(c, speed);
     if (!ends) bouncing.insert(c.island);
     if (!std::isfinite(impacts.limit()) || !ends) continue;
     auto limit = std::ranges::find(limits, c.island, &Limit::island);

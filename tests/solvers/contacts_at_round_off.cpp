@@ -252,6 +252,24 @@ TEST_P(ContactsAtRoundOff, WhatHardlyBouncesComesToRest) {
 
 /// A valve that rests on its seat is lifted by its cam, at once or after a dwell: nothing but the cam moves
 /// it, and the seat opens.
+TEST(ContactsBesideWhatIsFast, ElasticBallNeverComesToRest) {
+  // Dropped from h it strikes at odd multiples of sqrt(2 h/g). A wheel far away is so fast that such speeds
+  // are nothing beside its own.
+  constexpr double h = 1e-4, end = 0.1;
+  const double fall = std::sqrt(2.0 * h / g);
+  for (const Stepper stepper : {Stepper::ida, Stepper::erk}) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto ball = scene.add_particle({.mass = 1.0, .position = {0.0, h}});
+    scene.add(unilateral(OnCurve{ball, Plane<2>{}}, {.restitution = 1.0}));
+    scene.add_particle({.mass = 1.0, .position = {1000.0, 1.0}});
+    scene.add_rotor({.inertia = 1.0, .angular_velocity = 1e4});
+    const auto run = simulate(scene, {.t_end = end, .samples = 2, .tolerance = 1e-11, .stepper = stepper});
+    ASSERT_EQ(run.events().size(), static_cast<std::size_t>(0.5 * (end / fall + 1.0)));
+    for (const EventRecord& one : run.events()) EXPECT_EQ(one.kind, EventKind::struck);
+  }
+}
+
 TEST_P(ContactsAtRoundOff, WhatIsDrivenOffItsSeatLeavesIt) {
   for (const double dwell : {0.0, 0.35}) {
     Scene<2> scene;
