@@ -71,8 +71,14 @@ double Quantities::error(const Shown& at, int numbers, Kind kind, const Reading&
     apart += (own[k] - other[k]) * (own[k] - other[k]);
   }
   if (std::isnan(apart)) return unknown;
-  const double error = kind == Kind::other ? certified_->error_of_any(std::sqrt(apart), std::sqrt(size), its)
-                                           : certified_->error(std::sqrt(apart), std::sqrt(size), its);
+  double error = certified_->error(std::sqrt(apart), std::sqrt(size), its);
+  if (certified_->vibrates()) {
+    const auto moved = certified_->moved(at.sample());
+    read(moved.flat, other);
+    double by = 0.0;
+    for (std::size_t k = 0; k < own.size(); ++k) by += (own[k] - other[k]) * (own[k] - other[k]);
+    error = by >= 0.0 ? std::max(error, std::sqrt(by)) : unknown;
+  }
   return std::max(error, floor_of(kind, its));
 }
 

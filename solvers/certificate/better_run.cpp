@@ -3,6 +3,8 @@
 #include <dalembert/core/errors.h>
 #include <dalembert/solvers/base/numbers.h>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <future>
@@ -22,48 +24,63 @@ Options within_steps(Options options, long most) {
   return options;
 }
 
-/// The amplitude of what vibrates in a number given at the nodes of a Chebyshev interpolant: what no
-/// polynomial of low degree follows. (The mean square of a vibration is half the sum of the squares of its
-/// coefficients.)
-double vibration(const std::vector<double>& at_nodes) {
-  constexpr std::size_t slow = 16;  // half a period of what is followed has 1e-16 of itself above
-  const auto n = at_nodes.size();
-  double square = 0.0;
-  for (std::size_t k = slow + 1; k < n; ++k) {
-    double c = 0.0;
-    for (std::size_t j = 0; j < n; ++j)
-      c += at_nodes[j] * std::cos(std::numbers::pi * static_cast<double>(k) * (static_cast<double>(j) + 0.5) /
-                                  static_cast<double>(n));
-    c *= 2.0 / static_cast<double>(n);
-    square += c * c;
-  }
-  return std::sqrt(square);
+/// Chebyshev's polynomials at nodes of an interpolant.
+constexpr int nodes = 64;
+double node(int j) { return std::cos(std::numbers::pi * (j + 0.5) / nodes); }
+Eigen::MatrixXd of_high_degree() {
+  constexpr int slow = 16;  // half a period of what is followed has 1e-16 of itself above
+  Eigen::MatrixXd T(nodes - slow - 1, nodes);
+  for (int k = slow + 1; k < nodes; ++k)
+    for (int j = 0; j < nodes; ++j)
+      T(k - slow - 1, j) = 2.0 / nodes * std::cos(std::numbers::pi * k * (j + 0.5) / nodes);
+  return T;
+}
+
+/// The amplitude of what vibrates in a number given at the nodes: what no polynomial of low degree follows.
+/// (The mean square of a vibration is half the sum of the squares of its coefficients.)
+double vibration(const Eigen::VectorXd& at_nodes) {
+  static const Eigen::MatrixXd T = of_high_degree();
+  return (T * at_nodes).norm();
 }
 
 /// Of all numbers of a run whose samples are such nodes. Forces that its states do not determine, as those of
 /// the stiffest springs, may be of any size where positions vibrate by more than round-off.
 PassedOver vibrations(const Record& run) {
-  PassedOver found;
-  const Statistics& scene = run.statistics;
-  std::vector<double> at_nodes(run.times.size());
-  const auto of = [&](auto read) {
-    for (std::size_t j = 0; j < at_nodes.size(); ++j) at_nodes[j] = read(run.sample(j));
-    return vibration(at_nodes);
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd at_nodes(nodes);
+  const auto all = [&](auto numbers) {
+    std::vector<double> amplitudes((run.sample(0).*numbers).size());
+    for (std::size_t i = 0; i < amplitudes.size(); ++i) {
+      for (int j = 0; j < nodes; ++j) at_nodes[j] = (run.sample(static_cast<std::size_t>(j)).*numbers)[i];
+      amplitudes[i] = vibration(at_nodes);
+    }
+    return amplitudes;
   };
-  std::vector<double> unit(run.coordinates, scene.length);
-  for (const Layout::Rotor& rotor : run.layout->rotors)
-    unit[static_cast<std::size_t>(rotor.coordinate)] = 1.0;
-  bool vibrates = false;
-  for (std::size_t i = 0; i < unit.size(); ++i) {
-    const double q = of([i](const FlatSample&at) { return at.q[i]; }),
-                 v = of([i](const FlatSample&at) { return at.v[i]; });
-    vibrates = vibrates || q > 16.0 * epsilon * (unit[i] + std::abs(run.sample(0).q[i]));
-    found.states = std::max({found.states, q / unit[i], v * scene.time / unit[i]});
+  PassedOver found{.q = all(&FlatSample::q)};
+  const Layout& layout = *run.layout;
+  std::vector<char> vibrates(found.q.size());
+  const FlatSample first = run.sample(0);
+  for (std::size_t i = 0; i < vibrates.size(); ++i) {
+    const double unit = layout.particle_at(static_cast<int>(i)) == nullptr ? 1.0 : run.statistics.length;
+    vibrates[i] = found.q[i] > 16.0 * epsilon * (unit + std::abs(first.q[i]));
   }
-  for (std::size_t r = 0; r < run.rows; ++r) {
-    const double force = of([r](const FlatSample& at) { return at.lambda[r]; });
-    if (std::isnan(force) && vibrates) found.force = std::numeric_limits<double>::infinity();
-    found.force = larger(found.force, force);  // unless NaN
+  if (std::ranges::find(vibrates, char{1}) == vibrates.end()) return {};
+  found.v = all(&FlatSample::v);
+  found.a = all(&FlatSample::a);
+  found.lambda = all(&FlatSample::lambda);
+  found.forces = all(&FlatSample::forces);
+  const auto settle = [&](double& amplitude, bool own) {
+    if (std::isnan(amplitude)) amplitude = own ? unknown : 0.0;
+  };
+  for (std::size_t i = 0; i < vibrates.size(); ++i) settle(found.a[i], vibrates[i] != 0);
+  for (const Layout::Constraint& c : layout.constraints) {
+    bool own = false;
+    for (const std::size_t k : c.slots()) {
+      const bool its = vibrates[static_cast<std::size_t>(layout.slot_coordinate[k])] != 0;
+      settle(found.forces[k], its);
+      own = own || its;
+    }
+    for (const std::size_t r : c.own_rows()) settle(found.lambda[r], own);
   }
   return found;
 }
@@ -104,11 +121,13 @@ Options tighter(Options options, Stepper by, double part) {
 PassedOver passed_over(const Run& run, const Options& options, const Record& implicit,
                        const FinishedRun& cut_short) {
   constexpr double half_a_period = 25.0;  // in steps, of what an implicit run follows at usual tolerances
-  constexpr int nodes = 64;
-  const double t = options.t_start;
-  double window =
-      half_a_period * (options.t_end - t) / static_cast<double>(std::max(implicit.statistics.steps, 1L));
-  window = std::min(window, cut_short.reached - t);
+  constexpr double many_periods = 200.0;  // in steps of what is limited by stability
+  const double t = options.t_start,
+               steps = static_cast<double>(std::max(cut_short.record->statistics.steps, 1L)),
+               step = (cut_short.reached - t) / steps,
+               implicit_step =
+                   (implicit.times.back() - t) / static_cast<double>(std::max(implicit.statistics.steps, 1L));
+  double window = std::min(std::max(half_a_period * implicit_step, many_periods * step), steps * step);
   const auto& events = cut_short.record->events;
   if (!events.empty()) window = std::min(window, events.front().time - t);
   if (!(window > 0.0)) return {};
@@ -116,13 +135,13 @@ PassedOver passed_over(const Run& run, const Options& options, const Record& imp
   begin.stepper = Stepper::erk;
   begin.t_end = t + window;
   // At the limit of its stability an explicit run has vibrations of its own.
-  const auto steps = static_cast<double>(std::max(cut_short.record->statistics.steps, 1L));
-  begin.max_step = 0.5 * (cut_short.reached - t) / steps;
+  begin.max_step = 0.5 * step;
+  begin.sample_interval = 0.0;
   begin.times.clear();
-  for (int j = 0; j < nodes; ++j)
-    begin.times.push_back(t + 0.5 * window * (1.0 - std::cos(std::numbers::pi * (j + 0.5) / nodes)));
+  // What has died out in the second half is none that goes on.
+  for (int j = 0; j < nodes; ++j) begin.times.push_back(t + window * (0.75 - 0.25 * node(j)));
   const FinishedRun found = finish(run, begin);
-  return found.record->times.size() == nodes ? vibrations(*found.record) : PassedOver{};
+  return found.record && found.record->times.size() == nodes ? vibrations(*found.record) : PassedOver{};
 }
 
 TwoRuns run_twice(const Run& run, const Options& asked) {

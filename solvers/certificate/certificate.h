@@ -49,20 +49,17 @@ class Certificate {
   /// where either run leaves a force undetermined.
   template <class Quantity>
   [[nodiscard]] double error(const Quantity& quantity, std::size_t i) const {
-    return compare(quantity, run_.sample(i), reference_, &Trajectory<D>::sample, runs_.sample(i),
-                   &TwoRuns::error_of_any);
+    return compare(quantity, run_.sample(i), reference_, &Trajectory<D>::sample, runs_.sample(i));
   }
   /// The same at the k-th thing that happened: before it, and after.
   template <class Quantity>
   [[nodiscard]] double event_error(const Quantity& quantity, std::size_t k) const {
-    return compare(quantity, run_.event_sample(k), reference_, &Trajectory<D>::event_sample, runs_.event(k),
-                   &TwoRuns::error_of_any);
+    return compare(quantity, run_.event_sample(k), reference_, &Trajectory<D>::event_sample, runs_.event(k));
   }
   /// Of the state after it.
   template <class Quantity>
   [[nodiscard]] double error_after(const Quantity& quantity, std::size_t k) const {
-    return compare(quantity, run_.sample_after(k), reference_, &Trajectory<D>::sample_after, runs_.event(k),
-                   &TwoRuns::error_of_any);
+    return compare(quantity, run_.sample_after(k), reference_, &Trajectory<D>::sample_after, runs_.event(k));
   }
 
   /// Of the readings of the same names, see Sample, at sample i.
@@ -94,8 +91,7 @@ class Certificate {
   template <int Rows, class Body>
   [[nodiscard]] double constraint_force_error(Constraint<Rows> constraint, const Body& body,
                                               std::size_t i) const {
-    return larger(error([&](const Sample<D>& now) { return now.constraint_force(constraint, body); }, i),
-                  runs_.passed_over().force);
+    return error([&](const Sample<D>& now) { return now.constraint_force(constraint, body); }, i);
   }
   /// Of the time of the k-th thing that happened, and of an impulse there.
   [[nodiscard]] double event_time_error(std::size_t k) const {
@@ -159,16 +155,21 @@ class Certificate {
   template <class Quantity>
   [[nodiscard]] double error_of_state(const Quantity& quantity, double unit, std::size_t i,
                                       const Certainty& its) const {
-    return larger(compare(quantity, run_.sample(i), reference_, &Trajectory<D>::sample, its, &TwoRuns::error),
+    return larger(compare(quantity, run_.sample(i), reference_, &Trajectory<D>::sample, its),
                   its.of_states * unit);
   }
   template <class Quantity>
   [[nodiscard]] double compare(const Quantity& quantity, const Sample<D>& own, const Trajectory<D>& reference,
-                               Sample<D> (Trajectory<D>::*read)(std::size_t) const&, const Certainty& its,
-                               double (TwoRuns::*error)(double, double, const Certainty&) const) const try {
+                               Sample<D> (Trajectory<D>::*read)(std::size_t) const&,
+                               const Certainty& its) const try {
     if (its.doubt != Doubt::none) return std::numeric_limits<double>::infinity();
     const auto a = quantity(own);
-    return (runs_.*error)(size(a - quantity((reference.*read)(its.counterpart))), size(a), its);
+    const double own_error =
+        runs_.error(size(a - quantity((reference.*read)(its.counterpart))), size(a), its);
+    if (!runs_.vibrates()) return own_error;
+    const auto moved = runs_.moved(own.flat());
+    const double by = size(quantity(Sample<D>(own.layout(), moved.flat)) - a);
+    return by >= 0.0 ? larger(own_error, by) : std::numeric_limits<double>::infinity();
   } catch (const UndeterminedForce&) {
     return std::numeric_limits<double>::infinity();
   }

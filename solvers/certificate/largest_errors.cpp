@@ -24,6 +24,11 @@ double norm_of_state(std::span<const double> a) {
   return std::sqrt(square);
 }
 
+/// Of some of the amplitudes; 0 if there are none.
+double norm_of(Places own, const std::vector<double>& amplitudes) {
+  return amplitudes.empty() ? 0.0 : norm_of_state(own.in(std::span<const double>(amplitudes)));
+}
+
 /// Goes through samples or events, and keeps the largest error of each kind.
 class Search {
  public:
@@ -38,16 +43,20 @@ class Search {
       return;
     }
     const auto dimension = static_cast<std::size_t>(layout_.dimension);
+    const PassedOver& amplitude = runs_.passed_over();
     for (const auto& p : layout_.particles) {
       const auto own = Places::from(static_cast<std::size_t>(p.coordinate), dimension);
-      keep(found.position, a.time, p.name, own.in(a.q), own.in(b.q), runs_.length(), of_positions);
-      keep(found.velocity, a.time, p.name, own.in(a.v), own.in(b.v), runs_.speed(), of_velocities);
+      keep(found.position, a.time, p.name, own.in(a.q), own.in(b.q), runs_.length(), of_positions,
+           norm_of(own, amplitude.q));
+      keep(found.velocity, a.time, p.name, own.in(a.v), own.in(b.v), runs_.speed(), of_velocities,
+           norm_of(own, amplitude.v));
     }
     for (const auto& r : layout_.rotors) {
       const auto own = Places::from(static_cast<std::size_t>(r.coordinate), 1);
-      keep(found.angle, a.time, r.name, own.in(a.q), own.in(b.q), 1.0, of_positions);
+      keep(found.angle, a.time, r.name, own.in(a.q), own.in(b.q), 1.0, of_positions,
+           norm_of(own, amplitude.q));
       keep(found.angular_velocity, a.time, r.name, own.in(a.v), own.in(b.v), runs_.speed() / runs_.length(),
-           of_velocities);
+           of_velocities, norm_of(own, amplitude.v));
     }
     compare_forces(a, b, its);
   }
@@ -87,15 +96,19 @@ class Search {
         undetermined = true;
         continue;
       }
-      if (its.doubt == Doubt::none) take(found.force, runs_.error_of_force(apart, its), a.time, c.label());
+      if (its.doubt == Doubt::none)
+        take(found.force,
+             larger(runs_.error_of_force(apart, its), norm_of(c.own_rows(), runs_.passed_over().lambda)),
+             a.time, c.label());
     }
     if (undetermined) ++found.undetermined;
   }
 
   void keep(LargestError& most, double time, const std::string& of, std::span<const double> a,
-            std::span<const double> b, double unit, const Certainty& its) {
+            std::span<const double> b, double unit, const Certainty& its, double amplitude = 0.0) {
     if (its.doubt == Doubt::none)
-      take(most, runs_.error_of_state(distance(a, b), norm_of_state(a), unit, its), time, of);
+      take(most, larger(runs_.error_of_state(distance(a, b), norm_of_state(a), unit, its), amplitude), time,
+           of);
   }
   static void take(LargestError& most, double error, double time, const std::string& of) {
     if (!(error <= most.error)) most = {error, time, of};

@@ -19,7 +19,7 @@ struct LargestErrors {
   LargestError angle, angular_velocity;  ///< of rotors
   LargestError force;                    ///< multipliers, of a constraint as a vector
   LargestError impulse, event_time;      ///< at events
-  std::size_t beside_jumps = 0;          ///< samples at which velocities and forces are not known, see Doubt
+  std::size_t beside_jumps = 0;          ///< samples at which what jumps is not known, see Doubt
   std::size_t rests = 0;                 ///< after infinitely many impacts, of which only the time is known
   std::size_t undetermined = 0;          ///< samples at which a force of constraint is not determined
   std::size_t beyond = 0;                ///< samples and events at which nothing is known

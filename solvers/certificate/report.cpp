@@ -69,7 +69,10 @@ class ForceShown {
                b = constraint_.own_rows().in(certified.reference()->sample(its.counterpart).lambda);
     std::vector<double> difference(a.size());
     std::ranges::transform(a, b, difference.begin(), [](double x, double y) { return x - y; });
-    return certified.error_of_force(norm_of(difference), its);
+    const double error = certified.error_of_force(norm_of(difference), its);
+    if (!certified.vibrates()) return error;
+    const std::span<const double> amplitudes(certified.passed_over().lambda);
+    return std::max(error, norm_of(constraint_.own_rows().in(amplitudes)));
   }
 
   const Record& run_;

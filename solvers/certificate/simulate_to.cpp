@@ -191,7 +191,8 @@ class Approach {
     if (cut_short_ && stopped.empty()) {
       Options better = options_;
       better.tolerance = better_.record->tolerance;
-      both = passed_over(run_, better, *run_of_first_.record, *cut_short_);
+      both = passed_over([this](const Options& own) { return count(finish(run_, own)).record; }, better,
+                         *run_of_first_.record, *cut_short_);
     }
     TwoRuns runs(run_of_first_.record, better_.record, stopped, both);
     excess_ = excess(runs);
@@ -261,10 +262,8 @@ class Approach {
     if (outcome.met) return out.str();
     if (std::isfinite(best_excess_)) out << ": the error is " << best_excess_ << " times as large";
     if (!best_->reservation().empty()) out << ": " << best_->reservation();
-    const double vibrating = best_->passed_over().force;
-    if (vibrating > 0.0 && largest_errors(*best_).force.error == vibrating)
-      out << ": forces vibrate faster than implicit steps follow, by " << vibrating
-          << "; damping in the scene ends that";
+    if (best_->vibrates())
+      out << ": what vibrates faster than implicit steps follow counts with its amplitude";
     out << "; of the tolerances down to " << options_.tolerance << " it is the best";
     return out.str();
   }

@@ -43,12 +43,10 @@ std::string statement(const TwoRuns& runs, const LargestErrors& errors) {
     out << "; nothing is known at " << errors.beyond
         << " samples and events that the more accurate run does not have";
   }
-  if (errors.force.error > 0.0 && errors.force.error == runs.passed_over().force)
-    out << "; forces vibrate faster than implicit steps follow, by as much; erk follows them, and damping in "
-           "the "
-           "scene ends them";
+  if (runs.vibrates())
+    out << "; what vibrates faster than implicit steps follow counts with its amplitude: erk follows it";
   if (errors.beside_jumps > 0)
-    out << "; velocities and forces are not known at " << errors.beside_jumps
+    out << "; what jumps is not known at " << errors.beside_jumps
         << " samples, as near to an impact or change as the time of that is known";
   if (errors.rests > 0)
     out << "; of " << errors.rests << " rests after infinitely many impacts only the time is known";

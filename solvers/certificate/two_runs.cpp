@@ -3,7 +3,6 @@
 #include <dalembert/solvers/base/constants.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/certificate/matching_events.h>
-#include <dalembert/solvers/contact/round_off.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,21 +22,17 @@ std::string words_of_time(double t) {
   return out.str();
 }
 
-double largest_difference(std::span<const double> a, std::span<const double> b) {
-  double most = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const double by = std::abs(a[i] - b[i]);
-    most = by <= most ? most : by;  // or not a number
-  }
-  return most;
-}
-
-/// Whether some of these numbers change at an event by more than the other run gives them, or round-off.
-bool jumps(std::span<const double> before, std::span<const double> after, std::span<const double> other) {
+/// Whether one of these numbers changes at an event by more than the other run gives it, or than roundings of
+/// the largest.
+bool jumps(std::span<const double> before, std::span<const double> after, std::span<const double> other,
+           double roundings) {
   double largest = 0.0;
-  for (const double x : after) largest = std::max(largest, std::abs(x));
-  return !(largest_difference(before, after) <=
-           std::max(largest_difference(before, other), round_off() * largest));
+  for (const double x : after) largest = larger(largest, std::abs(x));
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (!(std::abs(after[i] - before[i]) <=
+          larger(std::abs(before[i] - other[i]), roundings * epsilon * largest)))
+      return true;
+  return false;
 }
 
 /// What jumps at an event. One that changes nothing starts a run anew, with other round-off. Where contacts
@@ -47,11 +42,13 @@ struct Jump {
   bool positions, velocities, forces;
   [[nodiscard]] bool any() const { return positions || velocities || forces; }
 };
-Jump jump_at(const Record& run, std::size_t k, const FlatSample& other) {
+Jump jump_at(const Record& run, std::size_t k, const FlatSample& other, double roundings) {
   if (run.events[k].kind != EventKind::event) return {false, true, true};
   const FlatSample before = run.at_events->sample(k), after = run.after_events->sample(k);
-  return {jumps(before.q, after.q, other.q), jumps(before.v, after.v, other.v),
-          jumps(before.a, after.a, other.a) || jumps(before.lambda, after.lambda, other.lambda)};
+  const auto jump = [&](auto numbers) {
+    return jumps(before.*numbers, after.*numbers, other.*numbers, roundings);
+  };
+  return {jump(&FlatSample::q), jump(&FlatSample::v), jump(&FlatSample::a) || jump(&FlatSample::lambda)};
 }
 
 /// But for what jumps.
@@ -63,8 +60,8 @@ double roundings_of_sums(const Record& run) { return 10.0 + static_cast<double>(
 }  // namespace
 
 TwoRuns::TwoRuns(std::shared_ptr<const Record> run, std::shared_ptr<const Record> reference,
-                 std::string stopped, const PassedOver& passed_over)
-    : run_(std::move(run)), reference_(std::move(reference)), passed_over_(passed_over) {
+                 std::string stopped, PassedOver passed_over)
+    : run_(std::move(run)), reference_(std::move(reference)), passed_over_(std::move(passed_over)) {
   const Statistics& better = reference_->statistics;
   if (better.length > 0.0) length_ = better.length;
   unit_.assign(run_->coordinates, length_);
@@ -166,7 +163,8 @@ void TwoRuns::find_jumps() {
   for (std::size_t k = 0; k < events_.size(); ++k) {
     if (!is_known(events_[k])) continue;
     const std::size_t j = events_[k].counterpart;
-    const Jump jump = jump_at(*run_, k, reference_->at_events->sample(j));
+    const Jump jump =
+        jump_at(*run_, k, reference_->at_events->sample(j), roundings_of_sums(*run_) / most_of_better);
     if (!jump.any()) continue;
     const double a = run_->events[k].time, b = reference_->events[j].time,
                  part = std::max(most_of_better, bound_ - 1.0);
@@ -206,7 +204,6 @@ void TwoRuns::set_round_off(Certainty& its, double difference) const {
   const double noise = epsilon + reference_->statistics.round_off;
   its.of_states = noise * std::max(1.0, difference / run_->statistics.accuracy);
   its.round_off = its.of_states / std::max(difference, its.of_states);
-  its.of_states = std::max(its.of_states, passed_over_.states);
 }
 
 void TwoRuns::find_horizon() {
@@ -233,6 +230,25 @@ void TwoRuns::find_horizon() {
       << " times. Where growth is exponential, as in chaos, a hundredth of the tolerance reaches little "
          "further";
   doubt_from(horizon, Doubt::horizon, why.str());
+}
+
+TwoRuns::Moved TwoRuns::moved(const FlatSample& at) const {
+  Moved to{.q = passed_over_.q,
+           .v = passed_over_.v,
+           .a = passed_over_.a,
+           .lambda = passed_over_.lambda,
+           .forces = passed_over_.forces,
+           .flat = at};
+  const auto add = [](std::span<const double> x, std::vector<double>& by) {
+    for (std::size_t i = 0; i < by.size(); ++i) by[i] += x[i];
+    return std::span<const double>(by);
+  };
+  to.flat.q = add(at.q, to.q);
+  to.flat.v = add(at.v, to.v);
+  to.flat.a = add(at.a, to.a);
+  to.flat.lambda = add(at.lambda, to.lambda);
+  to.flat.forces = add(at.forces, to.forces);
+  return to;
 }
 
 double TwoRuns::round_off(double difference, double magnitude, const Certainty& its) const {

@@ -47,11 +47,10 @@ struct Certainty {
   }
 };
 
-/// What vibrations that an implicit run passes over have in them, where both runs do: their difference does
-/// not show it.
+/// The amplitude of each number of a sample in vibrations that an implicit run passes over, where both runs
+/// do: their difference does not show it. Empty if nothing vibrates; infinite where it is not known.
 struct PassedOver {
-  double force = 0.0;   ///< the largest amplitude of a multiplier [force]
-  double states = 0.0;  ///< of positions and velocities, a part of the scene's length and speed
+  std::vector<double> q{}, v{}, a{}, lambda{}, forces{};
 };
 
 /// A run and a more accurate one of the same scene at the same times, as flat arrays: which of their
@@ -77,7 +76,7 @@ class TwoRuns {
 
   /// `stopped` says why the more accurate run is not complete, if it is not.
   TwoRuns(std::shared_ptr<const Record> run, std::shared_ptr<const Record> reference,
-          std::string stopped = {}, const PassedOver& passed_over = {});
+          std::string stopped = {}, PassedOver passed_over = {});
 
   /// The one that was asked for.
   [[nodiscard]] const std::shared_ptr<const Record>& run() const { return run_; }
@@ -99,12 +98,7 @@ class TwoRuns {
   }
   /// The same of forces.
   [[nodiscard]] double error_of_force(double difference, const Certainty& its) const {
-    return larger(error(difference, largest_force_, its), passed_over_.force);
-  }
-  /// The same of what may depend on forces in any way: as large a part of it as of the forces.
-  [[nodiscard]] double error_of_any(double difference, double magnitude, const Certainty& its) const {
-    const double part = largest_force_ > 0.0 ? passed_over_.force / largest_force_ : 0.0;
-    return larger(error(difference, magnitude, its), part * magnitude);
+    return error(difference, largest_force_, its);
   }
   /// Of the scene [length].
   [[nodiscard]] double length() const { return length_; }
@@ -120,8 +114,15 @@ class TwoRuns {
   /// Whether all errors are known, but those beside a jump.
   [[nodiscard]] bool complete() const { return complete_; }
 
-  /// What vibrations that both runs pass over have in them.
+  /// Whether both runs pass over vibrations, their amplitudes,
+  [[nodiscard]] bool vibrates() const { return !passed_over_.q.empty(); }
   [[nodiscard]] const PassedOver& passed_over() const { return passed_over_; }
+  /// and a sample with all of its numbers off by these, from which anything is off by what these make of it.
+  struct Moved {
+    std::vector<double> q, v, a, lambda, forces;
+    FlatSample flat;
+  };
+  [[nodiscard]] Moved moved(const FlatSample& at) const;
   /// The largest multiplier of the run: forces are as exact as the largest among them allows [force].
   [[nodiscard]] double largest_force() const { return largest_force_; }
 

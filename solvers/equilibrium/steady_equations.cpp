@@ -1,5 +1,6 @@
 #include "dalembert/solvers/equilibrium/steady_equations.h"
 
+#include <dalembert/core/analysis/disjoint_sets.h>
 #include <dalembert/core/linear/products.h>
 #include <dalembert/solvers/base/numbers.h>
 #include <dalembert/solvers/equilibrium/linear_terms.h>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace dalembert {
 
@@ -132,12 +134,20 @@ std::vector<double> SteadyEquations::unbalanced() {
   const MatrixXd across = free_ * free_.transpose();
   const VectorXd left = (across * r_).cwiseAbs(), terms = dense::sizes(across) * r_terms_;
   std::vector<double> most(parts_);
+  DisjointSets together(parts_);  // what is kept of several parts couples them
   for (Index i = 0; i < left.size(); ++i) {
-    if (left[i] == 0.0) continue;
-    for (std::size_t part = 0; part < parts_; ++part)
-      if (i < n_ + m_ ? part_of_row_[static_cast<std::size_t>(i)] == part : reads(i, part))
-        most[part] = std::max(most[part], left[i] / terms[i]);
+    const double by = left[i] > 0.0 ? left[i] / terms[i] : 0.0;
+    std::optional<std::size_t> first;
+    for (std::size_t part = 0; part < parts_; ++part) {
+      if (i < n_ + m_ ? part_of_row_[static_cast<std::size_t>(i)] != part : !reads(i, part)) continue;
+      most[part] = std::max(most[part], by);
+      together.join(first.value_or(part), part);
+      first = part;
+    }
   }
+  for (std::size_t part = 0; part < parts_; ++part)
+    most[together.root(part)] = std::max(most[together.root(part)], most[part]);
+  for (std::size_t part = 0; part < parts_; ++part) most[part] = most[together.root(part)];
   return most;
 }
 

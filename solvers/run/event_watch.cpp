@@ -82,12 +82,12 @@ std::vector<EventWatch::Found> EventWatch::restart(const Beginning& beginning) {
 }
 
 /// How large the terms are whose sum a function is, where that is round-off of them, as |r| - L of what a rod
-/// of length L holds, or its rate; else 0. Terms change with the roundings, also by a root; what jumps there
-/// does not.
+/// of length L holds, or its rate; else 0. Terms change with the roundings; what jumps there does not. A root
+/// of roundings, as of an arc cosine, is a step as well: it ends where the numbers change by the root of a
+/// rounding.
 double EventWatch::size_of_terms(std::size_t event, const FlatSample& at) {
   constexpr double few = 256.0;  // above the roundings of the function itself
-  // Of a cosine, whose change is of second order, this shows the angle.
-  static const double many = std::cbrt(epsilon) / epsilon;
+  static const double many = 16.0 / std::sqrt(epsilon);
   const auto& function = events_[event].function;
   try {
     const double here = function(at);
@@ -101,7 +101,7 @@ double EventWatch::size_of_terms(std::size_t event, const FlatSample& at) {
       return most;
     };
     const double changes = change(few), size = changes / (few * epsilon);
-    if (std::isinf(size) || std::abs(here) > round_off() * size || change(many) < 2.0 * changes) return 0.0;
+    if (std::isinf(size) || std::abs(here) > round_off() * size || change(many) < 4.0 * changes) return 0.0;
     return size;
   } catch (...) {  // at the place itself `value` will say so
     return 0.0;

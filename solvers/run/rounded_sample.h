@@ -84,21 +84,15 @@ class RoundedSample {
     double q = 0.0, v = 0.0, a = 0.0;
   };
 
-  /// A part has one rate, the fastest that its speeds and accelerations show. Its lengths are no smaller than
-  /// those by which its path bends, up to that of the scene, wherever the origin lies.
+  /// Lengths are no smaller than those by which a part's path bends, up to that of the scene, wherever the
+  /// origin lies; rates no smaller than what its accelerations give over these.
   void complete(Sizes& lengths, Sizes& angles) const {
     const double bends = lengths.a > 0.0   ? lengths.v * lengths.v / lengths.a
                          : lengths.v > 0.0 ? length_
                                            : 0.0;
     lengths.q = std::max(lengths.q, std::min(length_, bends));
     angles.q = std::max(angles.q, 1.0);
-    double rate = 0.0;
-    for (const Sizes& its : {lengths, angles})
-      if (its.q > 0.0) rate = std::max({rate, its.v / its.q, std::sqrt(its.a / its.q)});
-    for (Sizes* its : {&lengths, &angles}) {
-      its->v = std::max(its->v, its->q * rate);
-      its->a = std::max(its->a, its->q * rate * rate);
-    }
+    for (Sizes* its : {&lengths, &angles}) its->v = std::max(its->v, std::sqrt(its->a * its->q));
   }
 
   [[nodiscard]] std::size_t coordinate_of_slot(std::size_t k) const {

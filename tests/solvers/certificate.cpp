@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 namespace dalembert::certificate_test {
 namespace {
@@ -98,18 +99,60 @@ TEST_P(CertificateBy, WhatAChangeMovesIsNotKnownThere) {
   }
 }
 
+/// A load of 10 N is exchanged for one of 20 where something else passes its middle, beside what weighs 1e8
+/// N: a sample near that time may show either.
+TEST_P(CertificateBy, AForceJumpsAlsoBesideALargerOne) {
+  for (const double heavy : {1.0, 1e7}) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -10.0}});
+    const auto swings = scene.add_particle({.mass = 1.0, .position = {0.0, 10.0}});  // y = 12 - 2 cos t
+    scene.add(OnCurve{swings, Plane<2>{{0.0, 0.0}, {1.0, 0.0}}});
+    scene.add(Spring{Fixed<2>{}, swings, 1.0, 22.0});
+    const auto bob = scene.add_particle({.mass = heavy, .position = {101.0, 0.0}});
+    scene.add(Distance{Fixed<2>{{100.0, 0.0}}, bob, 1.0});
+    const auto load = scene.add_particle({.mass = 1.0, .position = {5.0, -1.0}});
+    const auto rod = scene.add(Distance{Fixed<2>{{5.0, 0.0}}, load, 1.0});
+    const Event<2> exchange{.name = "exchange",
+                            .function = [=](const Sample<2>& now) { return now.position(swings).y() - 12.0; },
+                            .crossing = Crossing::rising,
+                            .change =
+                                [=](Scene<2>& its) {
+                                  its.replace(load, {.mass = 2.0, .position = {5.0, -1.0}});
+                                }};
+    const double middle = 0.5 * std::numbers::pi;
+    std::vector<double> times;
+    for (int k = -100; k <= 100; ++k) times.push_back(middle + 1e-6 * k);
+    const auto found =
+        certify(scene, {.t_end = 3.0, .times = times, .tolerance = 1e-5, .stepper = GetParam()}, {exchange});
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const double error =
+          std::abs(std::abs(found.run().multiplier(rod, i)) - (times[i] < middle ? 10.0 : 20.0));
+      EXPECT_LE(error, 1.25 * found.multiplier_error(rod, i) + 1e-9) << heavy << ' ' << times[i] - middle;
+    }
+  }
+}
+
 /// A load of 1 kg is set on a cable of k = 1e10 N/m: T = 10 (1 - cos(1e5 t)) for ever, of an amplitude of
-/// 1e-9 m. Both implicit runs damp it; neither may say that T is 10. A load at rest on it is known.
+/// 1e-9 m. Both implicit runs damp it; neither may say that T is 10. A load at rest on it is known, and one
+/// whose vibration is damped at 1e4/s is from soon on; and what swings beside it on its own.
 TEST(Certificate, VibrationsThatImplicitStepsPassOverCount) {
-  const double k = 1e10;
-  for (const bool at_rest : {false, true}) {
+  constexpr double k = 1e10;
+  enum class Load { vibrates, rests, damped };
+  for (const Load which : {Load::vibrates, Load::rests, Load::damped}) {
     Scene<2> scene("load");
     scene.add(UniformGravity<2>{{0.0, -10.0}});
-    const auto load = scene.add_particle({.mass = 1.0, .position = {0.0, at_rest ? -1.0 - 10.0 / k : -1.0}});
+    const double stretched = which == Load::rests ? 10.0 / k : 0.0;
+    const auto load = scene.add_particle({.mass = 1.0, .position = {0.0, -1.0 - stretched}});
     const auto cable = scene.add(compliant(Distance{Fixed<2>{}, load, 1.0}, 1.0 / k));
-    const auto found = certify(scene, {.t_end = 1.0, .samples = 5, .tolerance = 1e-6});
+    if (which == Load::damped)
+      scene.add(force_law(points(load), [](auto, auto v) { return (-2e4 * v).eval(); }));
+    const auto bob = scene.add_particle({.mass = 1.0, .position = {6.0, 0.0}});
+    const auto rod = scene.add(Distance{Fixed<2>{{5.0, 0.0}}, bob, 1.0});
+    const auto found = certify(scene, {.t_end = 1.0, .sample_interval = 0.25, .tolerance = 1e-6});
     for (std::size_t i = 1; i < 5; ++i) {
-      if (at_rest) {
+      EXPECT_LT(found.multiplier_error(rod, i), 1e-2);
+      EXPECT_LT(found.error([=](const auto& now) { return now.position(bob); }, i), 1e-3);
+      if (which != Load::vibrates) {
         EXPECT_LT(found.multiplier_error(cable, i), 1e-3);
       } else {
         const double T = 10.0 * (1.0 - std::cos(1e5 * found.run().times()[i]));

@@ -306,8 +306,8 @@ TEST_P(Changes, WhatEventsMoveDoesNotAddUp) {
     const auto bob = scene.add_particle({.mass = 1.0, .position = {6.0, 0.0}});
     scene.add(Distance{Fixed<2>{{5.0, 0.0}}, bob, 1.0});
     std::vector<Event<2>> events;
-    for (const auto& [x, by] : {std::pair{0.1, first}, std::pair{0.3, second}}) {
-      const double place = x + by;
+    for (const auto& its_place : {std::pair{0.1, first}, std::pair{0.3, second}}) {
+      const double x = its_place.first, place = x + its_place.second;
       const auto stop = scene.add(holonomic(points(bead), [=](auto r) { return r.x() - place; }));
       scene.release(stop);
       events.push_back({.name = "caught",

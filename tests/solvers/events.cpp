@@ -356,7 +356,6 @@ TEST_P(Events, WhatConstraintsKeepAt0DoesNotCross) {
   }
 }
 
-// What starts at 0 and leaves it, however large or fast what is not coupled to it may be.
 // What rests is read off with round-off of its forces; beside it something moves.
 TEST_P(Events, WhatIsAtRestDoesNotCross) {
   const auto expect_none = [&](Scene<2>& scene, const std::function<double(const Sample<2>&)>& function) {
@@ -426,6 +425,7 @@ TEST_P(Events, AngleOfWeldedBodiesDoesNotCross) {
   EXPECT_EQ(run.times().back(), 3.0);
 }
 
+// What starts at 0 and leaves it, however large or fast what is not coupled to it may be.
 TEST_P(Events, WhatStartsAt0CrossesLater) {
   for (const double fast : {1.0, 1e3, 1e6}) {
     for (const double A : {1.0, 1e-3}) {
@@ -443,6 +443,43 @@ TEST_P(Events, WhatStartsAt0CrossesLater) {
       EXPECT_NEAR(run.events()[0].time, std::numbers::pi, std::max(1e-9, error)) << fast << ' ' << A;
     }
   }
+}
+
+// A load hangs from a drum that pays out faster and faster, -3 t: l (1/m + 1/I) = g - 3 t/I, which is 0 at
+// g/6. Its height is round-off, which says nothing of how large forces are.
+TEST_P(Events, RopeFromADrumGoesSlack) {
+  for (const double height : {0.0, 0.1 + 0.2 - 0.3}) {
+    Scene<2> scene;
+    scene.add(UniformGravity<2>{{0.0, -g}});
+    const auto load = scene.add_particle({.mass = 1.0, .position = {0.0, height}});
+    scene.add(OnCurve{load, Plane<2>{{0.0, 0.0}, {1.0, 0.0}}});
+    const auto drum = scene.add_rotor({.inertia = 0.5}, "drum");
+    const auto rope = scene.add(
+        holonomic(points(load, drum), [=](auto r, auto angle) { return r.y() - height + 1.0 * angle[0]; }));
+    scene.add(
+        force_law(points(drum), [](auto t, auto angle, auto) { return vec(3.0 * t + 0.0 * angle[0]); }));
+    const auto run = simulate(scene, options(3.0),
+                              {{.name = "slack",
+                                .function = [=](const Sample<2>& now) { return now.multiplier(rope); },
+                                .ends = true}});
+    EXPECT_NEAR(run.times().back(), g / 6.0, 10.0 * bound);
+  }
+}
+
+// A steep term beside a jump is not its round-off: k x + sign(v) from rest, x = 3 (cos t - cos(w t))/(k - 1).
+TEST_P(Events, JumpBesideASteepTermCrosses) {
+  constexpr double k = 1e6;
+  Scene<2> scene;
+  const auto bead = scene.add_particle({.mass = 1.0});
+  scene.add(OnCurve{bead, Plane<2>{}});
+  scene.add(force_law(points(bead), [](auto t, auto r, auto v) {
+    return vec(3.0 * cos(t) - k * r.x() - 2e4 * v.x(), 0.0 * r.x());
+  }));
+  const auto function = [=](const Sample<2>& now) {
+    return k * now.position(bead).x() + (now.velocity(bead).x() > 0.0 ? 1.0 : -1.0);
+  };
+  const auto run = simulate(scene, options(6.0), {{.name = "crosses", .function = function}});
+  EXPECT_GE(run.events().size(), 2U);
 }
 
 // A jump is no term of a sum, whose rounding might be all that the function is. The seat of a swing moves

@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace dalembert::steady_test {
@@ -85,6 +86,40 @@ TEST(Steady, StaysWhereItIsBesideWhatStillSettles) {
     EXPECT_NEAR(nutations.front(), (root - C * n) / (2.0 * A), 1e-8) << k;
     EXPECT_NEAR(nutations.back(), (root + C * n) / (2.0 * A), 1e-8) << k;
   }
+}
+
+/// Of two conical pendulums, of 1 and 1.3, the moments of momentum together are kept, as they were, and the
+/// height of the second: what that one has too much of its own the first must take, though it is stated
+/// exactly.
+TEST(Steady, WhatIsKeptOfTwoPartsMovesBoth) {
+  Scene<3> scene("cones");
+  scene.add(UniformGravity<3>{{0.0, 0.0, -g}});
+  const auto cone = [&](double x, double length, double angle, double faster) {
+    const double rate = faster * std::sqrt(g / (length * std::cos(angle)));
+    const auto bob =
+        scene.add_particle({.mass = 2.0,
+                            .position = {x + length * std::sin(angle), 0.0, -length * std::cos(angle)},
+                            .velocity = {0.0, rate * length * std::sin(angle), 0.0}});
+    scene.add(Distance{Fixed<3>{{x, 0.0, 0.0}}, bob, length});
+    return bob;
+  };
+  const auto a = cone(0.0, 1.0, 0.6, 1.0), b = cone(5.0, 1.3, 0.9, 1.1);
+  const auto momentum = [](double length, double cosine, double faster) {
+    return 2.0 * faster * std::sqrt(g / (length * cosine)) * length * length * (1.0 - cosine * cosine);
+  };
+  const auto both = [=](const auto& now) {
+    double L = 0.0;
+    for (const auto& [bob, x] : {std::pair{a, 0.0}, std::pair{b, 5.0}}) {
+      const auto r = now.position(bob), v = now.velocity(bob);
+      L += 2.0 * ((r.x() - x) * v.y() - r.y() * v.x());
+    }
+    return L;
+  };
+  const auto found = steady(
+      scene, {.keep = {{"moment", both}, {"height", [=](const auto& now) { return now.position(b).z(); }}}});
+  const double left = momentum(1.0, std::cos(0.6), 1.0) + momentum(1.3, std::cos(0.9), 1.1) -
+                      momentum(1.3, std::cos(0.9), 1.0);
+  EXPECT_NEAR(momentum(1.0, -found.sample().position(a).z(), 1.0), left, 100.0 * rounding);
 }
 
 TEST(Steady, PrecessionOfATopIsARootOfItsQuadratic) {
