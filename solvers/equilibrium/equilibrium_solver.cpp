@@ -346,7 +346,8 @@ bool EquilibriumSolver::has_other_multipliers(State& s) const {
 /// What to do about a row that moves.
 std::string EquilibriumSolver::remedy(std::size_t row) const {
   if (!frame().rotates() && row >= system().holonomic_rows())
-    return "; its equation, which states velocities, is not 0 at rest there: start where it is, leave it out, "
+    return "; its equation, which states velocities, is not 0 at rest there: start where it is, leave it "
+           "out, "
            "or, if it is a drive, give the turning of that as an option";
   if (!frame().rotates() || system().layout()->dimension == 2)
     return "; give the turning of its drive as an option, or a scene whose constraints do not move";
