@@ -26,6 +26,7 @@ class EventFunction : public std::function<double(const Sample<D>&)> {
 
  public:
   EventFunction() = default;
+  /// Of anything that gives a number for a sample.
   template <class F>
     requires(std::is_invocable_r_v<double, F&, const Sample<D>&> &&
              !std::is_base_of_v<EventFunction, std::decay_t<F>>)

@@ -233,21 +233,16 @@ void TwoRuns::find_horizon() {
 }
 
 TwoRuns::Moved TwoRuns::moved(const FlatSample& at) const {
-  Moved to{.q = passed_over_.q,
-           .v = passed_over_.v,
-           .a = passed_over_.a,
-           .lambda = passed_over_.lambda,
-           .forces = passed_over_.forces,
-           .flat = at};
-  const auto add = [](std::span<const double> x, std::vector<double>& by) {
+  Moved to{passed_over_, at};
+  const auto add = [](std::span<const double>& x, std::vector<double>& by) {
     for (std::size_t i = 0; i < by.size(); ++i) by[i] += x[i];
-    return std::span<const double>(by);
+    x = by;
   };
-  to.flat.q = add(at.q, to.q);
-  to.flat.v = add(at.v, to.v);
-  to.flat.a = add(at.a, to.a);
-  to.flat.lambda = add(at.lambda, to.lambda);
-  to.flat.forces = add(at.forces, to.forces);
+  add(to.flat.q, to.numbers.q);
+  add(to.flat.v, to.numbers.v);
+  add(to.flat.a, to.numbers.a);
+  add(to.flat.lambda, to.numbers.lambda);
+  add(to.flat.forces, to.numbers.forces);
   return to;
 }
 

@@ -35,8 +35,9 @@ struct Certainty {
   double roundings = 0.0;              ///< of its magnitude that any quantity there may be off by
   bool moved = false, kicked = false;  ///< positions jump there, velocities
 
-  /// Of positions, which seldom jump, and of velocities.
+  /// Of positions, which seldom jump.
   [[nodiscard]] Certainty of_positions() const { return but_for_forces(moved); }
+  /// Of velocities, which jump at impacts.
   [[nodiscard]] Certainty of_velocities() const { return but_for_forces(kicked); }
 
  private:
@@ -50,7 +51,8 @@ struct Certainty {
 /// The amplitude of each number of a sample in vibrations that an implicit run passes over, where both runs
 /// do: their difference does not show it. Empty if nothing vibrates; infinite where it is not known.
 struct PassedOver {
-  std::vector<double> q{}, v{}, a{}, lambda{}, forces{};
+  std::vector<double> q{}, v{}, a{};       ///< of each coordinate, as in FlatSample
+  std::vector<double> lambda{}, forces{};  ///< of each multiplier and slot
 };
 
 /// A run and a more accurate one of the same scene at the same times, as flat arrays: which of their
@@ -114,14 +116,16 @@ class TwoRuns {
   /// Whether all errors are known, but those beside a jump.
   [[nodiscard]] bool complete() const { return complete_; }
 
-  /// Whether both runs pass over vibrations, their amplitudes,
+  /// Whether both runs pass over vibrations.
   [[nodiscard]] bool vibrates() const { return !passed_over_.q.empty(); }
+  /// The amplitudes of these.
   [[nodiscard]] const PassedOver& passed_over() const { return passed_over_; }
-  /// and a sample with all of its numbers off by these, from which anything is off by what these make of it.
+  /// A sample of which each number is off by its amplitude.
   struct Moved {
-    std::vector<double> q, v, a, lambda, forces;
-    FlatSample flat;
+    PassedOver numbers;  ///< those of the sample
+    FlatSample flat;     ///< the sample, a view of them
   };
+  /// What that makes of anything read from a sample is its error.
   [[nodiscard]] Moved moved(const FlatSample& at) const;
   /// The largest multiplier of the run: forces are as exact as the largest among them allows [force].
   [[nodiscard]] double largest_force() const { return largest_force_; }
