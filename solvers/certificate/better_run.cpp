@@ -36,11 +36,12 @@ Eigen::MatrixXd of_high_degree() {
   return T;
 }
 
-/// The amplitude of what vibrates in a number given at the nodes: what no polynomial of low degree follows.
-/// (The mean square of a vibration is half the sum of the squares of its coefficients.)
+/// Twice the amplitude of what vibrates in a number given at the nodes: what no polynomial of low degree
+/// follows. (The mean square of a vibration is half the sum of the squares of its coefficients.) A run that
+/// vibrates as far, at another phase, is off by twice of it.
 double vibration(const Eigen::VectorXd& at_nodes) {
   static const Eigen::MatrixXd T = of_high_degree();
-  return (T * at_nodes).norm();
+  return 2.0 * (T * at_nodes).norm();
 }
 
 /// Of all numbers of a run whose samples are such nodes. Forces that its states do not determine, as those of
@@ -120,14 +121,15 @@ Options tighter(Options options, Stepper by, double part) {
 
 PassedOver passed_over(const Run& run, const Options& options, const Record& implicit,
                        const FinishedRun& cut_short) {
-  constexpr double half_a_period = 25.0;  // in steps, of what an implicit run follows at usual tolerances
-  constexpr double many_periods = 200.0;  // in steps of what is limited by stability
+  // In steps: no more than a part of a period of what the one follows, many of what limits the other. Windows
+  // half and twice as long, and twice as many nodes, leave no claim too small in the same scenes.
+  constexpr double implicit_steps = 25.0, explicit_steps = 200.0;
   const double t = options.t_start,
                steps = static_cast<double>(std::max(cut_short.record->statistics.steps, 1L)),
                step = (cut_short.reached - t) / steps,
                implicit_step =
                    (implicit.times.back() - t) / static_cast<double>(std::max(implicit.statistics.steps, 1L));
-  double window = std::min(std::max(half_a_period * implicit_step, many_periods * step), steps * step);
+  double window = std::min(std::max(implicit_steps * implicit_step, explicit_steps * step), steps * step);
   const auto& events = cut_short.record->events;
   if (!events.empty()) window = std::min(window, events.front().time - t);
   if (!(window > 0.0)) return {};
@@ -138,7 +140,7 @@ PassedOver passed_over(const Run& run, const Options& options, const Record& imp
   begin.max_step = 0.5 * step;
   begin.sample_interval = 0.0;
   begin.times.clear();
-  // What has died out in the second half is none that goes on.
+  // What has died out in the second half does not go on.
   for (int j = 0; j < nodes; ++j) begin.times.push_back(t + window * (0.75 - 0.25 * node(j)));
   const FinishedRun found = finish(run, begin);
   return found.record && found.record->times.size() == nodes ? vibrations(*found.record) : PassedOver{};

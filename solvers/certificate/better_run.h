@@ -38,8 +38,8 @@ inline constexpr double hundredth = 0.01;
 /// What an implicit run passes over: vibrations of which it takes less than three steps a period. It damps
 /// them as its tolerance allows. However small they are, their forces are as large as what began them: those
 /// of a load that is set on a stiff cable swing by its weight for ever. Explicit steps follow them, as far as
-/// a run with these options was cut short before something happens: in as long as half a period of what the
-/// implicit run does follow. (What begins to vibrate later is not seen.)
+/// a run with these options was cut short before something happens: for 25 steps of the implicit run or 200
+/// of the explicit one. (What begins to vibrate later is not seen.)
 [[nodiscard]] PassedOver passed_over(const Run& run, const Options& options, const Record& implicit,
                                      const FinishedRun& cut_short);
 

@@ -263,7 +263,7 @@ class Approach {
     if (std::isfinite(best_excess_)) out << ": the error is " << best_excess_ << " times as large";
     if (!best_->reservation().empty()) out << ": " << best_->reservation();
     if (best_->vibrates())
-      out << ": what vibrates faster than implicit steps follow counts with its amplitude";
+      out << ": what vibrates faster than implicit steps follow counts with twice its amplitude";
     out << "; of the tolerances down to " << options_.tolerance << " it is the best";
     return out.str();
   }

@@ -44,7 +44,8 @@ std::string statement(const TwoRuns& runs, const LargestErrors& errors) {
         << " samples and events that the more accurate run does not have";
   }
   if (runs.vibrates())
-    out << "; what vibrates faster than implicit steps follow counts with its amplitude: erk follows it";
+    out << "; what vibrates faster than implicit steps follow counts with twice its amplitude: erk follows "
+           "it";
   if (errors.beside_jumps > 0)
     out << "; what jumps is not known at " << errors.beside_jumps
         << " samples, as near to an impact or change as the time of that is known";

@@ -48,8 +48,9 @@ struct Certainty {
   }
 };
 
-/// The amplitude of each number of a sample in vibrations that an implicit run passes over, where both runs
-/// do: their difference does not show it. Empty if nothing vibrates; infinite where it is not known.
+/// What each number of a sample may be off by in vibrations that an implicit run passes over: twice their
+/// amplitude, at another phase. Where both runs do, their difference does not show it. Empty if nothing
+/// vibrates; infinite where it is not known.
 struct PassedOver {
   std::vector<double> q{}, v{}, a{};       ///< of each coordinate, as in FlatSample
   std::vector<double> lambda{}, forces{};  ///< of each multiplier and slot
@@ -118,9 +119,9 @@ class TwoRuns {
 
   /// Whether both runs pass over vibrations.
   [[nodiscard]] bool vibrates() const { return !passed_over_.q.empty(); }
-  /// The amplitudes of these.
+  /// What they may be off by.
   [[nodiscard]] const PassedOver& passed_over() const { return passed_over_; }
-  /// A sample of which each number is off by its amplitude.
+  /// A sample of which each number is off by that.
   struct Moved {
     PassedOver numbers;  ///< those of the sample
     FlatSample flat;     ///< the sample, a view of them
