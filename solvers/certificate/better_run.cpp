@@ -60,10 +60,12 @@ PassedOver vibrations(const Record& run) {
   PassedOver found{.q = all(&FlatSample::q)};
   const Layout& layout = *run.layout;
   std::vector<char> vibrates(found.q.size());
+  // Roundings of steps add up as the root of their number; doubled, as amplitudes are here, and twice that.
+  const double rounding = 4.0 * epsilon * std::sqrt(static_cast<double>(std::max(run.statistics.steps, 1L)));
   const FlatSample first = run.sample(0);
   for (std::size_t i = 0; i < vibrates.size(); ++i) {
     const double unit = layout.particle_at(static_cast<int>(i)) == nullptr ? 1.0 : run.statistics.length;
-    vibrates[i] = found.q[i] > 16.0 * epsilon * (unit + std::abs(first.q[i]));
+    vibrates[i] = found.q[i] > rounding * (unit + std::abs(first.q[i]));
   }
   if (std::ranges::find(vibrates, char{1}) == vibrates.end()) return {};
   found.v = all(&FlatSample::v);
